@@ -399,8 +399,7 @@ enum palpate_status palpate_state_undo_cut(struct palpate_state *state);
  * Shapes the organ for the eye no more often than every `period_s` [s]; forces are those
  * of every step. 0, as it is at first: in each.
  */
-enum palpate_status palpate_state_show_every(struct palpate_state *state,
-                                             double period_s);
+enum palpate_status palpate_state_show_every(struct palpate_state *state, double period_s);
 
 /**
  * Frees a state. Null is nothing.

@@ -74,10 +74,14 @@ impl Settings {
     /// # Errors
     /// When there is a file and it cannot be read, or holds no settings.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        match path.exists() {
-            true => Self::of(&Document::read(path)?),
-            false => Ok(Self::default()),
+        if !path.exists() {
+            return Ok(Self::default());
         }
+        let mut settings = Self::of(&Document::read(path)?)?;
+        if let (Some(folder), Some(beside)) = (&mut settings.training_folder, path.parent()) {
+            *folder = beside.join(&*folder);
+        }
+        Ok(settings)
     }
 
     /// Reads a text; `path` is its name in errors.
@@ -138,7 +142,7 @@ mod tests {
             Settings {
                 mouse_hand: MouseHand::Left,
                 scale: 1.3,
-                training_folder: Some(PathBuf::from("C:\\a \"b\"/c")),
+                training_folder: Some(PathBuf::from("/C:\\a \"b\"/c")),
             },
         ] {
             settings.write(&path).unwrap();

@@ -158,11 +158,6 @@ impl Curves {
         self.law
     }
 
-    /// Whether the law's first curve needs no run.
-    pub(crate) fn is_tabulated(&self) -> bool {
-        tables::curve(&self.body, self.law, &self.law.start(), self.deepest).is_some()
-    }
-
     /// How many runs of finite elements it took so far.
     pub fn solves(&self) -> usize {
         self.solves

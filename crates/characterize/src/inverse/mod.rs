@@ -39,5 +39,6 @@ pub use law::{LawParameter, ShapeRange, SoughtLaw, Terms};
 pub use law_fit::{LawFit, OtherMinimum, law_fit};
 pub use organ::{FarField, Organ};
 pub use repeated::{LEAST_DRAWS, NoiseEffect, Repeated, repeated};
+pub(crate) use tables::has_curve;
 pub use tables::{PUNCH, SHAPES};
 pub use thickness::{CONE_ON_LAYER, PUNCH_ON_LAYER, THICKNESSES, assumption, sphere_on_layer};

@@ -107,6 +107,11 @@ const TOO_STIFF_OTHERS: f64 = 0.0017;
 /// What is left of that [-], taken as a bound: about the trends 0.2 % in the mean, 0.4 % in the second column.
 const LEFT: f64 = 0.005;
 
+/// Whether the first curve of `law` on `body`, down to `deepest` [m], needs no run of finite elements.
+pub(crate) fn has_curve(body: &Body, law: SoughtLaw, deepest: f64) -> bool {
+    curve(body, law, &law.start(), deepest).is_some()
+}
+
 /// The tabulated curve of `law` in `body` down to `deepest` [m]; none where there is none.
 pub(super) fn curve(body: &Body, law: SoughtLaw, shape: &[f64], deepest: f64) -> Option<UnitCurve> {
     let radius = body.radius();

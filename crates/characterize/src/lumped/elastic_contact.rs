@@ -46,6 +46,10 @@ pub struct ElasticContact {
     pub reach_pa: Option<f64>,
     /// Where contact begins, next to the contact of the recording [m].
     pub contact_m: Estimate,
+    /// The deepest sample below that contact [m].
+    pub depth_m: f64,
+    /// Mean force shortly before that contact, over the largest [-]: nothing where contact does not begin earlier.
+    pub before: f64,
     /// Root mean square of the residual, over the largest force [-].
     pub misfit: f64,
 }
@@ -152,6 +156,19 @@ impl Branch {
         best.map_or(0.0, |(begin, _)| begin)
     }
 
+    /// Mean force in the half of what there is before contact that is next to it, over the largest [-].
+    fn before(&self) -> f64 {
+        let low = self.depth.iter().copied().fold(0.0, f64::min);
+        let both = self.depth.iter().zip(&self.force);
+        let next = both.filter(|(depth, _)| (0.5 * low..0.0).contains(*depth));
+        let (sum, count) = next.fold((0.0, 0.0), |(sum, count), (_, f)| (sum + f, count + 1.0));
+        if count > 0.0 {
+            sum / count / self.strongest
+        } else {
+            0.0
+        }
+    }
+
     /// From the first sample of the last way back to its least force.
     fn way_back(recording: &CleanRecording) -> Option<Self> {
         let back = recording
@@ -205,6 +222,8 @@ impl Branch {
             youngs_modulus_pa: of(0),
             reach_pa: reach(0),
             contact_m: of(1),
+            depth_m: self.deepest,
+            before: self.before(),
             misfit: mean_square.sqrt() / self.strongest,
         };
         Ok(Fitted {

@@ -111,6 +111,8 @@ impl fmt::Display for OnlineEstimate {
 pub(super) struct Fitted {
     pressed: PressedRelaxation,
     law: LawDescription,
+    /// What two terms in place of one would change of the modulus, by their weight [Pa].
+    by_second_term: f64,
     /// Length of the record that was searched from everywhere last [s].
     searched: f64,
 }
@@ -143,9 +145,20 @@ impl Fitted {
         };
         let law = law_fit(curves, &[indentation], &pressed.relaxation.series).ok()?;
         let law = LawDescription::by(law, &[indentation], Effort::QUICK);
+        let mut by_second_term = 0.0;
+        if let Some((series, weight)) = &pressed.instead {
+            let other = law_fit(curves, &[indentation], series).ok()?;
+            let other = LawDescription::by(other, &[indentation], Effort::QUICK);
+            let values = [&law, &other].map(|law| law.parameters.first().map(|own| own.1.value));
+            let [Some(own), Some(other)] = values else {
+                return None;
+            };
+            by_second_term = weight * (own - other).abs();
+        }
         Some(Self {
             pressed,
             law,
+            by_second_term,
             searched: match (afresh, before) {
                 (false, Some(own)) => own.searched,
                 _ => length,
@@ -156,7 +169,10 @@ impl Fitted {
     fn parameters(&self) -> [OnlineParameter; 5] {
         let modulus = self.law.parameters.first().map(|(_, own)| {
             let quantile = self.law.uncertainty.quantile(0, 0.95);
-            (own.value, quantile.zip(own.standard_error))
+            let error = own
+                .standard_error
+                .map(|error| error.hypot(self.by_second_term));
+            (own.value, quantile.zip(error))
         });
         let relaxation = &self.pressed.relaxation;
         let terms = relaxation.terms.iter().zip(&relaxation.quantiles);

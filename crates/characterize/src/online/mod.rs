@@ -26,7 +26,7 @@ mod record;
 use palpate_files::recording::RecordingHeader;
 
 use crate::Error;
-use crate::inverse::{Body, Curves, SoughtLaw};
+use crate::inverse::{Body, Curves, SoughtLaw, has_curve};
 use contact::ContactWatch;
 use estimate::Fitted;
 pub use estimate::{OnlineEstimate, OnlineParameter};
@@ -78,16 +78,15 @@ impl OnlineSettings {
         }
     }
 
-    fn curves(&self) -> Result<Curves, Error> {
-        let deepest = self.deepest()?;
-        let body = Body::of(&self.header, deepest)?;
-        Ok(Curves::new(body, SoughtLaw::NeoHookean, deepest))
-    }
-
     /// Whether the force over depth is tabulated, so that an estimator is made at once: on a large piece under a flat punch
     /// down to eight radii. Elsewhere finite elements take seconds to minutes.
     pub fn is_tabulated(&self) -> bool {
-        self.curves().is_ok_and(|curves| curves.is_tabulated())
+        let is_there = || {
+            let deepest = self.deepest()?;
+            let body = Body::of(&self.header, deepest)?;
+            Ok::<_, Error>(has_curve(&body, SoughtLaw::NeoHookean, deepest))
+        };
+        is_there().unwrap_or(false)
     }
 }
 
@@ -112,7 +111,9 @@ impl OnlineEstimator {
     /// # Errors
     /// When the indenter or the specimen is not known or not possible, or no equilibrium is found down to the deepest depth.
     pub fn new(settings: OnlineSettings) -> Result<Self, Error> {
-        let mut curves = settings.curves()?;
+        let deepest = settings.deepest()?;
+        let body = Body::of(&settings.header, deepest)?;
+        let mut curves = Curves::new(body, SoughtLaw::NeoHookean, deepest);
         curves.of(f64::INFINITY, &[])?;
         Ok(Self {
             watch: ContactWatch::new(settings.contact, settings.header.indenter_shape),

@@ -1,4 +1,6 @@
-use super::model::{Model, RelaxationRecord};
+use palpate_mechanics::PronySeries;
+
+use super::model::{Model, RelaxationRecord, terms};
 use super::relaxation::{Relaxation, described, fitted, starts, terms_of, values_of};
 use crate::Error;
 use crate::fit::{Effort, Fit, Parameter, simplest, uncertainty_by, with_systematic};
@@ -8,6 +10,8 @@ use crate::fit::{Effort, Fit, Parameter, simplest, uncertainty_by, with_systemat
 pub(crate) struct PressedRelaxation {
     /// The one that the information criterion prefers.
     pub(crate) relaxation: Relaxation,
+    /// Where one term takes the place of two: the series of two, with its Akaike weight [-].
+    pub(crate) instead: Option<(PronySeries, f64)>,
     /// The fits with one term and with two, from which the next ones start.
     fits: [Fit; 2],
 }
@@ -46,13 +50,20 @@ impl PressedRelaxation {
             )
         };
         let (of_two, samples) = known(&two);
-        let is_two = two.chosen().len() == two.free() && simplest(&[&one, &two], samples).0 == 1;
+        let (simplest, criteria) = simplest(&[&one, &two], samples);
+        let is_two = two.chosen().len() == two.free() && simplest == 1;
+        let weight = 1.0 / (1.0 + (0.5 * (criteria[1] - criteria[0])).exp());
+        let series = PronySeries::new(&terms(&values_of(&two), 2));
         let (fit, uncertainty) = match is_two {
             true => (two.clone(), of_two),
             false => (one.clone(), known(&one).0),
         };
         Ok(Self {
             relaxation: described(records, fit, uncertainty, Vec::new())?,
+            instead: series
+                .ok()
+                .filter(|_| !is_two)
+                .map(|series| (series, weight)),
             fits: [one, two],
         })
     }

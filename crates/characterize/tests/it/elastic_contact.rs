@@ -135,6 +135,7 @@ fn modulus_and_work_of_adhesion_are_found() {
         );
     }
     assert!(found.reach_j_per_m2.unwrap() > found.work_j_per_m2.standard_error.unwrap());
+    println!("{found:?} {approach:?}");
     assert!(found.elastic.misfit < 0.003 && approach.misfit < 0.003);
 }
 
@@ -162,11 +163,11 @@ fn real_chiaro_curve_has_the_modulus_that_its_program_states() {
     let modulus = fit_approach(&recordings).unwrap().youngs_modulus_pa.value;
     println!("{modulus} Pa");
     assert!((modulus / 117.007 - 1.0).abs() < 0.05, "{modulus}");
-    // The force of pull-off is in the file: -0.017127 µN, less what the sensor showed before.
+    // The force of pull-off is in the file: -0.017127 µN, less what the sensor shows before contact, 0 to -0.4 nN.
     let found = fit_adhesion(&recordings).unwrap();
     println!("{found:?}");
     assert!(
-        (-1.85e-8..-1.70e-8).contains(&found.pull_off_n),
+        (-1.72e-8..-1.67e-8).contains(&found.pull_off_n),
         "{found:?}"
     );
 }
