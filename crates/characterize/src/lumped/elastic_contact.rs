@@ -54,6 +54,9 @@ pub struct ElasticContact {
     pub misfit: f64,
 }
 
+/// Standard deviations in half an interval of 95 % [-].
+const NORMAL: f64 = 1.96;
+
 /// A fit of the theory of Johnson, Kendall and Roberts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Adhesion {
@@ -275,10 +278,16 @@ pub fn fit_adhesion(recordings: &[CleanRecording]) -> Result<Adhesion, Error> {
         |modulus: f64, work: f64, depth: f64| adhesive_force(radius, modulus / 0.75, work, depth);
     let mut found = branch.fit(start, force)?;
     found.elastic.contact_m.value += begin;
+    // The work follows the few samples around the least force, which need not be theory: what remains of all others is
+    // taken as the error of that force too.
+    let off = found.elastic.misfit * branch.strongest / (1.5 * PI * radius);
     Ok(Adhesion {
         elastic: found.elastic,
-        work_j_per_m2: found.work,
-        reach_j_per_m2: found.reach,
+        work_j_per_m2: Estimate {
+            standard_error: found.work.standard_error.map(|error| error.hypot(off)),
+            ..found.work
+        },
+        reach_j_per_m2: found.reach.map(|reach| reach.hypot(NORMAL * off)),
         pull_off_n: least,
     })
 }

@@ -111,7 +111,7 @@ impl fmt::Display for OnlineEstimate {
 pub(super) struct Fitted {
     pressed: PressedRelaxation,
     law: LawDescription,
-    /// What two terms in place of one would change of the modulus, by their weight [Pa].
+    /// What two terms in place of one would change of the modulus [Pa].
     by_second_term: f64,
     /// Length of the record that was searched from everywhere last [s].
     searched: f64,
@@ -146,14 +146,14 @@ impl Fitted {
         let law = law_fit(curves, &[indentation], &pressed.relaxation.series).ok()?;
         let law = LawDescription::by(law, &[indentation], Effort::QUICK);
         let mut by_second_term = 0.0;
-        if let Some((series, weight)) = &pressed.instead {
+        if let Some(series) = &pressed.instead {
             let other = law_fit(curves, &[indentation], series).ok()?;
             let other = LawDescription::by(other, &[indentation], Effort::QUICK);
             let values = [&law, &other].map(|law| law.parameters.first().map(|own| own.1.value));
             let [Some(own), Some(other)] = values else {
                 return None;
             };
-            by_second_term = weight * (own - other).abs();
+            by_second_term = (own - other).abs();
         }
         Some(Self {
             pressed,
@@ -189,6 +189,10 @@ impl Fitted {
             let (value, known) = all.next().unwrap_or((f64::NAN, None));
             let value = Some(value).filter(|value| value.is_finite());
             let half = known.map(|(quantile, error)| quantile * error);
+            let half = half.map(|half| match name {
+                "c10_pa" => half + self.by_second_term,
+                _ => half,
+            });
             let is_telling =
                 |half: &f64| value.is_some_and(|value| (0.0..value.abs()).contains(half));
             let half = half.filter(is_telling);

@@ -10,8 +10,8 @@ use crate::fit::{Effort, Fit, Parameter, simplest, uncertainty_by, with_systemat
 pub(crate) struct PressedRelaxation {
     /// The one that the information criterion prefers.
     pub(crate) relaxation: Relaxation,
-    /// Where one term takes the place of two: the series of two, with its Akaike weight [-].
-    pub(crate) instead: Option<(PronySeries, f64)>,
+    /// Where one term takes the place of two: the series of two.
+    pub(crate) instead: Option<PronySeries>,
     /// The fits with one term and with two, from which the next ones start.
     fits: [Fit; 2],
 }
@@ -50,9 +50,7 @@ impl PressedRelaxation {
             )
         };
         let (of_two, samples) = known(&two);
-        let (simplest, criteria) = simplest(&[&one, &two], samples);
-        let is_two = two.chosen().len() == two.free() && simplest == 1;
-        let weight = 1.0 / (1.0 + (0.5 * (criteria[1] - criteria[0])).exp());
+        let is_two = two.chosen().len() == two.free() && simplest(&[&one, &two], samples).0 == 1;
         let series = PronySeries::new(&terms(&values_of(&two), 2));
         let (fit, uncertainty) = match is_two {
             true => (two.clone(), of_two),
@@ -60,10 +58,7 @@ impl PressedRelaxation {
         };
         Ok(Self {
             relaxation: described(records, fit, uncertainty, Vec::new())?,
-            instead: series
-                .ok()
-                .filter(|_| !is_two)
-                .map(|series| (series, weight)),
+            instead: series.ok().filter(|_| !is_two),
             fits: [one, two],
         })
     }
