@@ -10,8 +10,8 @@
 /// Exchanges of blocks that may pass without progress.
 const PATIENCE: u32 = 3;
 
-/// Solutions to try, for each row [-]: single pivots may need very many, seldom.
-const MOST_SOLUTIONS: usize = 4;
+/// Solutions to try: a handful is the rule, and single pivots may need more than a step has time for.
+const MOST_SOLUTIONS: usize = 50;
 
 /// What is taken as zero, over the largest entry [-].
 const ZERO: f64 = 1e-9;
@@ -56,13 +56,14 @@ impl Complementarity {
     }
 
     /// Solves for the first `count` rows, of which the first `tools` are tools'; `bears` is where it begins. Whether it
-    /// was solved; if not, the last trial stands, without forces that pull.
+    /// was solved; if not, the last trial stands, without forces that pull, or nothing where S is not positive.
     pub(super) fn solve(&mut self, tools: usize, count: usize) -> bool {
         self.bears[..tools].fill(true);
         let (mut fewest, mut patience) = (count + 1, PATIENCE);
-        for _ in 0..MOST_SOLUTIONS * (count + 4) {
+        for _ in 0..MOST_SOLUTIONS {
             if !self.factor(count) {
-                break;
+                self.x[..count].fill(0.0);
+                return false;
             }
             self.x[..count].fill(0.0);
             for (k, &row) in self.free.iter().enumerate() {
