@@ -22,6 +22,10 @@ SCRIPTS: dict[str, tuple[list[str], list[str]]] = {
     "study_on_a_cluster.py": (["recordings", "--laws", "neo_hookean", "--draws", "0"], ["distributed", "pandas"]),
     "couple_to_mujoco.py": ([], ["mujoco"]),
     "see_the_environments.py": (["environments.png"], ["gymnasium", "PIL"]),
+    "learn_to_palpate.py": (
+        ["train", "--presses", "640", "--limit", "30", "--out", "run.json"],
+        ["gymnasium", "torch"],
+    ),
 }
 
 
@@ -88,7 +92,7 @@ def test_an_example_runs_to_its_end(name: str, tmp_path: Path, surroundings: dic
     if "there is no OpenGL here" in ran.stderr:
         pytest.skip("there is no OpenGL here")
     assert ran.returncode == 0, ran.stderr
-    assert any(word in ran.stdout for word in ("N", "neo_hookean", "depth [m]"))
+    assert any(word in ran.stdout for word in ("N", "neo_hookean", "depth [m]", "unseen"))
 
 
 def test_every_script_is_tried() -> None:
