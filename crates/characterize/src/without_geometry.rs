@@ -17,7 +17,7 @@ pub struct WithoutGeometry {
     pub mean_modulus: Result<MeanModulus, Error>,
     /// Linear elastic contact, from the approach of the largest depth.
     pub linear_elastic: Result<ElasticContact, Error>,
-    /// The same with adhesion of a sphere, from the way back.
+    /// The same with adhesion of a sphere, from the retraction.
     pub adhesion: Result<Adhesion, Error>,
     /// Two springs and a damper (6.3), from the recording of the largest depth.
     pub kelvin: Result<KelvinFit, Error>,
@@ -80,8 +80,9 @@ impl WithoutGeometry {
             (off > APART * found.depth_m && found.before.abs() < FREE).then(|| {
                 let off = plain_quantity("contact_m", off, None);
                 format!(
-                    "linear_elastic: contact begins {off} beyond the depth that relaxation and laws count from, which are \
-                     wrong then: cut the recording off before contact, or use --closed-forms"
+                    "linear_elastic: linear elastic contact begins {off} deeper than the first contact from which relaxation \
+                     and laws count, with hardly any force before it: if the tissue was not touched there yet, they are \
+                     wrong; cut off what precedes contact, or use --closed-forms"
                 )
             })
         });

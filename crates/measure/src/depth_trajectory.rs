@@ -14,6 +14,9 @@ const SETTLING_SPEED: f64 = 0.004;
 /// How long it stays there first [s].
 const SETTLED: f64 = 2.0;
 
+/// How far the indenter overshoots a stimulus at most [m].
+const OVERSHOOT: f64 = 0.2e-3;
+
 impl DepthTrajectory {
     /// The course of `stimulus`.
     ///
@@ -84,6 +87,11 @@ impl DepthTrajectory {
                 ..
             } => pre_indentation_m + amplitude_m,
         }
+    }
+
+    /// The deepest that an indenter may come on it, which overshoots [m].
+    pub fn deepest_expected(&self) -> f64 {
+        self.deepest() + OVERSHOOT
     }
 
     /// The fastest that it goes [m/s].

@@ -1,10 +1,10 @@
 //! Linear elastic contact with a half-space, as force curves of microscopes and indenters are usually evaluated: Young's
-//! modulus from the approach, and of a sphere that sticks also the work of adhesion, from the way back.
+//! modulus from the approach, and of a sphere that sticks also the work of adhesion, from the retraction.
 //!
 //! *Approach*: F = E* f(d − d₀), with E* = E/(1 − ν²), ν = ½, and f of a flat face, a sphere [Hertz 1881] or a cone
 //! [Sneddon 1965] ([`Contact`]); E and the contact d₀ are fitted together, d₀ from the best of 200 depths of the approach on.
 //!
-//! *Way back of a sphere* of radius R [Johnson, Kendall and Roberts 1971], by the radius a of contact:
+//! *Retraction of a sphere* of radius R [Johnson, Kendall and Roberts 1971], by the radius a of contact:
 //!   d − d₀ = a²/R − √(2πwa/E*),  F = 4E*a³/(3R) − √(8πwE*a³),
 //! whose least force is −3πwR/2 whatever E. E, w and d₀ are fitted to the samples from the deepest to the pull-off force.
 //!
@@ -12,7 +12,7 @@
 //! the pull-off force; real curves next to the modulus that the instrument's program states.
 //!
 //! *Limits*: small strain and a half-space; no relaxation, so that the modulus is of that speed; the deepest recording of a
-//! specimen alone. On the way back of a viscous tissue w depends on the speed as much as on the surfaces, and E is only as
+//! specimen alone. On the retraction of a viscous tissue w depends on the speed as much as on the surfaces, and E is only as
 //! good as the misfit says.
 
 use std::f64::consts::PI;
@@ -66,7 +66,7 @@ pub struct Adhesion {
     pub work_j_per_m2: Estimate,
     /// Half the width of its interval of 95 % [J/m²].
     pub reach_j_per_m2: Option<f64>,
-    /// The least force on the way back [N].
+    /// The least force on the retraction [N].
     pub pull_off_n: f64,
 }
 
@@ -172,8 +172,8 @@ impl Branch {
         }
     }
 
-    /// From the first sample of the last way back to its least force.
-    fn way_back(recording: &CleanRecording) -> Option<Self> {
+    /// From the first sample of the last retraction to its least force.
+    fn retraction(recording: &CleanRecording) -> Option<Self> {
         let back = recording
             .segments
             .iter()
@@ -251,13 +251,13 @@ pub fn fit_approach(recordings: &[CleanRecording]) -> Result<ElasticContact, Err
     Ok(found)
 }
 
-/// Work of adhesion and Young's modulus from the way back of the deepest of `recordings`.
+/// Work of adhesion and Young's modulus from the retraction of the deepest of `recordings`.
 ///
 /// # Errors
 /// When the indenter is not stated, nothing was pressed, no pull-off force shows or the indenter is no sphere.
 pub fn fit_adhesion(recordings: &[CleanRecording]) -> Result<Adhesion, Error> {
     let (recording, contact) = deepest(recordings)?;
-    let mut branch = Branch::way_back(recording).ok_or(Error::NoPullOff)?;
+    let mut branch = Branch::retraction(recording).ok_or(Error::NoPullOff)?;
     let least = branch.force.iter().copied().fold(f64::INFINITY, f64::min);
     let [noise, share] = SHOWS;
     let shows = (noise * noise::deviation(&recording.force)).max(share * branch.strongest);

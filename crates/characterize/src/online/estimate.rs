@@ -146,7 +146,7 @@ impl Fitted {
         let law = law_fit(curves, &[indentation], &pressed.relaxation.series).ok()?;
         let law = LawDescription::by(law, &[indentation], Effort::QUICK);
         let mut by_second_term = 0.0;
-        if let Some(series) = &pressed.instead {
+        if let Some(series) = &pressed.two_terms {
             let other = law_fit(curves, &[indentation], series).ok()?;
             let other = LawDescription::by(other, &[indentation], Effort::QUICK);
             let values = [&law, &other].map(|law| law.parameters.first().map(|own| own.1.value));

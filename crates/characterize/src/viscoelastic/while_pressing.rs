@@ -11,7 +11,7 @@ pub(crate) struct PressedRelaxation {
     /// The one that the information criterion prefers.
     pub(crate) relaxation: Relaxation,
     /// Where one term takes the place of two: the series of two.
-    pub(crate) instead: Option<PronySeries>,
+    pub(crate) two_terms: Option<PronySeries>,
     /// The fits with one term and with two, from which the next ones start.
     fits: [Fit; 2],
 }
@@ -58,7 +58,7 @@ impl PressedRelaxation {
         };
         Ok(Self {
             relaxation: described(records, fit, uncertainty, Vec::new())?,
-            instead: series.ok().filter(|_| !is_two),
+            two_terms: series.ok().filter(|_| !is_two),
             fits: [one, two],
         })
     }

@@ -58,7 +58,7 @@ fn force_with_adhesion_matches_the_load_controlled_form() {
     let contact = (4.5 * PI * WORK * RADIUS * RADIUS / reduced).cbrt();
     let at_rest = adhesive_force(RADIUS, reduced, WORK, contact * contact / (3.0 * RADIUS));
     assert!(at_rest.abs() < 1e-12 * pull_off.abs(), "{at_rest}");
-    // The least force on the way back is the pull-off force, whatever the modulus.
+    // The least force on the retraction is the pull-off force, whatever the modulus.
     for modulus in [100.0, 1e4, 1e9] {
         let depths = (0..=200_000).map(|step| -4e-6 + 5e-11 * f64::from(step));
         let forces = depths.map(|depth| adhesive_force(RADIUS, modulus, WORK, depth));
@@ -87,7 +87,7 @@ fn force_without_adhesion_is_that_of_hertz() {
     }
 }
 
-/// A press by `deepest` in a second and back, of a sphere that sticks on the way back alone; noise of 0.2 % of the force.
+/// A press by `deepest` in a second and back, of a sphere that sticks on the retraction alone; noise of 0.2 % of the force.
 fn press(shape: IndenterShape, work: f64) -> CleanRecording {
     let reduced = MODULUS / 0.75;
     let deepest = 1e-6;
@@ -135,9 +135,9 @@ fn modulus_and_work_of_adhesion_are_found() {
         );
     }
     assert!(found.reach_j_per_m2.unwrap() > found.work_j_per_m2.standard_error.unwrap());
-    // The noise of 0.2 %, and what the filter takes from the tip of the course where it turns.
     println!("{found:?} {approach:?}");
-    assert!(found.elastic.misfit < 0.02 && approach.misfit < 0.02);
+    // The noise of 0.2 %; where the indenter turns, the filter rounds the course by 1.3 %.
+    assert!(approach.misfit < 0.003 && found.elastic.misfit < 0.02);
 }
 
 #[test]
@@ -149,9 +149,9 @@ fn adhesion_is_refused_where_none_shows_and_of_other_shapes() {
     assert!(flat.to_string().contains("indenter_shape = \"sphere\""));
 }
 
-/// Judge: the modulus that the instrument's own program states in the file, 117.007 Pa for ν = ½. Tolerance: 5 %. It fits the
-/// same law to the same approach, but does not state which zero of the force and which contact it takes: the force before
-/// contact is 1 nN, 2 % of the largest, and leaving it in changes our modulus by 4 %.
+/// Judge: the modulus that the instrument's own program states in the file, 117.007 Pa for ν = ½. Tolerance: 2 %, our zero of
+/// the force; it does not state which zero and which contact it takes, and leaving the force before contact in, 2 % of the
+/// largest, would change our modulus by 4 %.
 #[test]
 fn real_chiaro_curve_has_the_modulus_that_its_program_states() {
     let Some(folder) = data::folder() else {
@@ -163,7 +163,7 @@ fn real_chiaro_curve_has_the_modulus_that_its_program_states() {
     let recordings = [clean(&all[0], &CleanSettings::default()).unwrap()];
     let modulus = fit_approach(&recordings).unwrap().youngs_modulus_pa.value;
     println!("{modulus} Pa");
-    assert!((modulus / 117.007 - 1.0).abs() < 0.05, "{modulus}");
+    assert!((modulus / 117.007 - 1.0).abs() < 0.02, "{modulus}");
     // The force of pull-off is in the file: -0.017127 µN, less what the sensor shows before contact, 0 to -0.4 nN.
     let found = fit_adhesion(&recordings).unwrap();
     println!("{found:?}");

@@ -35,7 +35,7 @@ impl Estimating {
         let settings = OnlineSettings {
             header: header.clone(),
             contact: OnlineContact::Sought,
-            deepest_m: Some(trajectory.deepest() + MISSED),
+            deepest_m: Some(trajectory.deepest_expected()),
         };
         if !settings.is_tabulated() {
             return None;
@@ -80,6 +80,3 @@ impl Estimating {
         self.last.take().map(|_| self.online.estimate())
     }
 }
-
-/// What a stimulus may go deeper than it was told [m].
-const MISSED: f64 = 0.2e-3;

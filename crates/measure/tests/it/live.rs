@@ -36,6 +36,27 @@ impl Bench {
         seen
     }
 
+    /// Sends `press` and a rest, and does `act` in the hold: the events but for samples, and the samples of the press.
+    fn press_and_act(
+        &mut self,
+        press: RigCommand,
+        act: &dyn Fn(&Console),
+    ) -> (Vec<RigEvent>, Vec<RigSample>) {
+        self.console.send(press);
+        self.console.send(RigCommand::Rest);
+        let (console, mut samples) = (&self.console, Vec::new());
+        self.operated.turn(&mut |sample| {
+            if sample.phase == Phase::Pressing && sample.depth.unwrap() > 3.9e-3 {
+                act(console);
+            }
+            samples.push(*sample);
+        });
+        self.operated.turn(&mut |_| ());
+        let events = self.told.drain();
+        let events = events.filter(|event| !matches!(event, RigEvent::Sample(_)));
+        (events.collect(), samples)
+    }
+
     /// Carries out `orders`, and tells what was said but for samples.
     fn carry_out(&mut self, commands: &[RigCommand]) -> Vec<RigEvent> {
         commands
@@ -105,28 +126,15 @@ fn a_press_that_is_enough_leaves_the_queue() {
     });
     bench.carry_out(&[RigCommand::Approach]);
     let press = RigCommand::Press(usual(), 3);
-    bench.console.send(press);
-    bench.console.send(RigCommand::Rest);
     bench.console.end_press(2);
-    let (console, mut after) = (&bench.console, Vec::new());
-    bench.operated.turn(&mut |sample| {
-        if sample.phase == Phase::Pressing && sample.depth.unwrap() > 3.9e-3 {
-            console.end_press(3);
-        }
-        after.push(*sample);
-    });
-    bench.operated.turn(&mut |_| ());
-    let said = bench
-        .told
-        .drain()
-        .filter(|t| !matches!(t, RigEvent::Sample(_)));
+    let (said, after) = bench.press_and_act(press, &|console| console.end_press(3));
     let expected = [
         RigEvent::Begun(press),
         RigEvent::Ended(press, Ok(Ended::Enough)),
         RigEvent::Begun(RigCommand::Rest),
         RigEvent::Ended(RigCommand::Rest, Ok(Ended::Whole)),
     ];
-    assert_eq!(said.collect::<Vec<_>>(), expected);
+    assert_eq!(said, expected);
     assert!(after.last().unwrap().depth.unwrap() < -1e-3);
 }
 
@@ -136,26 +144,13 @@ fn a_stop_withdraws_and_makes_orders_stale() {
     let mut bench = Bench::new(RigSettings::default());
     bench.carry_out(&[RigCommand::Approach]);
     let press = RigCommand::Press(usual(), 1);
-    bench.console.send(press);
-    bench.console.send(RigCommand::Rest);
-    let (console, mut after) = (&bench.console, Vec::new());
-    bench.operated.turn(&mut |sample| {
-        if sample.phase == Phase::Pressing && sample.depth.unwrap() > 3.9e-3 {
-            console.stop();
-        }
-        after.push(*sample);
-    });
-    bench.operated.turn(&mut |_| ());
-    let said = bench
-        .told
-        .drain()
-        .filter(|t| !matches!(t, RigEvent::Sample(_)));
+    let (said, after) = bench.press_and_act(press, &|console| console.stop());
     let expected = [
         RigEvent::Begun(press),
         RigEvent::Ended(press, Ok(Ended::Stopped)),
         RigEvent::Dropped(RigCommand::Rest),
     ];
-    assert_eq!(said.collect::<Vec<_>>(), expected);
+    assert_eq!(said, expected);
     let stopped =
         |sample: &&RigSample| sample.phase == Phase::Pressing && sample.depth.unwrap() > 3.9e-3;
     assert_eq!(after.iter().filter(stopped).count(), 1);

@@ -133,16 +133,7 @@ impl Boundary {
                 }
                 let weight = near * near * facing;
                 all += weight;
-                let corner = |l: f64| l * (2.0 * l - 1.0);
-                let shape = [
-                    corner(u),
-                    corner(v),
-                    corner(w),
-                    4.0 * u * v,
-                    4.0 * v * w,
-                    4.0 * w * u,
-                ];
-                for (node, shape) in face.nodes.into_iter().zip(shape) {
+                for (node, shape) in face.nodes.into_iter().zip(shape_on_face([u, v, w])) {
                     load.add(node, weight * shape);
                 }
             });
@@ -201,6 +192,19 @@ impl SpreadLoad {
         let mean = MEAN_INVERSE_DISTANCE / (self.radius * PI * law.youngs_modulus());
         [(1.0 + nu) * (1.0 - 0.5 * nu) * mean, (1.0 - nu * nu) * mean]
     }
+}
+
+/// Shape functions of the six nodes of a face, at barycentric coordinates.
+pub(super) fn shape_on_face([u, v, w]: [f64; 3]) -> [f64; 6] {
+    let corner = |l: f64| l * (2.0 * l - 1.0);
+    [
+        corner(u),
+        corner(v),
+        corner(w),
+        4.0 * u * v,
+        4.0 * v * w,
+        4.0 * w * u,
+    ]
 }
 
 /// The centroids of a triangle's equal parts, as barycentric coordinates.

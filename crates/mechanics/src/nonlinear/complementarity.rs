@@ -24,7 +24,7 @@ pub(super) struct Complementarity {
     pub(super) q: Vec<f64>,
     pub(super) x: Vec<f64>,
     pub(super) bears: Vec<bool>,
-    is_wrong: Vec<bool>,
+    is_infeasible: Vec<bool>,
     /// The rows that bear, and S of these = L Lᵀ.
     free: Vec<usize>,
     factor: Vec<f64>,
@@ -39,7 +39,7 @@ impl Complementarity {
             q: vec![0.0; room],
             x: vec![0.0; room],
             bears: vec![false; room],
-            is_wrong: vec![false; room],
+            is_infeasible: vec![false; room],
             free: Vec::with_capacity(room),
             factor: vec![0.0; room * room],
             right: vec![0.0; room],
@@ -73,12 +73,12 @@ impl Complementarity {
             for (k, &row) in self.free.iter().enumerate() {
                 self.x[row] = self.right[k];
             }
-            let (wrong, last) = self.wrong(tools, count);
-            if wrong == 0 {
+            let (number, last) = self.infeasible(tools, count);
+            if number == 0 {
                 return true;
             }
-            if wrong < fewest {
-                (fewest, patience) = (wrong, PATIENCE);
+            if number < fewest {
+                (fewest, patience) = (number, PATIENCE);
             } else if patience > 0 {
                 patience -= 1;
             } else {
@@ -86,13 +86,13 @@ impl Complementarity {
                 continue;
             }
             for row in tools..count {
-                self.is_wrong[row] = self.wrong_in(row, count);
+                self.is_infeasible[row] = self.violates(row, count);
             }
-            for (bears, is_wrong) in self.bears[tools..count]
+            for (bears, is_infeasible) in self.bears[tools..count]
                 .iter_mut()
-                .zip(&self.is_wrong[tools..])
+                .zip(&self.is_infeasible[tools..])
             {
-                *bears ^= is_wrong;
+                *bears ^= is_infeasible;
             }
         }
         self.x[tools..count]
@@ -113,18 +113,18 @@ impl Complementarity {
         }
     }
 
-    /// How many rows are wrong, and the last of them.
-    fn wrong(&self, tools: usize, count: usize) -> (usize, usize) {
-        let (mut wrong, mut last) = (0, 0);
+    /// How many rows are infeasible, and the last of them.
+    fn infeasible(&self, tools: usize, count: usize) -> (usize, usize) {
+        let (mut number, mut last) = (0, 0);
         for row in tools..count {
-            if self.wrong_in(row, count) {
-                (wrong, last) = (wrong + 1, row);
+            if self.violates(row, count) {
+                (number, last) = (number + 1, row);
             }
         }
-        (wrong, last)
+        (number, last)
     }
 
-    fn wrong_in(&self, row: usize, count: usize) -> bool {
+    fn violates(&self, row: usize, count: usize) -> bool {
         let zero = |values: &[f64]| {
             let largest = values[..count]
                 .iter()

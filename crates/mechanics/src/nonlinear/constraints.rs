@@ -48,8 +48,8 @@ pub(super) struct Constraints {
     force: Vec<f64>,
     direction: Vec<f64>,
     t: Vec<f64>,
-    /// What conditions lack [m].
-    lacks: Vec<f64>,
+    /// How far conditions are violated [m].
+    violation: Vec<f64>,
     /// Forces on all nodes, and what they displace.
     load: Vec<f32>,
     displaced: Vec<f32>,
@@ -66,7 +66,7 @@ impl Constraints {
             force: vec![0.0; rows],
             direction: vec![0.0; rows],
             t: vec![0.0; rows],
-            lacks: vec![0.0; rows],
+            violation: vec![0.0; rows],
             load: vec![0.0; size],
             displaced: vec![0.0; size],
             scratch: vec![0.0; model.rest.scratch()],
@@ -137,15 +137,15 @@ impl Constraints {
                     left -= weight * Vec3::new(u[0], u[1], u[2]);
                 }
                 let own = self.tools.own_displacement(number, &self.force);
-                self.lacks[number] = own - left.dot(&row.direction);
+                self.violation[number] = own - left.dot(&row.direction);
             }
         }
         let tools = self.tools.rows.len();
         for (number, contact) in self.contacts.listed.iter().enumerate() {
             let own = contact.compliance * self.force[tools + number];
-            self.lacks[tools + number] = contact.gap(guess) + own;
+            self.violation[tools + number] = contact.gap(guess) + own;
         }
-        self.bear();
+        self.solve_forces();
         change.fill(0.0);
         self.add_displacement(body, change);
     }
@@ -153,20 +153,24 @@ impl Constraints {
     /// Projects `z`, the preconditioned `residual`, onto the conditions.
     #[inline(always)]
     pub(super) fn project(&mut self, body: Turned<'_>, residual: &[f32], z: &mut [f32]) {
-        self.tools.project(residual, &mut self.lacks);
+        self.tools.project(residual, &mut self.violation);
         let tools = self.tools.rows.len();
-        for (lacks, contact) in self.lacks[tools..].iter_mut().zip(&self.contacts.listed) {
-            *lacks = contact.along(z);
+        for (violation, contact) in self.violation[tools..]
+            .iter_mut()
+            .zip(&self.contacts.listed)
+        {
+            *violation = contact.along(z);
         }
         let count = self.count();
         self.problem
-            .solve_bearing(&self.lacks, &mut self.t[..count]);
+            .solve_bearing(&self.violation, &mut self.t[..count]);
         self.t[..count].iter_mut().for_each(|t| *t = -*t);
         self.add_displacement(body, z);
     }
 
-    /// Goes on along the last projection, of which so much is `kept` [-]: what the conditions' own compliances store.
-    pub(super) fn turn_direction(&mut self, kept: f64) -> f64 {
+    /// The next direction: the last projection, and `kept` [-] times the direction before. Returns its energy in the own
+    /// compliances of the conditions, twice [J].
+    pub(super) fn update_direction(&mut self, kept: f64) -> f64 {
         let (count, tools) = (self.count(), self.tools.rows.len());
         for (direction, t) in self.direction.iter_mut().zip(&self.t[..count]) {
             *direction = kept * *direction + t;
@@ -178,7 +182,7 @@ impl Constraints {
 
     /// Changes the forces by `length` [-] times the direction, and the `residual` [N] by as much.
     #[inline(always)]
-    pub(super) fn go(
+    pub(super) fn step_along(
         &mut self,
         couplings: &[Option<Coupling<'_>>],
         length: f64,
@@ -201,7 +205,7 @@ impl Constraints {
     /// Finds the forces that leave the least of the `residual` [N] at the `displacements` [m].
     #[inline(always)]
     pub(super) fn finish(&mut self, body: Turned<'_>, residual: &[f32], displacements: &[f64]) {
-        self.tools.project(residual, &mut self.lacks);
+        self.tools.project(residual, &mut self.violation);
         if !self.contacts.listed.is_empty() {
             let Turned { model, rotations } = body;
             model
@@ -210,11 +214,11 @@ impl Constraints {
         }
         let tools = self.tools.rows.len();
         for (number, contact) in self.contacts.listed.iter().enumerate() {
-            self.lacks[tools + number] = contact.gap(displacements)
+            self.violation[tools + number] = contact.gap(displacements)
                 + contact.along(&self.displaced)
                 + contact.compliance * self.force[tools + number];
         }
-        self.bear();
+        self.solve_forces();
     }
 
     /// Keeps the forces in `state`.
@@ -243,12 +247,12 @@ impl Constraints {
     }
 
     /// Forces for what the conditions lack where these do not change; the changes into `t`.
-    fn bear(&mut self) {
+    fn solve_forces(&mut self) {
         let (count, tools) = (self.count(), self.tools.rows.len());
         for row in 0..count {
             let carried =
                 (tools..count).map(|column| self.problem.get(row, column) * self.force[column]);
-            self.problem.q[row] = self.lacks[row] - carried.sum::<f64>();
+            self.problem.q[row] = self.violation[row] - carried.sum::<f64>();
         }
         for (bears, force) in self.problem.bears[tools..count]
             .iter_mut()

@@ -6,11 +6,11 @@
 //! g = n · u + o + c λ,   λ ≥ 0, g ≥ 0, λ g = 0
 //! ```
 //!
-//! Point after point, so that an element resolves pressure as it resolves stress; a contact that is smaller than a face is
-//! not resolved.
+//! A contact that is smaller than a face is not resolved.
 
 use palpate_geometry::TetrahedronMesh;
 
+use super::boundary::shape_on_face;
 use super::law::Moduli;
 use super::model::NonlinearModel;
 use crate::Vec3;
@@ -61,18 +61,10 @@ impl BoundaryPoint {
             let Moduli { c10, c01, .. } = moduli[face.tetrahedron];
             let compliance = SOFTNESS * edge / (6.0 * (c10 + c01) * area);
             for at in [[NEAR, FAR, FAR], [FAR, NEAR, FAR], [FAR, FAR, NEAR]] {
-                let corner = |l: f64| l * (2.0 * l - 1.0);
                 let [u, v, w] = at;
                 points.push(Self {
                     nodes: face.nodes.map(|node| node as u32),
-                    weights: [
-                        corner(u),
-                        corner(v),
-                        corner(w),
-                        4.0 * u * v,
-                        4.0 * v * w,
-                        4.0 * w * u,
-                    ],
+                    weights: shape_on_face(at),
                     place: a * u + b * v + c * w,
                     compliance,
                 });

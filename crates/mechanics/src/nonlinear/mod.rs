@@ -6,7 +6,7 @@
 //!
 //! 1. continue the last displacement as far as the tools continue their paths;
 //! 2. forces of the elements, rotations of the nodes;
-//! 3. one step of Newton's method by a few conjugate gradients, projected onto the conditions of the tools and
+//! 3. one step of Newton's method by a few conjugate gradients, projected onto the conditions of the tools and contacts and
 //!    preconditioned by the factors of the stiffness at rest, turned with the nodes, Q K⁻¹ Qᵀ;
 //! 4. if the forces along the step have turned against it, back to the zero of their secant.
 //!

@@ -280,7 +280,7 @@ impl Workspace {
             for (direction, z) in self.direction.iter_mut().zip(&self.z) {
                 *direction = z + kept as f32 * *direction;
             }
-            let own = self.constraints.turn_direction(kept);
+            let own = self.constraints.update_direction(kept);
             self.multiply(model, false);
             let curvature = dot(&self.direction, &self.product) + own;
             advance.was_unstable = curvature <= 0.0;
@@ -297,7 +297,8 @@ impl Workspace {
                 *change += length as f32 * direction;
                 *r -= length as f32 * product;
             }
-            self.constraints.go(couplings, length, &mut self.residual);
+            self.constraints
+                .step_along(couplings, length, &mut self.residual);
             if advance.was_unstable {
                 break;
             }

@@ -34,7 +34,8 @@ impl Skin {
     ) -> Self {
         let rest = NonlinearState::at_rest(model, 0);
         let points = model.boundary_points();
-        let places: Vec<Vec3> = points
+        let beside = if neighbours.is_empty() { &[] } else { points };
+        let places: Vec<Vec3> = beside
             .iter()
             .map(|point| tree.nearest(shown.mesh(), &point.place).on.position)
             .collect();
@@ -132,8 +133,8 @@ impl Candidates {
             .extend(self.found.iter().map(|(_, contact)| *contact));
     }
 
-    /// Tells of points that were left out, under a tool that touches.
-    pub(super) fn tell(&self, tool: &mut ToolState) {
+    /// Reports points that were left out, under a tool that touches.
+    pub(super) fn report(&self, tool: &mut ToolState) {
         if self.left_out > 0 {
             let reached = Reached {
                 asked: (MOST_CONTACTS + self.left_out) as f64,

@@ -175,7 +175,7 @@ impl NonlinearOrgan {
             if let (Some(target), false) = (target, body.lets_go[number] > 0) {
                 own.elastic = -body.histories[number].elastic();
                 target.tell_pace(body, number, own);
-                workspace.candidates.tell(own);
+                workspace.candidates.report(own);
             }
             own.solved = own.elastic;
             if let Some(hold) = &own.grip.hold {

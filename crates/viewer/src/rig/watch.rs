@@ -33,9 +33,6 @@ pub(super) struct Watch {
     samples: usize,
 }
 
-/// What a stimulus may go deeper than it was told [m].
-const MISSED: f64 = 0.2e-3;
-
 /// Samples of the force that is shown as a number, which nobody reads a thousand times a second.
 const AVERAGED: usize = 20;
 
@@ -122,8 +119,9 @@ impl Watch {
                 self.doing = Some((order, self.now.map_or(0.0, |now| now.time)));
                 if let RigCommand::Press(trajectory, _) = order {
                     match trajectory.stimulus() {
-                        Stimulus::RampAndHold { depth_m, .. } => {
-                            self.online.begin(&self.specimen, depth_m + MISSED);
+                        Stimulus::RampAndHold { .. } => {
+                            let deepest = trajectory.deepest_expected();
+                            self.online.begin(&self.specimen, deepest);
                         }
                         Stimulus::Swing { .. } => self.online.end(),
                     }

@@ -48,7 +48,7 @@ pub struct LumpedAnswer {
     /// Linear elastic contact, fitted to the approach: Young's modulus, where contact begins and the misfit.
     #[serde(default)]
     pub linear_elastic: Option<Named>,
-    /// Adhesion of a sphere [Johnson, Kendall and Roberts 1971], fitted to the way back: the same, the work of adhesion and
+    /// Adhesion of a sphere [Johnson, Kendall and Roberts 1971], fitted to the retraction: the same, the work of adhesion and
     /// the pull-off force.
     #[serde(default)]
     pub adhesion: Option<Named>,

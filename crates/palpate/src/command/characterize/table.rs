@@ -75,7 +75,7 @@ fn of_contact(found: &Named) -> String {
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     let branch = match parts.len() {
         1 => "approach",
-        _ => "way back",
+        _ => "retraction",
     };
     let misfit = 100.0 * misfit;
     format!(
