@@ -1,4 +1,4 @@
-//! What a person has set in the window: its file, and what the page of settings does beside it.
+//! The settings of the window: their file, and the cache, folders and devices that their page shows.
 
 use std::path::PathBuf;
 

@@ -22,7 +22,7 @@ pub(super) enum Asked {
     Show,
     /// To look at it again.
     Again,
-    /// To look at it beside the demonstration.
+    /// To compare it with the demonstration.
     Compare,
     /// To record it in another folder.
     RecordElsewhere,
