@@ -1,7 +1,7 @@
 //! Text files of the Piuma and the Chiaro of Optics11 Life: lines of name and value, separated by tabs, then a table of
 //! time, load, indentation, cantilever and piezo.
 //!
-//! The instrument's own column of the indentation is zero before the contact that it found; here depth is the piezo's way
+//! The instrument's own column of the indentation is zero before the contact that it found; here depth is the piezo's displacement
 //! less the cantilever's deflection, so that the contact is found as for any other recording.
 
 use super::{Curve, InstrumentFile};
@@ -136,7 +136,7 @@ fn remark(header: &RecordingHeader, entries: &[(&str, &str)]) -> String {
         false => format!("; the instrument's own fit states {}", fits.join(", ")),
     };
     format!(
-        "read as a text file of Optics11: depth is the piezo's way less the deflection of the cantilever; a sphere of {} radius, \
+        "read as a text file of Optics11: depth is the piezo's displacement less the deflection of the cantilever; a sphere of {} radius, \
          spring constant {}{own}",
         sphere.as_deref().unwrap_or("unknown"),
         spring.as_deref().unwrap_or("unknown")
