@@ -254,7 +254,7 @@ fn rates(window: &SimulatorWindow, ui: &mut Ui) {
             100.0 * render_quality.scale() * render_quality.scale()
         ));
         ui.end_row();
-        ui.label(text!("panel-model"));
+        ui.label("model");
         ui.label(format!(
             "{:.0} of {:.0} Hz, {} priority",
             rates.model,
