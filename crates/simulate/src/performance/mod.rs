@@ -24,7 +24,7 @@ use palpate_geometry::Vec3;
 
 pub use comparison::{Comparison, Standard, compare};
 pub use cut::CutScore;
-pub use feedback::{Feedback, feedback};
+pub use feedback::{Feedback, Phrase, PhraseValue, feedback};
 pub use force::ForceScore;
 pub use goal::{Outcome, Pull, PullCue, SizeOutcome, Status};
 pub use hand::HandScore;

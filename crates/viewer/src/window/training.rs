@@ -43,6 +43,12 @@ pub trait TrainingRecord {
     /// When they cannot be read; in a sentence.
     fn class(&self) -> Result<Class, String>;
 
+    /// Gives a cohort or a trainee something to do.
+    ///
+    /// # Errors
+    /// When the PIN is wrong, the date is none, or it cannot be kept; in a sentence.
+    fn assign(&mut self, given: &NewAssignment) -> Result<(), String>;
+
     /// The results of a trainee, the last one last.
     ///
     /// # Errors
@@ -50,9 +56,26 @@ pub trait TrainingRecord {
     fn results(&self, trainee: &str) -> Result<Vec<PastResult>, String>;
 }
 
+/// What a teacher gives somebody to do.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct NewAssignment {
+    /// The cohort or trainee.
+    pub to: String,
+    /// The title of the task.
+    pub task: String,
+    /// The day until whose end it is to be done, such as 2026-12-24.
+    pub due: String,
+    /// Passed attempts that are needed.
+    pub passes: u32,
+    /// The teacher's PIN; empty without one.
+    pub pin: String,
+}
+
 /// What a teacher sees of all trainees.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Class {
+    /// Cohorts and trainees, to whom something can be given to do.
+    pub assignees: Vec<String>,
     /// What cohorts shall do, the first due first.
     pub assignments: Vec<AssignedTask>,
     /// Each task that was attempted.
@@ -83,8 +106,19 @@ pub struct TraineeStanding {
     pub attempts: usize,
     /// Passed attempts until it was due.
     pub passed: usize,
-    /// `done`, `open` or `late`.
-    pub standing: &'static str,
+    /// Whether that is enough.
+    pub standing: StandingWord,
+}
+
+/// Whether somebody has done an assignment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StandingWord {
+    /// Passed often enough, in time.
+    Done,
+    /// There is time.
+    Open,
+    /// There is no more time.
+    Late,
 }
 
 /// How trainees come on with a task.
