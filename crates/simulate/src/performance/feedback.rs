@@ -90,6 +90,31 @@ fn why_not(task: &Task, score: &Score) -> String {
         (Outcome::Traction { within, .. }, _) => {
             format!("the pull was right for {within:.0} s only")
         }
+        (
+            Outcome::Touch {
+                torn: Some(force), ..
+            },
+            _,
+        ) => format!("the held tissue tore under {}", millinewtons(*force)),
+        (
+            Outcome::Touch {
+                injured: Some(force),
+                ..
+            },
+            _,
+        ) => format!("the target is injured, by {}", millinewtons(*force)),
+        (Outcome::Touch { beside: None, .. }, _) => {
+            "the organ was not held out of the way".to_owned()
+        }
+        (Outcome::Touch { within, .. }, _) if *within > 0.0 => {
+            format!("the target was touched for {within:.1} s only")
+        }
+        (
+            Outcome::Touch {
+                beside: Some(off), ..
+            },
+            _,
+        ) => format!("the tip stayed {} from the target", millimetres(*off)),
         (Outcome::Cut { .. }, _) if perforated => "the mucosa is perforated".to_owned(),
         (Outcome::Cut { part, .. }, Goal::Cut { tolerance_m, .. }) => {
             let line = score.cut.and_then(|cut| cut.along_line);
@@ -143,6 +168,24 @@ fn good(task: &Task, score: &Score) -> String {
                 millinewtons(*error)
             )
         }
+        (
+            Outcome::Touch {
+                reached: true,
+                within,
+                ..
+            },
+            _,
+        ) => format!(
+            "Good: you held the organ out of the way and touched the target for {within:.0} s."
+        ),
+        (
+            Outcome::Touch {
+                beside: Some(_),
+                torn: None,
+                ..
+            },
+            None,
+        ) => "Good: the organ was out of the way of your tool.".to_owned(),
         (Outcome::Cut { clean: true, .. }, _) => {
             "Good: the whole line is cut, and the mucosa is whole.".to_owned()
         }
@@ -210,6 +253,23 @@ fn change(task: &Task, score: &Score) -> String {
         }
         (Outcome::Traction { held: false, .. }, _) => {
             "grasp first, then pull until the cue says hold, and stay there".to_owned()
+        }
+        (Outcome::Touch { torn: Some(_), .. }, _) => {
+            "lift more slowly and less far, and grasp nearer to what is in the way".to_owned()
+        }
+        (
+            Outcome::Touch {
+                injured: Some(_), ..
+            },
+            _,
+        ) => "come slowly for the last millimetres, and stop at the first force".to_owned(),
+        (Outcome::Touch { beside: None, .. }, _) => {
+            "grasp the rim of the organ over the target, and lift it until neither tip nor shaft of \
+             the other tool touches the organ"
+                .to_owned()
+        }
+        (Outcome::Touch { reached: false, .. }, _) => {
+            "keep the organ lifted, and stay on the target until its time is over".to_owned()
         }
         (Outcome::Cut { .. }, _) if perforated => {
             "lower the blade less deep, and do not press on what is bare".to_owned()

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Align2, Color32, Frame, Margin, RichText, Ui, Vec2};
 use palpate_files::scene::Goal;
-use palpate_simulate::performance::{PullCue, Status};
+use palpate_simulate::performance::{Cue, Status};
 
 use super::attempt::{Attempt, Phase, Unsaved};
 use super::diameter;
@@ -130,6 +130,13 @@ fn reads(ui: &mut Ui, attempt: &Attempt, around: &Around, asked: &mut Option<Ask
             "Hold {:.0} ± {:.0} mN for {hold_s:.0} s in all; then it ends by itself.",
             1e3 * force_n,
             1e3 * tolerance_n
+        ),
+        Goal::Touch(touch) => format!(
+            "Touch the target with {:.0} ± {:.0} mN for {:.0} s in all; then it ends by itself. A touch counts while \
+             neither tip nor shaft of the tool touches the organ.",
+            1e3 * touch.force_n,
+            1e3 * touch.tolerance_n,
+            touch.hold_s
         ),
         Goal::Cut { .. } => {
             "It ends by itself when the line is cut; Enter ends it before.".to_owned()
@@ -272,25 +279,39 @@ fn gauge(ui: &mut Ui, attempt: &Attempt) {
                 tolerance_n,
                 ..
             },
-            Status::GoesOn { pull, .. },
+            Status::GoesOn { advice, .. },
         ) => {
-            let (force, cue) = pull.map_or((0.0, PullCue::More), |own| (own.force, own.cue));
-            let words = match cue {
-                PullCue::Hold => ("hold", DEPTH),
-                PullCue::More => ("pull harder", WARNING),
-                PullCue::Less => ("pull less", FAULT),
-                PullCue::Turn => ("pull along the arrow", WARNING),
-            };
+            let (force, cue) = advice.map_or((0.0, Cue::More), |own| (own.force, own.cue));
             let band = [force_n - tolerance_n, force_n + tolerance_n, 2.0 * force_n];
-            (band, force, words)
+            (band, force, cue_words(cue, "pull"))
+        }
+        (
+            Goal::Touch(touch),
+            Status::GoesOn {
+                advice: Some(own), ..
+            },
+        ) => {
+            let limit = attempt.task.force_limit_n.or(touch.tear_force_n);
+            let band = match (own.cue, limit) {
+                // Of the tool that holds.
+                (Cue::Grasp | Cue::Lift, Some(limit)) => [0.0, limit, 1.5 * limit],
+                _ => {
+                    let (low, high) = (
+                        touch.force_n - touch.tolerance_n,
+                        touch.force_n + touch.tolerance_n,
+                    );
+                    [low.max(0.0), high, 1.5 * high]
+                }
+            };
+            (band, own.force, cue_words(own.cue, "press"))
         }
         _ => {
             let Some(limit) = attempt.task.force_limit_n else {
                 return;
             };
             let words = match force > limit {
-                true => ("too hard", FAULT),
-                false => ("", DEPTH),
+                true => ("too hard".to_owned(), FAULT),
+                false => (String::new(), DEPTH),
             };
             ([0.0, limit, 1.5 * limit], force, words)
         }
@@ -316,6 +337,19 @@ fn gauge(ui: &mut Ui, attempt: &Attempt) {
         FAULT
     };
     painter.vline(at(force), rect.y_range(), egui::Stroke::new(5.0, color));
+}
+
+/// A cue in words, of a force with this verb, and its color.
+fn cue_words(cue: Cue, verb: &str) -> (String, Color32) {
+    match cue {
+        Cue::Hold => ("hold".to_owned(), DEPTH),
+        Cue::More => (format!("{verb} harder"), WARNING),
+        Cue::Less => (format!("{verb} less"), FAULT),
+        Cue::Turn => ("pull along the arrow".to_owned(), WARNING),
+        Cue::Grasp => ("grasp the rim".to_owned(), WARNING),
+        Cue::Lift => ("lift: organ in the way".to_owned(), WARNING),
+        Cue::Reach => ("touch the target".to_owned(), WARNING),
+    }
 }
 
 pub(super) fn trouble(ui: &mut Ui, attempt: &Attempt) {

@@ -1,11 +1,11 @@
 //! The start screen: what there is to do, who does it, how it went so far, and what this is not.
 
-use eframe::egui::{self, Color32, Frame, Margin, RichText, Ui};
+use eframe::egui::{self, Color32, Frame, Margin, RichText, TextureHandle, Ui};
 use egui_plot::{Line, Plot, PlotPoints, Points};
 use palpate_files::Scene;
 
 use super::texts;
-use super::training::{Assigned, PastResult, Training};
+use super::training::{Assigned, OfferedTask, PastResult, Training};
 use crate::style::{DEPTH, FAULT, QUIET, WARNING, WHITE};
 
 /// What was chosen on the start screen.
@@ -32,11 +32,13 @@ pub(super) struct Home {
     results: Option<(String, Result<Vec<PastResult>, String>)>,
     /// What they shall do.
     assigned: Vec<Assigned>,
+    /// The pictures of the tasks, once they are shown.
+    pictures: Vec<Option<TextureHandle>>,
 }
 
 /// What this is not.
 const NOT: &str = "What it is not: there is no bleeding, no smoke and no suturing; neighbours stop the \
-                   tips of tools and nothing else; a mouse gives no force. It is no certified medical device, and a score here has not been \
+                   tips of tools and an organ that bends, but no shafts; a mouse gives no force. It is no certified medical device, and a score here has not been \
                    shown to predict one in an operating room.";
 
 impl Home {
@@ -92,8 +94,14 @@ impl Home {
     fn tasks(&mut self, ui: &mut Ui, training: &Training, chosen: &mut Option<Chosen>) {
         ui.label(RichText::new("Tasks").size(20.0).color(WHITE));
         ui.add_space(4.0);
+        if self.pictures.len() != training.tasks.len() {
+            let pictures = training.tasks.iter();
+            self.pictures = pictures.map(|task| texture(ui, task)).collect();
+        }
+        let pictures = self.pictures.clone();
         let results = self.results(training);
-        for (number, scene) in training.tasks.iter().enumerate() {
+        for (number, (task, picture)) in training.tasks.iter().zip(&pictures).enumerate() {
+            let scene = &task.scene;
             let title = title(scene);
             let own: Vec<&PastResult> = results
                 .iter()
@@ -101,12 +109,22 @@ impl Home {
                 .filter(|result| result.task == title)
                 .collect();
             let words = scene.task.instructions.as_deref().unwrap_or("");
-            if entry(ui, title, words, &standing(&own)) {
+            let shown = Shown {
+                words,
+                standing: standing(&own),
+                picture: picture.as_ref(),
+            };
+            if entry(ui, title, &shown) {
                 *chosen = Some(Chosen::Task(number));
             }
         }
         let words = "Touch, hold, pull and cut as you like. Nothing is recorded.";
-        if entry(ui, "Free play", words, &None) {
+        let shown = Shown {
+            words,
+            standing: None,
+            picture: None,
+        };
+        if entry(ui, "Free play", &shown) {
             *chosen = Some(Chosen::Free);
         }
     }
@@ -189,8 +207,31 @@ fn standing(own: &[&PastResult]) -> Option<(String, bool)> {
     ))
 }
 
+/// The picture of a task, for the screen.
+fn texture(ui: &Ui, task: &OfferedTask) -> Option<TextureHandle> {
+    let picture = task.picture.as_ref()?;
+    let size = picture.size.map(|length| length as usize);
+    let image = egui::ColorImage::from_rgba_unmultiplied(size, &picture.pixels);
+    let name = title(&task.scene).to_owned();
+    Some(
+        ui.ctx()
+            .load_texture(name, image, egui::TextureOptions::LINEAR),
+    )
+}
+
+/// What is shown of a thing to choose, below its title.
+struct Shown<'a> {
+    words: &'a str,
+    /// How it went so far, and whether it was ever done.
+    standing: Option<(String, bool)>,
+    picture: Option<&'a TextureHandle>,
+}
+
+/// Height of the picture of a task [points].
+const PICTURE: f32 = 92.0;
+
 /// One thing to choose. Whether it was.
-fn entry(ui: &mut Ui, title: &str, words: &str, standing: &Option<(String, bool)>) -> bool {
+fn entry(ui: &mut Ui, title: &str, shown: &Shown<'_>) -> bool {
     let frame = Frame::new()
         .fill(Color32::from_rgb(30, 34, 41))
         .corner_radius(6.0)
@@ -204,14 +245,21 @@ fn entry(ui: &mut Ui, title: &str, words: &str, standing: &Option<(String, bool)
                 clicked = ui.button("Open").clicked();
             });
         });
-        // A column would stretch its lines.
-        ui.with_layout(egui::Layout::top_down(egui::Align::LEFT), |ui| {
-            ui.label(RichText::new(words).color(QUIET));
+        ui.horizontal_top(|ui| {
+            if let Some(picture) = shown.picture {
+                let size = picture.size_vec2();
+                let size = size * (PICTURE / size.y.max(1.0));
+                ui.add(egui::Image::new((picture.id(), size)).corner_radius(4.0));
+            }
+            // A column would stretch its lines.
+            ui.with_layout(egui::Layout::top_down(egui::Align::LEFT), |ui| {
+                ui.label(RichText::new(shown.words).color(QUIET));
+                if let Some((standing, passed)) = &shown.standing {
+                    let color = if *passed { DEPTH } else { WARNING };
+                    ui.label(RichText::new(standing).small().color(color));
+                }
+            });
         });
-        if let Some((standing, passed)) = standing {
-            let color = if *passed { DEPTH } else { WARNING };
-            ui.label(RichText::new(standing).small().color(color));
-        }
     });
     // The whole card opens.
     // Its button has the keyboard's focus already.

@@ -30,7 +30,7 @@ impl SimulatorWindow {
         let context = ui.ctx().clone();
         let scene = match chosen {
             None => return,
-            Some(Chosen::Task(number)) => training.tasks[number].clone(),
+            Some(Chosen::Task(number)) => training.tasks[number].scene.clone(),
             Some(Chosen::Class) => {
                 self.class_page = Some(ClassPage(training.record.class()));
                 return;
