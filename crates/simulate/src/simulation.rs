@@ -121,11 +121,11 @@ impl Simulation {
         )?;
         if !neighbours.is_empty() {
             warnings.push(match is_nonlinear {
-                true => "neighbours that collide are rigid to the tips of tools and, without friction, to the organ; shafts \
-                         pass through them"
+                true => "neighbours that collide keep their shape: they stop the tips of tools and, without friction, the \
+                         organ; shafts pass through them"
                     .to_owned(),
-                false => "neighbours that collide are rigid to the tips of tools; shafts and the organ pass through them: \
-                          `model.kind = \"nonlinear\"` keeps the organ out"
+                false => "neighbours that collide keep their shape: they stop the tips of tools; shafts and the organ pass \
+                          through them: `model.kind = \"nonlinear\"` keeps the organ out"
                     .to_owned(),
             });
         }

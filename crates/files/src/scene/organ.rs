@@ -246,7 +246,7 @@ impl Neighbour {
         .default("1.0"),
         Key::truth(
             "collides",
-            "Whether it is rigid to the tips of tools and to an organ of the nonlinear model.",
+            "Whether it stops the tips of tools and an organ of the nonlinear model.",
         )
         .default("false"),
         // What a loop at 1 kHz displays without trembling on the devices of `docs/devices.md`.

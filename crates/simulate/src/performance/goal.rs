@@ -58,7 +58,7 @@ pub enum Cue {
     Grasp,
     /// Lift the organ out of the way of the tool that shall touch: the force is that of the tool that lifts.
     Lift,
-    /// Touch the place that is meant.
+    /// Touch the place that is meant: the force is that of the tool that lifts, if one has to.
     Reach,
 }
 

@@ -123,16 +123,15 @@ impl TouchWatch {
             return pull(Cue::Grasp);
         }
         let Some(tip) = self.tip else {
-            return Advice {
-                force: 0.0,
-                cue: Cue::Reach,
-            };
+            return pull(Cue::Reach);
         };
         if self.shaft_touches || tip.touches_organ {
             return pull(Cue::Lift);
         }
+        if tip.distance > goal.tolerance_m {
+            return pull(Cue::Reach);
+        }
         let cue = match tip.force {
-            _ if tip.distance > goal.tolerance_m => Cue::Reach,
             force if force < goal.force_n - goal.tolerance_n => Cue::More,
             force if force > goal.force_n + goal.tolerance_n => Cue::Less,
             _ => Cue::Hold,

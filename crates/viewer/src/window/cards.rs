@@ -294,7 +294,9 @@ fn gauge(ui: &mut Ui, attempt: &Attempt) {
             let limit = attempt.task.force_limit_n.or(touch.tear_force_n);
             let band = match (own.cue, limit) {
                 // Of the tool that holds.
-                (Cue::Grasp | Cue::Lift, Some(limit)) => [0.0, limit, 1.5 * limit],
+                (Cue::Grasp | Cue::Lift | Cue::Reach, Some(limit)) if touch.holder.is_some() => {
+                    [0.0, limit, 1.5 * limit]
+                }
                 _ => {
                     let (low, high) = (
                         touch.force_n - touch.tolerance_n,
@@ -348,7 +350,7 @@ fn cue_words(cue: Cue, verb: &str) -> (String, Color32) {
         Cue::Turn => ("pull along the arrow".to_owned(), WARNING),
         Cue::Grasp => ("grasp the rim".to_owned(), WARNING),
         Cue::Lift => ("lift: organ in the way".to_owned(), WARNING),
-        Cue::Reach => ("touch the target".to_owned(), WARNING),
+        Cue::Reach => ("lift, then touch the target".to_owned(), WARNING),
     }
 }
 
