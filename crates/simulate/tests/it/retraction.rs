@@ -1,13 +1,15 @@
 //! The task of a lobe that hides what is to be touched: it hides it, the script uncovers it, and nothing else does.
 
-use palpate_files::scene::{Goal, TouchGoal};
-use palpate_files::{Pose, Scene};
+use palpate_files::scene::{Goal, Task, TouchGoal};
+use palpate_files::{Event, Events, Pose, Scene, SessionRow};
 use palpate_geometry::{AabbTree, Surface, Vec3};
-use palpate_simulate::performance::{Performance, Score, Status};
+use palpate_simulate::performance::{Cue, Outcome, Performance, Score, Status};
 use palpate_simulate::{
     Demonstration, Simulation, SimulationState, SimulationWorkspace, check_target, draw_variant,
     read_neighbour, read_organ, step,
 };
+
+use crate::performance::row;
 
 const TASK: &str = include_str!("../../../../assets/tasks/retraction.toml");
 
@@ -40,13 +42,14 @@ fn bodies() -> [(Surface, AabbTree); 2] {
 }
 
 /// In every variant the target lies on the stomach, the liver lies between it and the right trocar and between it and the
-/// eye, and nothing of the stomach does: what is in the way can be lifted. Judge: rays. 0 of 200 variants may fail.
+/// eye, and nothing of the stomach does: what is in the way can be lifted. Judge: rays. None of 60 variants may
+/// fail.
 #[test]
 fn the_lobe_hides_the_target() {
     let [(liver, around_liver), (stomach, around_stomach)] = bodies();
     let task = Scene::parse(TASK, "retraction.toml").unwrap();
     let tip = task.tools[1].tip.radius_m;
-    for seed in 0..200 {
+    for seed in 0..60 {
         let scene = draw_variant(&task, seed).unwrap();
         let target = Vec3::from(touch(&scene).target_m);
         let nearest = around_stomach.nearest(stomach.mesh(), &target);
@@ -231,4 +234,111 @@ fn a_target_in_the_air_is_refused() {
         "{words}"
     );
     assert!(Simulation::new(&scene).is_err());
+}
+
+/// A touch counts while the other tool holds the organ, neither tip nor shaft touch it, and place and force are right; one
+/// cue says what is missing. Judge: by hand, 5 mm around the origin and 0.15 ± 0.1 N.
+#[test]
+fn a_touch_counts_while_the_organ_is_out_of_the_way() {
+    let tools = ["left".to_owned(), "right".to_owned()];
+    let goal = TouchGoal {
+        tool: "right".to_owned(),
+        target_m: [0.0; 3],
+        tolerance_m: 0.005,
+        force_n: 0.15,
+        tolerance_n: 0.1,
+        hold_s: 2.0,
+        injury_force_n: Some(0.5),
+        holder: Some("left".to_owned()),
+        tear_force_n: Some(1.0),
+    };
+    let task = Task {
+        goal: Goal::Touch(goal),
+        ..Task::default()
+    };
+    let mut performance = Performance::new(&task, &tools);
+    let mut time = 0.0;
+    // A second of both tools: what happens to them at its beginning, and what the right one meets.
+    let mut second = |events: [Option<Event>; 2], right: SessionRow, pull: f64| {
+        for number in 0..=100 {
+            let at = time + 0.01 * f64::from(number);
+            let own = |event: Option<Event>| match event.filter(|_| number == 0) {
+                Some(event) => event.into(),
+                None => Events::NONE,
+            };
+            performance.add(&SessionRow {
+                events: own(events[0]),
+                force_n: [0.0, pull, 0.0],
+                contact: true,
+                ..row(at, Vec3::zeros())
+            });
+            performance.add(&SessionRow {
+                time_s: at,
+                tool: 1,
+                events: own(events[1]),
+                ..right
+            });
+        }
+        time += 1.01;
+        (performance.status(), performance.score().outcome)
+    };
+    let right = |x: f64, force: f64, contact: bool| SessionRow {
+        force_n: [force, 0.0, 0.0],
+        contact,
+        ..row(0.0, Vec3::x() * x)
+    };
+    let part = |status: Status| match status {
+        Status::GoesOn {
+            part: Some(part),
+            advice: Some(advice),
+        } => (part, advice.cue),
+        other => panic!("{other:?}"),
+    };
+    let none = [None, None];
+    let touches = right(0.004, 0.15, false);
+    assert_eq!(part(second(none, touches, 0.3).0), (0.0, Cue::Grasp));
+    let grasps = [Some(Event::Grip), Some(Event::ShaftContact)];
+    let (status, outcome) = second(grasps, touches, 0.3);
+    assert_eq!(part(status), (0.0, Cue::Lift));
+    assert!(matches!(outcome, Outcome::Touch { beside: None, .. }));
+    let lifted = [None, Some(Event::ShaftRelease)];
+    let far = second(lifted, right(0.006, 0.15, false), 0.3);
+    assert_eq!(part(far.0), (0.0, Cue::Reach));
+    assert!(
+        matches!(far.1, Outcome::Touch { beside: Some(beside), .. } if (beside - 0.006).abs() < 1e-12)
+    );
+    assert_eq!(
+        part(second(none, right(0.004, 0.04, false), 0.3).0).1,
+        Cue::More
+    );
+    assert_eq!(
+        part(second(none, right(0.004, 0.3, false), 0.3).0).1,
+        Cue::Less
+    );
+    assert_eq!(
+        part(second(none, right(0.004, 0.15, true), 0.3).0).1,
+        Cue::Lift
+    );
+    let (status, _) = second(none, touches, 0.3);
+    let (done, cue) = part(status);
+    assert!(
+        (done - 0.5).abs() < 1e-9 && cue == Cue::Hold,
+        "{done} {cue:?}"
+    );
+    let slips = [Some(Event::GripRelease), None];
+    assert_eq!(part(second(slips, touches, 0.3).0).1, Cue::Grasp);
+    let (status, outcome) = second([Some(Event::Grip), None], touches, 0.3);
+    assert_eq!(status, Status::Over { late: false });
+    assert_eq!(outcome.passed(), Some(true));
+    for (right, pull) in [(right(0.004, 0.6, false), 0.3), (touches, 1.1)] {
+        let mut harmed = Performance::new(&task, &tools);
+        harmed.add(&SessionRow {
+            events: Event::Grip.into(),
+            force_n: [0.0, pull, 0.0],
+            ..row(0.0, Vec3::zeros())
+        });
+        harmed.add(&SessionRow { tool: 1, ..right });
+        assert_eq!(harmed.status(), Status::Over { late: false });
+        assert_eq!(harmed.score().outcome.passed(), Some(false));
+    }
 }
