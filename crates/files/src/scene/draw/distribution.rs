@@ -205,20 +205,19 @@ impl Distribution {
 
     /// Refuses the surface of a neighbour that a scene with so many does not have.
     pub(super) fn check_neighbour(&self, count: usize) -> Result<(), Error> {
-        match &self.recipe {
-            Recipe::OnSurface(on) => match on.neighbour {
-                Some(number) if number >= count => Err(Error::BadValue {
-                    place: self.place.clone(),
-                    key: format!("draw.{}.on_surface.neighbour", self.name),
-                    found: (number + 1).to_string(),
-                    expected: format!(
-                        "the number of a `[[neighbour]]`, of which there are {count}"
-                    )
+        let neighbour = match &self.recipe {
+            Recipe::OnSurface(on) => on.neighbour,
+            _ => None,
+        };
+        match neighbour.filter(|number| *number >= count) {
+            None => Ok(()),
+            Some(number) => Err(Error::BadValue {
+                place: self.place.clone(),
+                key: format!("draw.{}.on_surface.neighbour", self.name),
+                found: (number + 1).to_string(),
+                expected: format!("the number of a `[[neighbour]]`, of which there are {count}")
                     .into(),
-                }),
-                _ => Ok(()),
-            },
-            _ => Ok(()),
+            }),
         }
     }
 
