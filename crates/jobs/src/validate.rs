@@ -114,7 +114,11 @@ fn scene(path: &Path) -> Result<Validated, Error> {
     let read = Scene::read(path)?;
     // A place that most variants have may be missing for some.
     let variants = (0..VARIANTS).map(|seed| palpate_simulate::draw_variant(&read, seed));
-    let scene = variants.collect::<Result<Vec<_>, _>>()?.swap_remove(0);
+    let mut variants = variants.collect::<Result<Vec<_>, _>>()?;
+    variants
+        .iter()
+        .try_for_each(palpate_simulate::check_target)?;
+    let scene = variants.swap_remove(0);
     let mut warnings = scene.warnings.clone();
     let (surface, said) = palpate_simulate::read_organ(&scene.organ.shape)?;
     warnings.extend(said);
@@ -145,7 +149,7 @@ fn scene(path: &Path) -> Result<Validated, Error> {
     }
     if kind == Kind::Task && scene.task.goal == Goal::Free {
         warnings.push(
-            "the task has no goal ([task.find], [task.traction] or [task.cut]): it ends when the trainee says so"
+            "the task has no goal ([task.find], [task.traction], [task.cut] or [task.touch]): it ends when the trainee says so"
                 .to_owned(),
         );
     }

@@ -36,7 +36,7 @@ def test_a_scripted_hand_leaves_a_session_that_plays_again(simulation: palpate.S
     times, places = columns["time_s"], np.column_stack([columns[f"{axis}_m"] for axis in "xyz"])
     recorded = np.column_stack([columns[f"f{axis}_n"] for axis in "xyz"])
     elapsed = np.diff(times, prepend=times[0])
-    again = [simulation.step(place, step)[0] for place, step in zip(places, elapsed)]
+    again = [simulation.step(place, step)[0] for place, step in zip(places, elapsed, strict=True)]
     assert np.linalg.norm(recorded, axis=1).max() > 0.0
     assert np.allclose(again, recorded, atol=1e-6)
     simulation.reset()

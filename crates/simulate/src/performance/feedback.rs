@@ -110,6 +110,29 @@ fn why_not(task: &Task, score: &Score) -> Phrase {
             _,
         ) => Phrase::filled("why-torn", [("mn", 1e3 * force)]),
         (Outcome::Traction { within, .. }, _) => Phrase::filled("why-short", [("s", *within)]),
+        (
+            Outcome::Touch {
+                torn: Some(force), ..
+            },
+            _,
+        ) => Phrase::filled("why-held-torn", [("mn", 1e3 * force)]),
+        (
+            Outcome::Touch {
+                injured: Some(force),
+                ..
+            },
+            _,
+        ) => Phrase::filled("why-injured", [("mn", 1e3 * force)]),
+        (Outcome::Touch { beside: None, .. }, _) => Phrase::plain("why-covered"),
+        (Outcome::Touch { within, .. }, _) if *within > 0.0 => {
+            Phrase::filled("why-touched-short", [("s", *within)])
+        }
+        (
+            Outcome::Touch {
+                beside: Some(off), ..
+            },
+            _,
+        ) => Phrase::filled("why-beside", [("mm", 1e3 * off)]),
         (Outcome::Cut { .. }, _) if perforated => Phrase::plain("why-perforated"),
         (Outcome::Cut { part, .. }, Goal::Cut { tolerance_m, .. }) => {
             let line = score.cut.and_then(|cut| cut.along_line);
@@ -160,6 +183,22 @@ fn good(task: &Task, score: &Score) -> Phrase {
             },
             _,
         ) => Phrase::filled("good-held", [("mn", 1e3 * error)]),
+        (
+            Outcome::Touch {
+                reached: true,
+                within,
+                ..
+            },
+            _,
+        ) => Phrase::filled("good-touched", [("s", *within)]),
+        (
+            Outcome::Touch {
+                beside: Some(_),
+                torn: None,
+                ..
+            },
+            None,
+        ) => Phrase::plain("good-clear"),
         (Outcome::Cut { clean: true, .. }, _) => Phrase::plain("good-cut"),
         (Outcome::Cut { part, .. }, _) if *part >= 0.5 => {
             Phrase::filled("good-part", [("percent", 100.0 * part)])
@@ -197,6 +236,15 @@ fn change(task: &Task, score: &Score) -> Phrase {
         }
         (Outcome::Traction { torn: Some(_), .. }, _) => "change-slower",
         (Outcome::Traction { held: false, .. }, _) => "change-grasp",
+        (Outcome::Touch { torn: Some(_), .. }, _) => "change-lift-slower",
+        (
+            Outcome::Touch {
+                injured: Some(_), ..
+            },
+            _,
+        ) => "change-come-slowly",
+        (Outcome::Touch { beside: None, .. }, _) => "change-lift",
+        (Outcome::Touch { reached: false, .. }, _) => "change-stay",
         (Outcome::Cut { .. }, _) if perforated => "change-shallower",
         (Outcome::Cut { clean: false, part }, Goal::Cut { .. }) if *part < 0.97 => "change-uncut",
         (Outcome::Cut { clean: false, .. }, _) => "change-line",

@@ -3,7 +3,7 @@
 use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Align2, Color32, Frame, Margin, RichText, Ui, Vec2};
 use palpate_files::scene::Goal;
-use palpate_simulate::performance::{PullCue, Status};
+use palpate_simulate::performance::{Cue, Status};
 
 use super::attempt::{Attempt, Phase, Unsaved};
 use super::diameter;
@@ -175,6 +175,12 @@ fn facts(attempt: &Attempt) -> Vec<String> {
             tolerance = (1e3 * tolerance_n).round(),
             s = hold_s.round()
         ),
+        Goal::Touch(touch) => text!(
+            "fact-touch",
+            mn = (1e3 * touch.force_n).round(),
+            tolerance = (1e3 * touch.tolerance_n).round(),
+            s = touch.hold_s.round()
+        ),
         Goal::Cut { .. } => text!("fact-cut"),
     }];
     if let Some(limit) = task.time_limit_s {
@@ -276,17 +282,33 @@ fn gauge(ui: &mut Ui, attempt: &Attempt) {
                 tolerance_n,
                 ..
             },
-            Status::GoesOn { pull, .. },
+            Status::GoesOn { advice, .. },
         ) => {
-            let (force, cue) = pull.map_or((0.0, PullCue::More), |own| (own.force, own.cue));
-            let words = match cue {
-                PullCue::Hold => ("cue-hold", DEPTH),
-                PullCue::More => ("cue-harder", WARNING),
-                PullCue::Less => ("cue-less", FAULT),
-                PullCue::Turn => ("cue-turn", WARNING),
-            };
+            let (force, cue) = advice.map_or((0.0, Cue::More), |own| (own.force, own.cue));
             let band = [force_n - tolerance_n, force_n + tolerance_n, 2.0 * force_n];
-            (band, force, words)
+            (band, force, cue_words(cue, ["cue-harder", "cue-less"]))
+        }
+        (
+            Goal::Touch(touch),
+            Status::GoesOn {
+                advice: Some(own), ..
+            },
+        ) => {
+            let limit = attempt.task.force_limit_n.or(touch.tear_force_n);
+            let band = match (own.cue, limit) {
+                // Of the tool that holds.
+                (Cue::Grasp | Cue::Lift | Cue::Reach, Some(limit)) if touch.holder.is_some() => {
+                    [0.0, limit, 1.5 * limit]
+                }
+                _ => {
+                    let (low, high) = (
+                        touch.force_n - touch.tolerance_n,
+                        touch.force_n + touch.tolerance_n,
+                    );
+                    [low.max(0.0), high, 1.5 * high]
+                }
+            };
+            (band, own.force, cue_words(own.cue, ["cue-press-harder", "cue-press-less"]))
         }
         _ => {
             let Some(limit) = attempt.task.force_limit_n else {
@@ -333,6 +355,19 @@ fn gauge(ui: &mut Ui, attempt: &Attempt) {
         FAULT
     };
     painter.vline(at(force), rect.y_range(), egui::Stroke::new(5.0, color));
+}
+
+/// The phrase of a cue, with those for more and less of the force that counts, and its color.
+fn cue_words(cue: Cue, [more, less]: [&'static str; 2]) -> (&'static str, Color32) {
+    match cue {
+        Cue::Hold => ("cue-hold", DEPTH),
+        Cue::More => (more, WARNING),
+        Cue::Less => (less, FAULT),
+        Cue::Turn => ("cue-turn", WARNING),
+        Cue::Grasp => ("cue-grasp", WARNING),
+        Cue::Lift => ("cue-lift", WARNING),
+        Cue::Reach => ("cue-reach", WARNING),
+    }
 }
 
 pub(super) fn trouble(ui: &mut Ui, attempt: &Attempt) {

@@ -1,12 +1,12 @@
 //! The start screen: what there is to do, who does it, how it went so far, and what this is not.
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{self, Frame, Margin, RichText, Ui};
+use eframe::egui::{self, Frame, Margin, RichText, TextureHandle, Ui};
 use egui_plot::{Line, PlotPoints, Points};
 
 use super::page::{self, or_key, quiet};
 use super::texts::{of_task, text};
-use super::training::{Assigned, PastResult, Training};
+use super::training::{Assigned, OfferedTask, PastResult, Training};
 use crate::style::{CARD, DEPTH, FAULT, QUIET, WARNING, WHITE};
 
 /// What was chosen on the start screen.
@@ -33,6 +33,8 @@ pub(super) struct Home {
     results: Option<(String, Result<Vec<PastResult>, String>)>,
     /// What they shall do.
     assigned: Vec<Assigned>,
+    /// The pictures of the tasks, once they are shown.
+    pictures: Vec<Option<TextureHandle>>,
 }
 
 impl Home {
@@ -80,24 +82,33 @@ impl Home {
 
     fn tasks(&mut self, ui: &mut Ui, training: &Training, chosen: &mut Option<Chosen>) {
         page::heading(ui, &text!("common-tasks"));
+        if self.pictures.len() != training.tasks.len() {
+            let pictures = training.tasks.iter();
+            self.pictures = pictures.map(|task| texture(ui, task)).collect();
+        }
+        let pictures = self.pictures.clone();
         let results = self.results(training);
-        for (number, scene) in training.tasks.iter().enumerate() {
-            let named = scene.task.title.as_deref();
-            let own = results.iter().flatten();
-            let own = own.filter(|result| Some(result.task.as_str()) == named);
+        for (number, (task, picture)) in training.tasks.iter().zip(&pictures).enumerate() {
+            let own = &task.scene.task;
+            let named = own.title.as_deref();
+            let past = results.iter().flatten();
+            let past = past.filter(|result| Some(result.task.as_str()) == named);
             let title = named.map_or_else(|| text!("common-untitled"), of_task);
-            let words = scene.task.instructions.as_deref().map(of_task);
-            let words = words.unwrap_or_default();
-            if entry(ui, &title, &words, standing(&own.collect::<Vec<_>>())) {
+            let shown = Shown {
+                words: own.instructions.as_deref().map(of_task).unwrap_or_default(),
+                standing: standing(&past.collect::<Vec<_>>()),
+                picture: picture.as_ref(),
+            };
+            if entry(ui, &title, &shown) {
                 *chosen = Some(Chosen::Task(number));
             }
         }
-        if entry(
-            ui,
-            &text!("common-free-play"),
-            &text!("home-free-hint"),
-            None,
-        ) {
+        let shown = Shown {
+            words: text!("home-free-hint"),
+            standing: None,
+            picture: None,
+        };
+        if entry(ui, &text!("common-free-play"), &shown) {
             *chosen = Some(Chosen::Free);
         }
     }
@@ -178,8 +189,29 @@ fn standing(own: &[&PastResult]) -> Option<(String, bool)> {
     Some((words, passed > 0))
 }
 
+/// The picture of a task, for the screen.
+fn texture(ui: &Ui, task: &OfferedTask) -> Option<TextureHandle> {
+    let picture = task.picture.as_ref()?;
+    let size = picture.size.map(|length| length as usize);
+    let image = egui::ColorImage::from_rgba_unmultiplied(size, &picture.pixels);
+    let name = task.scene.task.title.clone().unwrap_or_default();
+    let options = egui::TextureOptions::LINEAR;
+    Some(ui.ctx().load_texture(name, image, options))
+}
+
+/// What is shown of a thing to choose, below its title.
+struct Shown<'a> {
+    words: String,
+    /// How it went so far, and whether it was ever done.
+    standing: Option<(String, bool)>,
+    picture: Option<&'a TextureHandle>,
+}
+
+/// Height of the picture of a task [points].
+const PICTURE: f32 = 92.0;
+
 /// One thing to choose. Whether it was.
-fn entry(ui: &mut Ui, title: &str, words: &str, standing: Option<(String, bool)>) -> bool {
+fn entry(ui: &mut Ui, title: &str, shown: &Shown<'_>) -> bool {
     let frame = Frame::new()
         .fill(CARD)
         .corner_radius(6.0)
@@ -199,14 +231,21 @@ fn entry(ui: &mut Ui, title: &str, words: &str, standing: Option<(String, bool)>
                 clicked = button.clicked();
             });
         });
-        // A column would stretch its lines.
-        ui.with_layout(egui::Layout::top_down(egui::Align::LEFT), |ui| {
-            ui.label(RichText::new(words).color(QUIET));
+        ui.horizontal_top(|ui| {
+            if let Some(picture) = shown.picture {
+                let size = picture.size_vec2();
+                let size = size * (PICTURE / size.y.max(1.0));
+                ui.add(egui::Image::new((picture.id(), size)).corner_radius(4.0));
+            }
+            // A column would stretch its lines.
+            ui.with_layout(egui::Layout::top_down(egui::Align::LEFT), |ui| {
+                ui.label(RichText::new(&shown.words).color(QUIET));
+                if let Some((standing, passed)) = &shown.standing {
+                    let color = if *passed { DEPTH } else { WARNING };
+                    ui.label(RichText::new(standing).small().color(color));
+                }
+            });
         });
-        if let Some((standing, passed)) = standing {
-            let color = if passed { DEPTH } else { WARNING };
-            ui.label(RichText::new(standing).small().color(color));
-        }
     });
     // The whole card opens.
     // Its button has the keyboard's focus already.

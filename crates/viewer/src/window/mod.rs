@@ -17,6 +17,7 @@ mod cards;
 mod choice;
 mod class_page;
 mod compared;
+mod covered;
 mod diameter;
 mod display;
 mod enhancement;

@@ -222,6 +222,11 @@ impl Picture {
                     over.arrow(&Vec3::from(pose.position_m), &Vec3::from(*direction));
                 }
             }
+            Goal::Touch(touch) => {
+                let target = Vec3::from(touch.target_m);
+                let is_covered = play.covers(&target, &camera.eye);
+                over.target(&target, touch.tolerance_m, is_covered);
+            }
             Goal::Find { target_m, .. } if attempt.is_over() => {
                 for nodule in &play.scene.organ.nodules {
                     let middle = Vec3::from(nodule.center_m);

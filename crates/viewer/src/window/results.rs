@@ -86,6 +86,12 @@ fn forces(ui: &mut Ui, attempt: &Attempt) {
             tolerance_n,
             ..
         } => vec![force_n - tolerance_n, force_n + tolerance_n],
+        Goal::Touch(touch) => attempt
+            .task
+            .force_limit_n
+            .or(touch.tear_force_n)
+            .into_iter()
+            .collect(),
         _ => attempt.task.force_limit_n.into_iter().collect(),
     };
     let words = text!(match lines.len() {

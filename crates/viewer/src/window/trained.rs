@@ -31,7 +31,7 @@ impl SimulatorWindow {
         let context = ui.ctx().clone();
         let scene = match chosen {
             None => return,
-            Some(Chosen::Task(number)) => training.tasks[number].clone(),
+            Some(Chosen::Task(number)) => training.tasks[number].scene.clone(),
             Some(Chosen::Class) => {
                 let titles = training.tasks.iter();
                 let titles = titles.filter_map(|scene| scene.task.title.clone());
