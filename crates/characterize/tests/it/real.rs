@@ -109,7 +109,8 @@ fn real_force_microscopy_is_read_by_the_name_of_its_height() {
     }
 }
 
-/// Judge: the instrument's own column of indentation, which is zero until it touches.
+/// Judge: the instrument's own column of indentation, which is above zero from a displacement of 73.08 µm on, where its
+/// threshold of force is reached; the sensor's zero rises by 1 nN of 49 nN before. Tolerance: 3 of the stated errors.
 #[test]
 fn real_optical_indentation_is_read_without_a_word() {
     let Some(folder) = data::folder() else {
@@ -119,8 +120,13 @@ fn real_optical_indentation_is_read_without_a_word() {
         &folder.join("afm/chiaro_AEBP1_Indentation_002.txt"),
         &ForeignColumns::default(),
     );
-    assert!(clean.depth.iter().all(|depth| depth.is_finite()));
     assert_eq!(clean.segments[0].kind, Ramp);
+    let contact = clean.handling.contact;
+    println!("{contact:?}");
+    let error = contact.depth_error_m.unwrap();
+    let off = 73.08e-6 - contact.depth_m;
+    assert!((0.0..3.0 * error).contains(&off) && error < 1.5e-6, "{contact:?}");
+    assert!(contact.drift_n_per_s.unwrap() > 0.0);
 }
 
 /// Judge: the tables themselves.
