@@ -194,7 +194,9 @@ impl<'s> Search<'s> {
     fn left(&self, place: usize) -> Vec<f64> {
         let before = self.before(place);
         let both = self.samples.time.iter().zip(&self.samples.force);
-        both.take(place + 1).map(|(t, f)| f - before.at(*t)).collect()
+        both.take(place + 1)
+            .map(|(t, f)| f - before.at(*t))
+            .collect()
     }
 
     /// −2 log likelihood of the contact at `place`, but for a constant.

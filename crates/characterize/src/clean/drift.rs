@@ -15,9 +15,7 @@
 
 use super::Oriented;
 use super::contact::{Contact, RISES, early_end, thinned};
-use super::contact_search::{
-    Baseline, CHI_SQUARED, ENOUGH_FOR_DRIFT, Search, correlation, range,
-};
+use super::contact_search::{Baseline, CHI_SQUARED, ENOUGH_FOR_DRIFT, Search, correlation, range};
 use super::regression::{Regression, regress};
 
 /// Parts of the rise of the force that are looked at, first and then [-].
@@ -70,7 +68,11 @@ impl Line {
     /// Whether it is certain, and slow next to the rise of the force after `place`.
     fn is_drift(&self, samples: &Oriented, place: usize) -> bool {
         let zero = self.at(samples.time[place]);
-        let largest = samples.force.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let largest = samples
+            .force
+            .iter()
+            .copied()
+            .fold(f64::NEG_INFINITY, f64::max);
         let half = 0.5 * (largest - zero);
         let after = samples.time[place..].iter().zip(&samples.force[place..]);
         let reaches = after.clone().find(|(_, force)| **force - zero >= half);
@@ -95,7 +97,11 @@ pub(super) fn contact(samples: &Oriented, rises: &[fn(f64) -> f64]) -> Option<Co
     if !first.is_drift(samples, place) || gain <= CHI_SQUARED * first.correlated {
         return None;
     }
-    let deepest = samples.depth.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let deepest = samples
+        .depth
+        .iter()
+        .copied()
+        .fold(f64::NEG_INFINITY, f64::max);
     let mut error = line.error;
     let mut from = 0;
     for _ in 0..ROUNDS {

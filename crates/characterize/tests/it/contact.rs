@@ -81,8 +81,9 @@ impl Drifting {
 }
 
 /// Judge: the depth at which the made-up force begins, for a flat face, a sphere and a cone of which nothing is known. Before,
-/// each of these contacts was found 1 to 3 depths of the press too early. Tolerance: 4 % of the depth of the press, by which the
-/// three powers differ within the noise; the stated 95 % intervals contain the truth in at least 90 % of all cases.
+/// each of these contacts was found 1 to 3 depths of the press too early. Tolerance: three of the stated errors, which must be below
+/// 7 % of the depth of the press (a cone raises the force above the noise of 0.2 % after 4 %); the stated 95 % intervals contain
+/// the truth in at least 90 % of all cases.
 #[test]
 fn contact_is_found_over_a_drift() {
     let (mut all, mut covered) = (0, 0);
@@ -108,12 +109,13 @@ fn contact_is_found_over_a_drift() {
                         .handling
                         .contact;
                     let off = contact.depth_m - touch;
+                    let error = contact.depth_error_m.unwrap();
                     assert!(
-                        off.abs() < 0.04 * 1.5e-3,
+                        off.abs() < 3.0 * error && error < 0.07 * 1.5e-3,
                         "{rate} Hz, power {power}, {drift} N, {correlation_s} s, seed {seed}: off by {off} m: {contact:?}"
                     );
                     all += 1;
-                    covered += usize::from(off.abs() < 1.96 * contact.depth_error_m.unwrap());
+                    covered += usize::from(off.abs() < 1.96 * error);
                 }
             }
         }
@@ -131,7 +133,10 @@ fn soft_beginning_of_tissue_is_no_drift() {
         depth + 4.0 * (depth - 0.03).max(0.0) + 1e-5 * dice.normal()
     };
     let recording = foreign(&own(&times(100.0, 6.0), |t| 1e-2 * t, force));
-    let contact = clean(&recording, &CleanSettings::default()).unwrap().handling.contact;
+    let contact = clean(&recording, &CleanSettings::default())
+        .unwrap()
+        .handling
+        .contact;
     assert_eq!(contact.drift_n_per_s, None);
     assert!(contact.depth_m < 1e-3, "{contact:?}");
 }

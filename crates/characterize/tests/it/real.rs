@@ -125,7 +125,10 @@ fn real_optical_indentation_is_read_without_a_word() {
     println!("{contact:?}");
     let error = contact.depth_error_m.unwrap();
     let off = 73.08e-6 - contact.depth_m;
-    assert!((0.0..3.0 * error).contains(&off) && error < 1.5e-6, "{contact:?}");
+    assert!(
+        (0.0..3.0 * error).contains(&off) && error < 1.5e-6,
+        "{contact:?}"
+    );
     assert!(contact.drift_n_per_s.unwrap() > 0.0);
 }
 
