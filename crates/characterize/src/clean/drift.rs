@@ -74,8 +74,8 @@ impl Line {
             .copied()
             .fold(f64::NEG_INFINITY, f64::max);
         let half = 0.5 * (largest - zero);
-        let after = samples.time[place..].iter().zip(&samples.force[place..]);
-        let reaches = after.clone().find(|(_, force)| **force - zero >= half);
+        let mut after = samples.time[place..].iter().zip(&samples.force[place..]);
+        let reaches = after.find(|(_, force)| **force - zero >= half);
         let Some((time, _)) = reaches.filter(|_| half > 0.0) else {
             return false;
         };

@@ -82,7 +82,7 @@ impl Drifting {
 
 /// Judge: the depth at which the made-up force begins, for a flat face, a sphere and a cone of which nothing is known. Before,
 /// each of these contacts was found 1 to 3 depths of the press too early. Tolerance: three of the stated errors, which must be below
-/// 7 % of the depth of the press (a cone raises the force above the noise of 0.2 % after 4 %); the stated 95 % intervals contain
+/// 10 % of the depth of the press, where the force of a cone is five deviations of the noise; the stated 95 % intervals contain
 /// the truth in at least 90 % of all cases.
 #[test]
 fn contact_is_found_over_a_drift() {
@@ -111,7 +111,7 @@ fn contact_is_found_over_a_drift() {
                     let off = contact.depth_m - touch;
                     let error = contact.depth_error_m.unwrap();
                     assert!(
-                        off.abs() < 3.0 * error && error < 0.07 * 1.5e-3,
+                        off.abs() < 3.0 * error && error < 0.1 * 1.5e-3,
                         "{rate} Hz, power {power}, {drift} N, {correlation_s} s, seed {seed}: off by {off} m: {contact:?}"
                     );
                     all += 1;
