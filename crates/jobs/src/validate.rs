@@ -82,7 +82,7 @@ pub fn validate(path: &Path) -> Result<Validated, Error> {
         Some("stl" | "obj" | "ply" | "gltf" | "glb") => mesh(path),
         _ => Err(Error::input(format!(
             "{}: the end of its name says none of what is read here: .toml (scene, task, tissue, protocol, problem), \
-             .csv, .tsv or .txt (motion, recording, session), .jpk-force, .jpk-force-map, .jpk-qi-data or .jpk-qi-series (recordings), .stl, \
+             .csv, .tsv or .txt (motion, recording, session), .jpk-force, .jpk-force-map, .jpk-qi-data, .jpk-qi-series, .ibw or .nid (recordings), .stl, \
              .obj, .ply, .gltf or .glb (mesh)",
             path.display()
         ))),

@@ -64,8 +64,8 @@ impl Alike<'_> {
             ..
         } = self;
         match self.is_same {
-            true => format!("{times} times, of {count} specimens: {warning}"),
-            false => format!("{times} times, of {count} specimens, such as {title}: {warning}"),
+            true => format!("{times} times in {count} specimens: {warning}"),
+            false => format!("{times} times in {count} specimens, such as {title}: {warning}"),
         }
     }
 }
@@ -73,8 +73,13 @@ impl Alike<'_> {
 /// A warning with one sign in place of each number.
 fn without_numbers(warning: &str) -> String {
     let mut plain = String::with_capacity(warning.len());
-    for letter in warning.chars() {
-        let is_of_number = letter.is_ascii_digit() || matches!(letter, '.' | '-' | '+' | '−');
+    let mut letters = warning.chars().peekable();
+    while let Some(letter) = letters.next() {
+        let is_sign = matches!(letter, '-' | '+' | '−');
+        if is_sign && letters.peek().is_some_and(char::is_ascii_digit) {
+            continue;
+        }
+        let is_of_number = letter.is_ascii_digit() || letter == '.';
         match is_of_number && plain.ends_with('#') {
             true => {}
             false if letter.is_ascii_digit() => plain.push('#'),
@@ -90,7 +95,7 @@ mod tests {
 
     #[test]
     fn numbers_do_not_tell_warnings_apart() {
-        let [a, b] = ["at 0.25 s, -1.5e-6 m", "at 13 s, -2e-10 m"].map(without_numbers);
+        let [a, b] = ["at 0.25 s, -1.5e-6 m", "at 13 s, 2e+10 m"].map(without_numbers);
         assert_eq!(a, b);
         assert_ne!(a, without_numbers("at 0.25 N"));
     }
