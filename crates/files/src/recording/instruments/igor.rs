@@ -117,7 +117,7 @@ pub(super) fn read(file: &InstrumentFile<'_>) -> Result<Recording, Error> {
     let missing = || {
         file.damaged(
             format!("the wave with the columns {}", labels.join(", ")),
-            "lacks the position of the base (ZSnsr or Raw) or the deflection (Defl); save both in one wave, or name the position by --depth",
+            "lacks the deflection (Defl) or the position of the base (ZSnsr or Raw, or one that --depth names)",
         )
     };
     let (name, position) = position.ok_or_else(missing)?;
@@ -190,7 +190,7 @@ fn contents(file: &InstrumentFile<'_>) -> Result<Contents, Error> {
     };
     if wave.short(0) != Some(5) {
         return Err(damaged(
-            "is of a version before 5, which holds one column; save deflection and position in one wave",
+            "is of a version before 5, with one column, and a force curve has its deflection and its position in one wave",
         ));
     }
     match wave.checksum() {

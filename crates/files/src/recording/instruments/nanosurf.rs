@@ -238,7 +238,7 @@ impl Curves<'_> {
             None => POSITIONS.into_iter().find(|name| is_there(name)),
         };
         found.ok_or_else(|| {
-            let cause = "is not there in metres; name another by --depth, such as `Z-Axis`";
+            let cause = "is not there in metres (--depth names another, such as `Z-Axis`)";
             self.file
                 .damaged("the channel of the base's position", cause)
         })
