@@ -18,13 +18,13 @@ const DEFLECTIONS: [f64; 4] = [-1e-9, -1e-9, 4e-8, 1e-8];
 const SPRING_CONSTANT: f64 = 0.5;
 
 fn check(recording: &Recording, tolerance: f64) {
-    for place in 0..POSITIONS.len() {
-        let tip = |place: usize| POSITIONS[place] - DEFLECTIONS[place];
+    let tip = |place: usize| POSITIONS[place] - DEFLECTIONS[place];
+    for (place, deflection) in DEFLECTIONS.iter().enumerate() {
         let depth = recording.depth_m()[place];
         assert!((depth - (tip(place) - tip(0))).abs() < tolerance, "{depth}");
         let force = recording.force_n()[place];
         assert!(
-            (force - SPRING_CONSTANT * DEFLECTIONS[place]).abs() < tolerance,
+            (force - SPRING_CONSTANT * deflection).abs() < tolerance,
             "{force}"
         );
     }
