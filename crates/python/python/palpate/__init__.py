@@ -23,7 +23,7 @@ from palpate._palpate import (
     isosurface,
 )
 from palpate.errors import InputError, PalpateError
-from palpate.fits import Characterization, FittedRecording, Law, Parameter, Relaxation, Specimen
+from palpate.fits import Characterization, Specimen
 from palpate.jobs import (
     Analysis,
     Design,
@@ -37,6 +37,7 @@ from palpate.jobs import (
     precompute,
     solve,
 )
+from palpate.laws import FittedRecording, Law, Parameter, Relaxation
 
 __all__ = [
     "Analysis",
