@@ -308,7 +308,11 @@ fn gauge(ui: &mut Ui, attempt: &Attempt) {
                     [low.max(0.0), high, 1.5 * high]
                 }
             };
-            (band, own.force, cue_words(own.cue, ["cue-press-harder", "cue-press-less"]))
+            (
+                band,
+                own.force,
+                cue_words(own.cue, ["cue-press-harder", "cue-press-less"]),
+            )
         }
         _ => {
             let Some(limit) = attempt.task.force_limit_n else {

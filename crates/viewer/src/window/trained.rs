@@ -34,7 +34,7 @@ impl SimulatorWindow {
             Some(Chosen::Task(number)) => training.tasks[number].scene.clone(),
             Some(Chosen::Class) => {
                 let titles = training.tasks.iter();
-                let titles = titles.filter_map(|scene| scene.task.title.clone());
+                let titles = titles.filter_map(|task| task.scene.task.title.clone());
                 let page = ClassPage::new(training.record.class(), titles.collect());
                 self.class_page = Some(page);
                 return;
