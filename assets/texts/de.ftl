@@ -53,7 +53,7 @@ home-assigned =
         [one] einmal
        *[other] { $passes }-mal
     } bestehen bis { $due }; bisher { $passed }-mal
-home-limits = Was dieses Programm nicht leistet: Es gibt keine Blutung, keinen Rauch und keine Naht; Nachbarorgane halten nur die Spitzen der Instrumente auf; eine Maus gibt keine Kraft wieder. Es ist kein zugelassenes Medizinprodukt, und keine Studie hat gezeigt, dass ein Ergebnis hier eines im Operationssaal vorhersagt.
+home-limits = Was dieses Programm nicht leistet: Es gibt keine Blutung, keinen Rauch und keine Naht; Nachbarorgane halten die Spitzen der Instrumente und ein Organ, das sich verformt, auf, aber keine Schäfte; eine Maus gibt keine Kraft wieder. Es ist kein zugelassenes Medizinprodukt, und keine Studie hat gezeigt, dass ein Ergebnis hier eines im Operationssaal vorhersagt.
 standing-done = erledigt
 standing-open = offen
 standing-late = überfällig

@@ -58,7 +58,7 @@ home-assigned =
         [one] once
        *[other] { $passes } times
     } by { $due }; { $passed } so far
-home-limits = What this program does not do: there is no bleeding, no smoke and no suturing; neighbouring organs stop the tips of tools and nothing else; a mouse displays no force. It is not a certified medical device, and no study has shown that a score here predicts one in an operating room.
+home-limits = What this program does not do: there is no bleeding, no smoke and no suturing; neighbouring organs stop the tips of tools, and an organ that bends, but no shafts; a mouse displays no force. It is not a certified medical device, and no study has shown that a score here predicts one in an operating room.
 standing-done = done
 standing-open = open
 standing-late = late

@@ -1,6 +1,6 @@
 //! An organ that hands touch through devices, on the machine's clock, while Python looks on.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
@@ -57,12 +57,12 @@ pub(crate) struct Teleoperation {
 #[pymethods]
 impl Teleoperation {
     #[new]
-    #[pyo3(signature = (simulation, folder=None, *, devices=HashMap::new(), overwrite=false), text_signature = "(simulation, folder=None, *, devices={}, overwrite=False)")]
+    #[pyo3(signature = (simulation, folder=None, *, devices=BTreeMap::new(), overwrite=false), text_signature = "(simulation, folder=None, *, devices={}, overwrite=False)")]
     fn new(
         py: Python<'_>,
         simulation: &Simulation,
         folder: Option<PathBuf>,
-        devices: HashMap<String, String>,
+        devices: BTreeMap<String, String>,
         overwrite: bool,
     ) -> Result<Self, Failure> {
         let model = simulation.model.clone();
@@ -218,6 +218,7 @@ impl Teleoperation {
     /// cut : bool
     ///     Whether the blade cuts.
     #[pyo3(name = "move", signature = (tool, position, *, orientation=None, grip=0.0, cut=false))]
+    #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
     fn move_to(
         &mut self,
         tool: &str,
