@@ -235,7 +235,8 @@ fn entry(ui: &mut Ui, title: &str, shown: &Shown<'_>) -> bool {
             if let Some(picture) = shown.picture {
                 let size = picture.size_vec2();
                 let size = size * (PICTURE / size.y.max(1.0));
-                ui.add(egui::Image::new((picture.id(), size)).corner_radius(4.0));
+                let image = egui::Image::new((picture.id(), size)).alt_text(title);
+                ui.add(image.corner_radius(4.0));
             }
             // A column would stretch its lines.
             ui.with_layout(egui::Layout::top_down(egui::Align::LEFT), |ui| {

@@ -15,8 +15,8 @@ use super::seen::Seen;
 use super::settings::{CacheUse, NamedFolder, SettingsKeeper, WindowSettings};
 use super::texts::text;
 use super::training::{
-    Assigned, Class, NewAssignment, PastResult, TaskProgress, TraineeProgress, Training,
-    TrainingRecord, TrainingResult,
+    Assigned, Class, NewAssignment, OfferedTask, PastResult, TaskPicture, TaskProgress,
+    TraineeProgress, Training, TrainingRecord, TrainingResult,
 };
 use super::{SimulatorWindow, Start, WindowOptions};
 
@@ -155,7 +155,13 @@ impl Used {
             way_out: free.clone(),
             resources: palpate_simulate::Resources::default(),
             training: Some(Training {
-                tasks: vec![scene],
+                tasks: vec![OfferedTask {
+                    scene,
+                    picture: Some(TaskPicture {
+                        pixels: vec![128; 16],
+                        size: [2, 2],
+                    }),
+                }],
                 free,
                 sessions: folder.path().to_owned(),
                 trainee: "Anna".to_owned(),
