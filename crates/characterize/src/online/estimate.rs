@@ -1,5 +1,6 @@
 use std::fmt;
 
+use palpate_files::Estimate;
 use palpate_files::quantity::plain_quantity;
 use serde::Serialize;
 
@@ -111,7 +112,7 @@ impl fmt::Display for OnlineEstimate {
 pub(super) struct Fitted {
     pressed: PressedRelaxation,
     law: LawDescription,
-    /// What two terms in place of one would change of the modulus [Pa].
+    /// Standard error of the modulus because one term is fitted where there may be two [Pa].
     by_second_term: f64,
     /// Length of the record that was searched from everywhere last [s].
     searched: f64,
@@ -149,11 +150,11 @@ impl Fitted {
         if let Some(series) = &pressed.two_terms {
             let other = law_fit(curves, &[indentation], series).ok()?;
             let other = LawDescription::by(other, &[indentation], Effort::QUICK);
-            let values = [&law, &other].map(|law| law.parameters.first().map(|own| own.1.value));
-            let [Some(own), Some(other)] = values else {
+            let moduli = [&law, &other].map(|law| law.parameters.first().map(|own| own.1));
+            let [Some(own), Some(other)] = moduli else {
                 return None;
             };
-            by_second_term = (own - other).abs();
+            by_second_term = missing_term(&own, &other)?;
         }
         Some(Self {
             pressed,
@@ -189,10 +190,6 @@ impl Fitted {
             let (value, known) = all.next().unwrap_or((f64::NAN, None));
             let value = Some(value).filter(|value| value.is_finite());
             let half = known.map(|(quantile, error)| quantile * error);
-            let half = half.map(|half| match name {
-                "c10_pa" => half + self.by_second_term,
-                _ => half,
-            });
             let is_telling =
                 |half: &f64| value.is_some_and(|value| (0.0..value.abs()).contains(half));
             let half = half.filter(is_telling);
@@ -212,4 +209,12 @@ impl Fitted {
         }
         found
     }
+}
+
+/// Standard error of a modulus that was found with one term because there may be two [Pa], from both moduli: how far they are
+/// apart, and how well that is known, whose variance is the difference of theirs [Hausman 1978]. A second term that ends on
+/// its bound leaves the moduli alike, which does not show that it is absent. None where an error is not known.
+fn missing_term(one: &Estimate, two: &Estimate) -> Option<f64> {
+    let more = two.standard_error?.powi(2) - one.standard_error?.powi(2);
+    Some((one.value - two.value).hypot(more.max(0.0).sqrt()))
 }
