@@ -60,6 +60,8 @@ namespace Palpate
         OpensLayer5 = 1u << 19,
         /// <summary>It opens the sixth layer from outside.</summary>
         OpensLayer6 = 1u << 20,
+        /// <summary>Its shaft no longer touches the organ.</summary>
+        ShaftRelease = 1u << 21,
     }
 
     /// <summary>Three numbers along x, y and z.</summary>

@@ -110,6 +110,11 @@
 #define PALPATE_EVENT_OPENS_LAYER_6 (1 << 20)
 
 /**
+ * Its shaft no longer touches the organ.
+ */
+#define PALPATE_EVENT_SHAFT_RELEASE (1 << 21)
+
+/**
  * The version of this header.
  */
 #define PALPATE_VERSION_MAJOR 0

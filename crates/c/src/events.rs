@@ -38,6 +38,8 @@ pub const PALPATE_EVENT_OPENS_LAYER_4: u32 = 1 << 18;
 pub const PALPATE_EVENT_OPENS_LAYER_5: u32 = 1 << 19;
 /// It opens the sixth layer from outside.
 pub const PALPATE_EVENT_OPENS_LAYER_6: u32 = 1 << 20;
+/// Its shaft no longer touches the organ.
+pub const PALPATE_EVENT_SHAFT_RELEASE: u32 = 1 << 21;
 
 /// The bit of an event: none for what a caller has done itself.
 fn bit(event: Event) -> u32 {
@@ -61,6 +63,7 @@ fn bit(event: Event) -> u32 {
         Event::OpensLayer4 => PALPATE_EVENT_OPENS_LAYER_4,
         Event::OpensLayer5 => PALPATE_EVENT_OPENS_LAYER_5,
         Event::OpensLayer6 => PALPATE_EVENT_OPENS_LAYER_6,
+        Event::ShaftRelease => PALPATE_EVENT_SHAFT_RELEASE,
     }
 }
 

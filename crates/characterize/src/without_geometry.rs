@@ -1,4 +1,3 @@
-use palpate_files::quantity::plain_quantity;
 use palpate_files::tissue::Lumped;
 
 use crate::analyze::{Hold, holds};
@@ -29,10 +28,6 @@ pub struct WithoutGeometry {
 
 /// Depths that differ by less than this part are one [-].
 const ALIKE: f64 = 0.05;
-/// Contacts that are farther apart than this part of the depth differ [-]: the force of a sphere then by a sixth.
-const APART: f64 = 0.1;
-/// Less than this part of the largest force is none [-].
-const FREE: f64 = 0.02;
 /// Depths of holds that make a static response.
 const STATIC: usize = 3;
 /// Samples of a recording that are enough for springs.
@@ -75,17 +70,8 @@ impl WithoutGeometry {
         let springs = self.springs.iter().flat_map(|found| &found.warnings);
         let column = column.map(|warning| format!("column: {warning}"));
         let springs = springs.map(|warning| format!("nonlinear_springs: {warning}"));
-        let apart = self.linear_elastic.iter().filter_map(|found| {
-            let off = found.contact_m.value;
-            (off > APART * found.depth_m && found.before.abs() < FREE).then(|| {
-                let off = plain_quantity("contact_m", off, None);
-                format!(
-                    "linear_elastic: linear elastic contact begins {off} deeper than the first contact from which relaxation \
-                     and laws count, with hardly any force before it: if the tissue was not touched there yet, they are \
-                     wrong; cut off what precedes contact, or use --closed-forms"
-                )
-            })
-        });
+        let apart = self.linear_elastic.as_ref().ok();
+        let apart = apart.and_then(ElasticContact::warning);
         column.chain(springs).chain(apart).collect()
     }
 

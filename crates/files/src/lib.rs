@@ -66,7 +66,7 @@ pub use recording::Recording;
 pub use response::StoredResponse;
 pub use scene::Scene;
 pub use session::{Event, Events, Session, SessionHeader, SessionRow, SessionWriter};
-pub use settings::{MouseHand, Settings};
+pub use settings::{Language, MouseHand, Settings};
 pub use table::{Incomplete, unfinished};
 pub use tissue::{BuiltinTissue, Elasticity, PronyTerm, Tissue};
 pub use toml_document::{Document, Holds, Key, Keys, Omitted, Word};

@@ -20,11 +20,27 @@ words! {
     }
 }
 
+words! {
+    /// The language of the trainer's window.
+    pub enum Language {
+        /// The one that the environment names (LC_ALL, LC_MESSAGES, LANG).
+        System = "system",
+        /// English.
+        English = "en",
+        /// German.
+        German = "de",
+        /// French.
+        French = "fr",
+    }
+}
+
 /// What a person has set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     /// Whose tool the mouse moves at first.
     pub mouse_hand: MouseHand,
+    /// The language of the trainer's window.
+    pub language: Language,
     /// The size of texts and buttons beside that of the display [-].
     pub scale: f64,
     /// The folder of sessions and results; none for that of the system.
@@ -35,6 +51,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             mouse_hand: MouseHand::Scene,
+            language: Language::System,
             scale: 1.0,
             training_folder: None,
         }
@@ -53,6 +70,12 @@ impl Settings {
             "Whose tool the mouse moves at first.",
         )
         .optional("\"scene\"", "\"scene\""),
+        Key::word(
+            "language",
+            Language::MEANINGS,
+            "The language of the trainer's window; `palpate --language` overrides it.",
+        )
+        .optional("\"system\"", "\"system\""),
         Key::number(
             "scale",
             SCALE,
@@ -95,8 +118,10 @@ impl Settings {
     fn of(document: &Document) -> Result<Self, Error> {
         let keys: Keys<'_> = document.keys(Self::KEYS)?;
         let hand = keys.word("mouse_hand", MouseHand::WORDS)?;
+        let language = keys.word("language", Language::WORDS)?;
         Ok(Self {
             mouse_hand: hand.unwrap_or(MouseHand::Scene),
+            language: language.unwrap_or(Language::System),
             scale: keys.number("scale")?.unwrap_or(1.0),
             training_folder: keys.text("training_folder")?.map(PathBuf::from),
         })
@@ -105,8 +130,9 @@ impl Settings {
     /// The text of the file.
     pub fn print(&self) -> String {
         let mut text = format!(
-            "# What is set in palpate's window.\nformat = 1\nmouse_hand = {}\nscale = {}\n",
+            "# What is set in palpate's window.\nformat = 1\nmouse_hand = {}\nlanguage = {}\nscale = {}\n",
             quoted(self.mouse_hand.word()),
+            quoted(self.language.word()),
             toml_number(self.scale)
         );
         if let Some(folder) = &self.training_folder {
@@ -141,6 +167,7 @@ mod tests {
             Settings::default(),
             Settings {
                 mouse_hand: MouseHand::Left,
+                language: Language::German,
                 scale: 1.3,
                 training_folder: Some(PathBuf::from("/C:\\a \"b\"/c")),
             },
@@ -158,6 +185,7 @@ mod tests {
         for (text, word) in [
             ("format = 1\nscale = 9.0\n", "scale"),
             ("format = 1\nmouse_hand = \"third\"\n", "mouse_hand"),
+            ("format = 1\nlanguage = \"german\"\n", "language"),
             ("format = 1\nscael = 1.0\n", "scael"),
             ("format = 1\nscale = \n", "line 2"),
             ("\u{0}", "settings.toml"),

@@ -9,7 +9,7 @@ use crate::{TriangleId, TriangleMesh, Vec3};
 
 mod query;
 
-pub use query::{Hit, Nearest};
+pub use query::{Hit, Nearest, ray_meets_triangle};
 
 /// Depth of the traversal stack: a balanced tree of 2³² leaves needs 33.
 const STACK: usize = 64;

@@ -40,7 +40,7 @@ mod surface;
 mod weld;
 mod wrap;
 
-pub use aabb_tree::{AabbTree, Hit, Nearest};
+pub use aabb_tree::{AabbTree, Hit, Nearest, ray_meets_triangle};
 pub use check::problem::{MeshProblem, ProblemKind};
 pub use check::{MeshReport, inspect};
 pub use coarsen::coarsen;

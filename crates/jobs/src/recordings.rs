@@ -272,7 +272,7 @@ pub fn hexadecimal(bytes: &[u8]) -> String {
 }
 
 /// The ends of the names of files that hold recordings.
-pub(crate) const ENDINGS: [&str; 7] = [
+pub(crate) const ENDINGS: [&str; 9] = [
     "csv",
     "txt",
     "tsv",
@@ -280,6 +280,8 @@ pub(crate) const ENDINGS: [&str; 7] = [
     "jpk-force-map",
     "jpk-qi-data",
     "jpk-qi-series",
+    "ibw",
+    "nid",
 ];
 
 /// The files of recordings in a folder, in alphabetical order.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use palpate_files::quantity::plain_quantity;
-use palpate_files::recording::{ForeignColumns, RecordingHeader};
+use palpate_files::recording::{ForeignColumns, RecordingHeader, StimulusKind};
 use palpate_files::scene::{Goal, Shape, Task};
 use palpate_files::{
     Document, Incomplete, MOST_OF_DOCUMENT, MOST_OF_TABLE, Motion, Protocol, Recording, Scene,
@@ -82,7 +82,7 @@ pub fn validate(path: &Path) -> Result<Validated, Error> {
         Some("stl" | "obj" | "ply" | "gltf" | "glb") => mesh(path),
         _ => Err(Error::input(format!(
             "{}: the end of its name says none of what is read here: .toml (scene, task, tissue, protocol, problem), \
-             .csv, .tsv or .txt (motion, recording, session), .jpk-force, .jpk-force-map, .jpk-qi-data or .jpk-qi-series (recordings), .stl, \
+             .csv, .tsv or .txt (motion, recording, session), .jpk-force, .jpk-force-map, .jpk-qi-data, .jpk-qi-series, .ibw or .nid (recordings), .stl, \
              .obj, .ply, .gltf or .glb (mesh)",
             path.display()
         ))),
@@ -114,7 +114,11 @@ fn scene(path: &Path) -> Result<Validated, Error> {
     let read = Scene::read(path)?;
     // A place that most variants have may be missing for some.
     let variants = (0..VARIANTS).map(|seed| palpate_simulate::draw_variant(&read, seed));
-    let scene = variants.collect::<Result<Vec<_>, _>>()?.swap_remove(0);
+    let mut variants = variants.collect::<Result<Vec<_>, _>>()?;
+    variants
+        .iter()
+        .try_for_each(palpate_simulate::check_target)?;
+    let scene = variants.swap_remove(0);
     let mut warnings = scene.warnings.clone();
     let (surface, said) = palpate_simulate::read_organ(&scene.organ.shape)?;
     warnings.extend(said);
@@ -145,7 +149,7 @@ fn scene(path: &Path) -> Result<Validated, Error> {
     }
     if kind == Kind::Task && scene.task.goal == Goal::Free {
         warnings.push(
-            "the task has no goal ([task.find], [task.traction] or [task.cut]): it ends when the trainee says so"
+            "the task has no goal ([task.find], [task.traction], [task.cut] or [task.touch]): it ends when the trainee says so"
                 .to_owned(),
         );
     }
@@ -268,9 +272,17 @@ fn recording(path: &Path) -> Result<Validated, Error> {
             }
         }
     }
+    let stimulus = all.first().and_then(|own| own.header.stimulus);
+    let is_piece = stimulus.is_some_and(StimulusKind::is_of_piece);
+    // A piece may be pulled, which counts below zero.
+    let larger = |a: f64, b: f64| match is_piece {
+        true if b.abs() > a.abs() => b,
+        true => a,
+        false => a.max(b),
+    };
     let largest = |of: fn(&Recording) -> &[f64], key| {
         let values = all.iter().flat_map(of).copied();
-        plain_quantity(key, values.fold(0.0, f64::max), None)
+        plain_quantity(key, values.fold(0.0, larger), None)
     };
     let samples = all.iter().map(|own| own.time_s().len()).sum();
     let map = match all.len() {

@@ -6,6 +6,9 @@ pub trait Watch: Sync {
     /// What is being done now.
     fn say(&self, doing: &str);
 
+    /// A warning about what takes long from now on; the answer has it too.
+    fn warn(&self, _warning: &str) {}
+
     /// The part of the whole that is done, from 0 to 1 [-].
     fn at(&self, part: f64);
 

@@ -12,6 +12,7 @@ use palpate_files::printable;
 use palpate_jobs::Watch;
 
 use crate::interrupt::{self, Unbroken};
+use crate::output;
 
 /// Steps of the bar of one long work.
 const PARTS: u64 = 1000;
@@ -39,6 +40,9 @@ pub(crate) struct Progress {
     /// Turns the spinner until its other end is dropped.
     _turning: Option<Sender<()>>,
     pace: Option<Pace>,
+    reader: Reader,
+    /// Warnings that were printed.
+    warned: Mutex<Vec<String>>,
 }
 
 /// How long what is left takes, from how long each part usually takes and how long those took that are done.
@@ -83,6 +87,8 @@ impl Progress {
             _turning: turning(&bar),
             bar,
             pace: None,
+            reader,
+            warned: Mutex::default(),
         }
     }
 
@@ -141,6 +147,14 @@ impl Progress {
         Watch::say(self, &doing.into());
     }
 
+    /// Takes the bar away; those of `warnings` that were not printed yet.
+    pub(crate) fn unsaid(self, mut warnings: Vec<String>) -> Vec<String> {
+        let warned = self.warned.lock();
+        let warned = warned.unwrap_or_else(PoisonError::into_inner);
+        warnings.retain(|own| !warned.contains(own));
+        warnings
+    }
+
     /// Sets how many steps of the bar are done.
     pub(crate) fn at(&self, step: u64) {
         self.bar.set_position(step);
@@ -170,6 +184,14 @@ impl Watch for Progress {
             self.bar.set_prefix(HumanDuration(pace.left()).to_string());
         }
         self.bar.set_message(printable(doing).into_owned());
+    }
+
+    fn warn(&self, warning: &str) {
+        if self.reader == Reader::Person {
+            self.aside(|| output::warnings(&[warning.to_owned()]));
+            let mut warned = self.warned.lock().unwrap_or_else(PoisonError::into_inner);
+            warned.push(warning.to_owned());
+        }
     }
 
     fn at(&self, part: f64) {

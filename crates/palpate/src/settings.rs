@@ -3,9 +3,11 @@
 use std::path::PathBuf;
 
 use palpate_devices::{Kind, Places};
-use palpate_files::Settings;
+use palpate_files::{Language, Settings};
 use palpate_jobs::preparation::folder as cache_folder;
-use palpate_viewer::settings::{CacheUse, NamedFolder, SettingsKeeper, WindowSettings};
+use palpate_viewer::settings::{
+    CacheUse, FolderContent, NamedFolder, SettingsKeeper, WindowSettings,
+};
 
 use crate::command::cache::{kept_files, remove};
 use crate::output;
@@ -44,11 +46,36 @@ pub(crate) fn read_or_warn() -> Settings {
     settings
 }
 
-/// The settings as a window shows and changes them.
-pub(crate) fn of_window() -> WindowSettings {
+/// The variables that name a language, the strongest first [POSIX].
+const LANGUAGE_VARIABLES: [&str; 3] = ["LC_ALL", "LC_MESSAGES", "LANG"];
+
+/// The language of the first variable that is set; English where the window does not speak it.
+fn environment() -> Language {
+    let mut named = LANGUAGE_VARIABLES.iter().filter_map(std::env::var_os);
+    let named = named.find(|value| !value.is_empty());
+    let named = named.unwrap_or_default();
+    of_locale(&named.to_string_lossy())
+}
+
+/// The language of a locale, such as `de_AT.UTF-8`.
+fn of_locale(locale: &str) -> Language {
+    let word = locale
+        .split(['_', '.', '@', '-'])
+        .next()
+        .unwrap_or_default();
+    match Language::from_word(word) {
+        None | Some(Language::System) => Language::English,
+        Some(language) => language,
+    }
+}
+
+/// The settings as a window shows and changes them, whose language was asked for as `language`.
+pub(crate) fn of_window(language: Option<Language>) -> WindowSettings {
     let (settings, trouble) = read();
     WindowSettings {
         settings,
+        environment: environment(),
+        asked_language: language,
         trouble,
         keeper: Box::new(Keeper),
     }
@@ -84,13 +111,18 @@ impl SettingsKeeper for Keeper {
     fn folders(&self) -> Vec<NamedFolder> {
         let training = training::folder().ok();
         let all = [
-            ("Sessions and results", training),
-            ("Settings", file()),
-            ("Cache", cache_folder()),
+            (FolderContent::Sessions, training),
+            (FolderContent::Settings, file()),
+            (FolderContent::Cache, cache_folder()),
         ];
         let named = all.into_iter();
         named
-            .filter_map(|(name, path)| Some(NamedFolder { name, path: path? }))
+            .filter_map(|(content, path)| {
+                Some(NamedFolder {
+                    content,
+                    path: path?,
+                })
+            })
             .collect()
     }
 
@@ -111,5 +143,26 @@ impl SettingsKeeper for Keeper {
             remove(&kept).map_err(|error| error.to_string())?;
         }
         self.cache()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_locale_names_a_language() {
+        for (locale, language) in [
+            ("de_AT.UTF-8", Language::German),
+            ("fr", Language::French),
+            ("fr-CH", Language::French),
+            ("en_US.UTF-8", Language::English),
+            ("C.UTF-8", Language::English),
+            ("pl_PL", Language::English),
+            ("system", Language::English),
+            ("", Language::English),
+        ] {
+            assert_eq!(of_locale(locale), language, "{locale}");
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! The Python package `palpate`: meshes, tissues, scenes, recordings and the simulator, in the words of Rust.
 //!
 //! ```text
-//! palpate/*.py ──▶ _palpate (this crate) ──▶ characterize, files, geometry, simulate, viewer
+//! palpate/*.py ──▶ _palpate (this crate) ──▶ characterize, devices, files, geometry, servo, simulate, viewer
 //!                     │ waiting: long work on a thread of its own, the interpreter free, Ctrl-C heard
 //! ```
 //!
@@ -50,6 +50,7 @@ fn _palpate(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<simulator::SimulationBatch>()?;
     module.add_class::<simulator::Snapshot>()?;
     module.add_class::<simulator::State>()?;
+    module.add_class::<simulator::Teleoperation>()?;
     module.add_class::<tissue::Tissue>()?;
     module.add_function(wrap_pyfunction!(isosurface::isosurface, module)?)?;
     module.add_function(wrap_pyfunction!(waiting::_wait, module)?)?;

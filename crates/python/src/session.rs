@@ -46,6 +46,20 @@ impl Session {
         }
     }
 
+    /// Reads a session from its folder, or from its file alone.
+    pub(crate) fn of_folder(path: &Path) -> Result<Self, Failure> {
+        let folder = SessionFolder::read(path)?;
+        let beside = match path.is_dir() {
+            true => path.join(SUMMARY),
+            false => path.with_file_name(SUMMARY),
+        };
+        Ok(Self {
+            session: folder.session,
+            scene: folder.scene,
+            summary: read_text(beside, MOST_OF_DOCUMENT).ok(),
+        })
+    }
+
     fn column(&self, of: impl Fn(&SessionRow) -> f64) -> Vec<f64> {
         self.session.rows.iter().map(of).collect()
     }
@@ -56,16 +70,7 @@ impl Session {
     /// Reads a session from its folder, or from its file alone.
     #[classmethod]
     fn read(_class: &Bound<'_, PyType>, path: PathBuf) -> Result<Self, Failure> {
-        let folder = SessionFolder::read(&path)?;
-        let beside = match path.is_dir() {
-            true => path.join(SUMMARY),
-            false => path.with_file_name(SUMMARY),
-        };
-        Ok(Self {
-            session: folder.session,
-            scene: folder.scene,
-            summary: read_text(beside, MOST_OF_DOCUMENT).ok(),
-        })
+        Self::of_folder(&path)
     }
 
     /// The names of the tools.

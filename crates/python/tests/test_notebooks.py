@@ -21,6 +21,7 @@ SCRIPTS: dict[str, tuple[list[str], list[str]]] = {
     "look_at_an_organ.py": (["liver.png"], ["pyvista"]),
     "study_on_a_cluster.py": (["recordings", "--laws", "neo_hookean", "--draws", "0"], ["distributed", "pandas"]),
     "couple_to_mujoco.py": ([], ["mujoco"]),
+    "teleoperate.py": (["--device", "virtual", "--seconds", "1"], []),
     "see_the_environments.py": (["environments.png"], ["gymnasium", "PIL"]),
     "learn_to_palpate.py": (
         ["train", "--presses", "640", "--limit", "30", "--out", "run.json"],

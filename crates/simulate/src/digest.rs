@@ -23,6 +23,9 @@ use palpate_files::{Scene, Tissue};
 use palpate_geometry::Surface;
 use sha2::{Digest, Sha256};
 
+/// Of every neighbour, before a scene could state it [N/m].
+const EARLIER_STIFFNESS: f64 = 1000.0;
+
 /// Before the digits of a digest of the canonical form.
 const VERSION: &str = "2-";
 
@@ -36,13 +39,14 @@ pub(crate) struct SceneDigest {
 }
 
 impl SceneDigest {
-    /// `felt` are the tissues of layers and inclusions that are felt, `enclosed` the surfaces of inclusions, `neighbours` those at which tools stop.
+    /// `felt` are the tissues of layers and inclusions that are felt, `enclosed` the surfaces of inclusions, `neighbours` those at which tools stop, with their
+    /// stiffness [N/m].
     pub(crate) fn of<'a>(
         scene: &Scene,
         surface: &Surface,
         (tissue, felt): (&Tissue, &[Tissue]),
         enclosed: &[Surface],
-        neighbours: impl Iterator<Item = &'a Surface>,
+        neighbours: impl Iterator<Item = (&'a Surface, f64)>,
     ) -> Self {
         let mut form = canonical(scene, tissue);
         felt.iter().for_each(|tissue| form.tissue(tissue));
@@ -54,7 +58,12 @@ impl SceneDigest {
         for body in enclosed {
             form.word("enclosed", &digits(of_surface(body)));
         }
-        neighbours.for_each(|body| form.word("neighbour", &digits(of_surface(body))));
+        for (body, stiffness) in neighbours {
+            form.word("neighbour", &digits(of_surface(body)));
+            if stiffness != EARLIER_STIFFNESS {
+                form.numbers("neighbour_stiffness_n_per_m", &[stiffness]);
+            }
+        }
         let of_surface = of_surface(surface);
         let with = |text: &str| digits(of_surface.clone().chain_update(text));
         Self {

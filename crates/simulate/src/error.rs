@@ -175,6 +175,16 @@ pub enum Error {
         /// How deep it lies [m].
         depth: f64,
     },
+    /// Nothing that a tip can touch is at the place that a task wants touched.
+    #[error(
+        "`task.touch.target_m` is {:.1} mm from the nearest neighbour that collides, but only a tip within {:.1} mm of it counts; move it to the surface of that neighbour", 1e3 * distance, 1e3 * tolerance
+    )]
+    TargetOutOfReach {
+        /// How far the surface is [m].
+        distance: f64,
+        /// How far a tip may be [m].
+        tolerance: f64,
+    },
     /// The thread of the model ended in a panic.
     #[error("the model thread panicked, and the devices were stopped; report it as a defect")]
     ModelPanicked,
@@ -241,6 +251,7 @@ impl Error {
             | Self::NoExpert { .. }
             | Self::EmptySession
             | Self::TrocarInOrgan { .. }
+            | Self::TargetOutOfReach { .. }
             | Self::UnknownTool { .. }
             | Self::TooLong { .. } => true,
         }

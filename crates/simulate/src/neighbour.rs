@@ -1,6 +1,6 @@
-//! Neighbours at which tools stop: rigid bodies that push a tip back along their surface's normal.
+//! Neighbours at which tools stop: bodies of fixed shape that push a tip back along their surface's normal.
 //!
-//! A tip that is d deep is pushed with k d. One that sticks is held in place by the same k, up to its friction. A tool
+//! A tip that is d deep is pushed with k d, k the neighbour's stiffness. One that sticks is held in place by the same k, up to its friction. A tool
 //! touches a neighbour once it comes from outside: one that first appears within it, as where an organ grows through
 //! the diaphragm, is let out.
 //!
@@ -20,10 +20,6 @@ use crate::state::{SimulationState, ToolState};
 use crate::tool::Tool;
 use crate::{Error, organ};
 
-/// Stiffness of a rigid body under a tip [N/m]: what a loop at 1 kHz displays without trembling on the devices of
-/// `docs/devices.md`.
-const RIGID_STIFFNESS: f64 = 1000.0;
-
 /// A body at which tools stop.
 #[derive(Debug, Clone)]
 pub(crate) struct Neighbour {
@@ -32,6 +28,8 @@ pub(crate) struct Neighbour {
     /// Its normals as each tool feels them.
     patches: Vec<PatchField>,
     radius: f64,
+    /// The force on a tip per depth [N/m].
+    pub(crate) stiffness: f64,
 }
 
 /// What neighbours do to one tool.
@@ -63,6 +61,7 @@ impl Neighbour {
                         .map(|tool| PatchField::new(&surface, tool.shaft_radius()))
                         .collect(),
                     radius: radius_of_hemisphere(&surface),
+                    stiffness: neighbour.stiffness_n_per_m,
                     surface,
                 });
             }
@@ -119,22 +118,22 @@ pub(crate) fn press(simulation: &Simulation, number: usize, state: &mut Simulati
         let Some(mut found) = found.filter(|found| last.is_some() || found.depth <= travel) else {
             continue;
         };
-        own.stop(tool, &tip, &mut found);
+        own.stop((tool, &tip), neighbour.stiffness, &mut found);
         *contact = Some(found);
     }
     own.force += own.stopped.force;
 }
 
 impl ToolState {
-    fn stop(&mut self, tool: &Tool, tip: &Vec3, contact: &mut Contact) {
+    fn stop(&mut self, (tool, tip): (&Tool, &Vec3), stiffness: f64, contact: &mut Contact) {
         let frame = contact.frame();
-        let mut force = frame * (-RIGID_STIFFNESS * contact.displacement(tool, tip));
+        let mut force = frame * (-stiffness * contact.displacement(tool, tip));
         contact.slide(tool, &mut force);
         let along = match tool.bond {
-            Friction::Bonded if !contact.slides => RIGID_STIFFNESS,
+            Friction::Bonded if !contact.slides => stiffness,
             Friction::Bonded | Friction::Frictionless => 0.0,
         };
-        let stiffness = Matrix3::from_diagonal(&Vec3::new(along, along, RIGID_STIFFNESS));
+        let stiffness = Matrix3::from_diagonal(&Vec3::new(along, along, stiffness));
         self.stopped.force += force;
         self.stopped.gradient -= frame * stiffness * frame.transpose();
         self.stopped.normal = Some(contact.normal());

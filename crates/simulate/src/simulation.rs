@@ -13,7 +13,7 @@ use crate::nonlinear::{NonlinearOrgan, Regions};
 use crate::preparation::tell;
 use crate::region_places::read_regions;
 use crate::tool::{Tool, settings, typical_radius};
-use crate::{Error, Progress, Resources, Work, nodule, organ, tip_laws, trocar};
+use crate::{Error, Progress, Resources, Work, nodule, organ, target, tip_laws, trocar};
 
 /// An organ and the tools that may touch it. Built once, never changed.
 #[derive(Debug, Clone)]
@@ -115,13 +115,17 @@ impl Simulation {
             .as_ref()
             .map(|regions| regions.at_surface().material.clone());
         let neighbours = Neighbour::all(scene, &tools)?;
+        target::check(
+            &scene.task.goal,
+            neighbours.iter().map(|body| &body.surface),
+        )?;
         if !neighbours.is_empty() {
             warnings.push(match is_nonlinear {
-                true => "neighbours that collide are rigid to the tips of tools and, without friction, to the organ; shafts \
-                         pass through them"
+                true => "neighbours that collide keep their shape: they stop the tips of tools and, without friction, the \
+                         organ; shafts pass through them"
                     .to_owned(),
-                false => "neighbours that collide are rigid to the tips of tools; shafts and the organ pass through them: \
-                          `model.kind = \"nonlinear\"` keeps the organ out"
+                false => "neighbours that collide keep their shape: they stop the tips of tools; shafts and the organ pass \
+                          through them: `model.kind = \"nonlinear\"` keeps the organ out"
                     .to_owned(),
             });
         }
@@ -182,7 +186,9 @@ impl Simulation {
                 &surface,
                 (&tissue, &felt),
                 &enclosed,
-                neighbours.iter().map(|body| &body.surface),
+                neighbours
+                    .iter()
+                    .map(|body| (&body.surface, body.stiffness)),
             ),
             seed: scene.variant.as_ref().map_or(0, |own| own.seed),
             step: scene.model.step_s,

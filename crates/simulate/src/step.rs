@@ -389,7 +389,7 @@ fn show_cuts(simulation: &Simulation, time: f64, state: &mut SimulationState) {
     }
 }
 
-/// Tells when the shaft begins to touch the deformed organ; it is not pushed by it.
+/// Tells when the shaft begins to touch the deformed organ, and when it no longer does; it is not pushed by it.
 fn touch_with_shaft(tool: &Tool, number: usize, state: &mut SimulationState) {
     let own = &mut state.tools[number];
     let Some(pose) = &own.pose else {
@@ -411,8 +411,10 @@ fn touch_with_shaft(tool: &Tool, number: usize, state: &mut SimulationState) {
         let (mesh, radius) = (&state.deformed, tool.shaft_radius());
         state.tree.is_near_segment(mesh, [&start, &end], radius)
     };
-    if touches && !own.shaft_touches {
-        own.row.events.insert(Event::ShaftContact);
+    match (own.shaft_touches, touches) {
+        (false, true) => own.row.events.insert(Event::ShaftContact),
+        (true, false) => own.row.events.insert(Event::ShaftRelease),
+        _ => {}
     }
     own.shaft_touches = touches;
 }

@@ -12,8 +12,8 @@ use crate::{Error, organ};
 /// draws nothing is its only variant.
 ///
 /// # Errors
-/// When the organ cannot be read, its surface has no point where one is drawn, or a drawn value is outside the domain
-/// of its key.
+/// When the organ or a neighbour cannot be read, a surface has no point where one is drawn, or a drawn value is outside
+/// the domain of its key.
 pub fn draw_variant(scene: &Scene, seed: u64) -> Result<Scene, Error> {
     let Some(draws) = &scene.draws else {
         return Ok(scene.clone());
@@ -21,10 +21,24 @@ pub fn draw_variant(scene: &Scene, seed: u64) -> Result<Scene, Error> {
     if draws.surfaces().next().is_none() {
         return Ok(scene.drawn(seed, &|_, _| None)?);
     }
-    // An organ that is drawn itself is that of the variant: its shape needs no surface.
+    // Bodies that are drawn themselves are those of the variant: their shapes need no surface.
     let sized = scene.drawn(seed, &|on, _| Some(on.middle()))?;
-    let (surface, _) = organ::read_organ(&sized.organ.shape)?;
-    Ok(scene.drawn(seed, &|on, numbers| point_on(&surface, on, numbers))?)
+    let mut surfaces: Vec<(Option<usize>, Surface)> = Vec::new();
+    for on in draws.surfaces() {
+        if surfaces.iter().any(|(body, _)| *body == on.neighbour) {
+            continue;
+        }
+        let (surface, _) = match on.neighbour.and_then(|number| sized.neighbours.get(number)) {
+            Some(neighbour) => organ::read_neighbour(neighbour)?,
+            None => organ::read_organ(&sized.organ.shape)?,
+        };
+        surfaces.push((on.neighbour, surface));
+    }
+    let find = |on: &OnSurface, numbers| {
+        let (_, surface) = surfaces.iter().find(|(body, _)| *body == on.neighbour)?;
+        point_on(surface, on, numbers)
+    };
+    Ok(scene.drawn(seed, &find)?)
 }
 
 /// A point of a part of a surface, even over its area: the first number chooses a triangle, the others a point of it.

@@ -7,8 +7,8 @@
 //! does not differ significantly from the largest. Before contact only noise makes the force differ from this, after it
 //! the tissue too, by 2 % of the range. The most likely sample is the contact. Samples whose −2 log likelihood is larger
 //! by less than 3.84 (the 95 % point of χ² with one degree of freedom), times the factor by which correlation of the noise
-//! widens it, give its standard error, together with the way to the next sample. A drift is taken off before, if the
-//! sensor shows one over a hundred samples.
+//! widens it, give its standard error, together with the way to the next sample. Where the zero drifts before contact, a line
+//! takes the place of the constant (`drift`).
 //!
 //! *How we know*: `contact::…`, on synthetic recordings with known truth at 10 Hz to 1 kHz, linear and
 //! Hertzian.
@@ -16,12 +16,13 @@
 //! *Limits*: correlated noise widens the interval; which sample is the most likely is found as if it were white. A tissue
 //! that is very soft at first is met late by as much as the noise hides.
 
+use std::ops::Range;
+
 use palpate_files::recording::IndenterShape;
 
-use super::contact_search::Search;
-use super::noise;
+use super::contact_search::{Approach, Baseline, ENOUGH_FOR_DRIFT, Search};
 use super::regression::{Regression, regress};
-use super::{CleanRecording, Oriented};
+use super::{CleanRecording, Oriented, drift, noise};
 use crate::Error;
 
 /// Part of the rise of the force that is looked at [-].
@@ -32,8 +33,6 @@ const ABOVE_NOISE: f64 = 20.0;
 const ON_THE_RISE: usize = 5;
 /// Samples looked at; of more, every second, third and so on.
 const MOST_SAMPLES: usize = 20_000;
-/// Samples without load that are enough for a drift: a slow beginning of the touch is none.
-const ENOUGH_FOR_DRIFT: usize = 100;
 /// Standard errors from which a drift is told [-]: one in 16,000 by chance.
 const CERTAIN: f64 = 4.0;
 /// What a drift may leave, in deviations of the noise [-].
@@ -103,9 +102,11 @@ pub(super) fn by_depth(samples: &Oriented, is_piece: bool) -> Result<Contact, Er
     })
 }
 
+/// How the force of a flat face, a sphere and a cone rises with the depth first.
+pub(super) const RISES: [fn(f64) -> f64; 3] = [|u| u, |u| u * u.sqrt(), |u| u * u];
+
 /// How the force of an indenter of this shape rises with the depth first; of an unknown one any of the three.
 fn rises(shape: Option<IndenterShape>) -> &'static [fn(f64) -> f64] {
-    const RISES: [fn(f64) -> f64; 3] = [|u| u, |u| u * u.sqrt(), |u| u * u];
     match shape {
         Some(IndenterShape::Flat) => &RISES[..1],
         Some(IndenterShape::Sphere) => &RISES[1..2],
@@ -114,33 +115,41 @@ fn rises(shape: Option<IndenterShape>) -> &'static [fn(f64) -> f64] {
     }
 }
 
-/// The sample after which `force` [N] begins to rise with `depth` [m], under an indenter of this shape, and the standard
-/// error of its depth [m].
-pub(crate) fn rising_contact(
-    depth: &[f64],
-    force: &[f64],
-    shape: Option<IndenterShape>,
-) -> (usize, f64) {
-    let best = Search::new(depth, force, rises(shape)).best();
-    (best.place, best.error)
+/// The sample after which the force of `approach` begins to rise with the depth from a constant, under an indenter of this
+/// shape, and the standard error of its depth [m].
+pub(crate) fn rising_contact(approach: &Approach, shape: Option<IndenterShape>) -> (usize, f64) {
+    let best = Search::new(approach, rises(shape), Baseline::Constant).best(1.0);
+    best.map_or((0, 0.0), |best| (best.place, best.error))
 }
 
 /// The contact where the force begins to rise.
 pub(super) fn by_force(samples: &Oriented, shape: Option<IndenterShape>) -> Result<Contact, Error> {
-    let early = early_part(samples)?;
-    let every = early.div_ceil(MOST_SAMPLES);
-    let thin =
-        |values: &[f64]| -> Vec<f64> { values[..early].iter().step_by(every).copied().collect() };
-    let (depth, mut force) = (thin(&samples.depth), thin(&samples.force));
-    if let Some(slope) = Zero::before(samples, early / 2).and_then(|zero| zero.slope) {
-        let drifts = samples.time.iter().step_by(every).map(|t| slope * t);
-        force
-            .iter_mut()
-            .zip(drifts)
-            .for_each(|(f, drift)| *f -= drift);
+    if !noise::stands_out(&samples.force) || rise(&noise::without_spikes(&samples.force)) <= 0.0 {
+        return Err(Error::NoContact {
+            cause: "the force never rises above its noise",
+        });
     }
-    let (place, error) = rising_contact(&depth, &force, shape);
+    if let Some(contact) = drift::contact(samples, rises(shape)) {
+        return Ok(contact);
+    }
+    let (approach, every) = thinned(samples, 0..early_end(&samples.force, EARLY));
+    let (place, error) = rising_contact(&approach, shape);
     Ok(at_sample(samples, place * every, Some(error)))
+}
+
+/// The samples of a range, of many every second, third and so on, and which.
+pub(super) fn thinned(samples: &Oriented, range: Range<usize>) -> (Approach, usize) {
+    let every = range.len().div_ceil(MOST_SAMPLES).max(1);
+    let of = |values: &[f64]| -> Vec<f64> {
+        let own = values[range.clone()].iter();
+        own.step_by(every).copied().collect()
+    };
+    let approach = Approach {
+        time: of(&samples.time),
+        depth: of(&samples.depth),
+        force: of(&samples.force),
+    };
+    (approach, every)
 }
 
 fn at_sample(samples: &Oriented, sample: usize, depth_error_m: Option<f64>) -> Contact {
@@ -159,23 +168,26 @@ fn at_sample(samples: &Oriented, sample: usize, depth_error_m: Option<f64>) -> C
     }
 }
 
-/// Samples until the force has first gone through a part of its rise.
-fn early_part(samples: &Oriented) -> Result<usize, Error> {
-    let force = noise::without_spikes(&samples.force);
-    let base = noise::median(&force[..force.len().min(3)]);
-    let rise = force.iter().copied().fold(f64::NEG_INFINITY, f64::max) - base;
-    if !noise::stands_out(&samples.force) || rise <= 0.0 {
-        return Err(Error::NoContact {
-            cause: "the force never rises above its noise",
-        });
-    }
-    let level = (EARLY * rise).max(ABOVE_NOISE * noise::deviation(&samples.force));
-    let first_above = |level: f64| force.iter().position(|f| f - base >= level);
-    let half = first_above(0.5 * rise).expect("the largest is above its half");
-    let top = first_above(rise).expect("the largest is there");
-    let below = force[..half].iter().rposition(|f| f - base < level);
+/// Above the first samples, and up to the largest.
+fn rise(force: &[f64]) -> f64 {
+    force.iter().copied().fold(f64::NEG_INFINITY, f64::max) - base(force)
+}
+
+fn base(force: &[f64]) -> f64 {
+    noise::median(&force[..force.len().min(3)])
+}
+
+/// One past the samples until the force has first gone through a `part` of its rise.
+pub(super) fn early_end(force: &[f64], part: f64) -> usize {
+    let smooth = noise::without_spikes(force);
+    let (base, rise) = (base(&smooth), rise(&smooth));
+    let level = (part * rise).max(ABOVE_NOISE * noise::deviation(force));
+    let first_above = |level: f64| smooth.iter().position(|f| f - base >= level);
+    let half = first_above(0.5 * rise).unwrap_or(0);
+    let top = first_above(rise).unwrap_or(half);
+    let below = smooth[..half].iter().rposition(|f| f - base < level);
     let above = below.map_or(0, |below| below + 1);
-    Ok((above + ON_THE_RISE).min(top + 1).max(2).min(force.len()))
+    (above + ON_THE_RISE).min(top + 1).max(2).min(force.len())
 }
 
 /// What the sensor shows without load.

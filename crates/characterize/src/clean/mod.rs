@@ -9,6 +9,7 @@
 
 mod contact;
 mod contact_search;
+mod drift;
 mod filter;
 pub(crate) mod noise;
 mod oriented;
@@ -25,6 +26,7 @@ use palpate_files::recording::{RecordingHeader, StimulusKind};
 
 pub use contact::Contact;
 pub(crate) use contact::rising_contact;
+pub(crate) use contact_search::Approach;
 pub use filter::LowPass;
 use oriented::Oriented;
 pub use ripple::Ripple;

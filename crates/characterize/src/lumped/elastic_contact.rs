@@ -18,6 +18,7 @@
 use std::f64::consts::PI;
 
 use palpate_files::Estimate;
+use palpate_files::quantity::plain_quantity;
 
 use super::Contact;
 use crate::clean::{SegmentKind, noise};
@@ -52,6 +53,26 @@ pub struct ElasticContact {
     pub before: f64,
     /// Root mean square of the residual, over the largest force [-].
     pub misfit: f64,
+}
+
+/// Contacts that are farther apart than this part of the depth differ [-]: the force of a sphere then by a sixth.
+const APART: f64 = 0.1;
+/// Less than this part of the largest force is none [-].
+const FREE: f64 = 0.02;
+
+impl ElasticContact {
+    /// What is said where contact begins much deeper than the first contact of the recording.
+    pub fn warning(&self) -> Option<String> {
+        let off = self.contact_m.value;
+        (off > APART * self.depth_m && self.before.abs() < FREE).then(|| {
+            let off = plain_quantity("contact_m", off, None);
+            format!(
+                "linear_elastic: linear elastic contact begins {off} deeper than the first contact from which relaxation \
+                 and laws count, with hardly any force before it: if the tissue was not touched there yet, they are \
+                 wrong; cut off what precedes contact, or use --closed-forms"
+            )
+        })
+    }
 }
 
 /// Standard deviations in half an interval of 95 % [-].

@@ -2,7 +2,7 @@ use palpate_files::recording::IndenterShape;
 
 use super::OnlineContact;
 use super::record::{OnlineSample, Record};
-use crate::clean::rising_contact;
+use crate::clean::{Approach, rising_contact};
 use crate::inverse::ZeroErrors;
 
 /// Samples of a window, whose means are compared.
@@ -126,9 +126,13 @@ impl ContactWatch {
             return Some(touched);
         }
         let blocks = self.approach.blocks();
-        let depth: Vec<f64> = blocks.iter().map(|block| block.depth_m).collect();
-        let force: Vec<f64> = blocks.iter().map(|block| block.force_n).collect();
-        let (place, error) = rising_contact(&depth, &force, self.shape);
+        let of = |value: fn(&OnlineSample) -> f64| blocks.iter().map(value).collect();
+        let approach = Approach {
+            time: of(|block| block.time_s),
+            depth: of(|block| block.depth_m),
+            force: of(|block| block.force_n),
+        };
+        let (place, error) = rising_contact(&approach, self.shape);
         let found = Touched {
             time_s: blocks[place].time_s,
             ..self.at(touched.time_s, blocks[place].depth_m, error)

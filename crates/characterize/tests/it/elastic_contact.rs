@@ -164,11 +164,12 @@ fn real_chiaro_curve_has_the_modulus_that_its_program_states() {
     let modulus = fit_approach(&recordings).unwrap().youngs_modulus_pa.value;
     println!("{modulus} Pa");
     assert!((modulus / 117.007 - 1.0).abs() < 0.02, "{modulus}");
-    // The force of pull-off is in the file: -0.017127 µN, less what the sensor shows before contact, 0 to -0.4 nN.
+    // The force of pull-off is in the file: -0.017127 µN, less what the sensor shows in the last second before contact, 0.65
+    // to 0.8 nN (means of 0.3 s).
     let found = fit_adhesion(&recordings).unwrap();
     println!("{found:?}");
     assert!(
-        (-1.72e-8..-1.67e-8).contains(&found.pull_off_n),
+        (-1.794e-8..-1.777e-8).contains(&found.pull_off_n),
         "{found:?}"
     );
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use palpate_characterize::clean::SegmentKind::{Hold, Ramp, Retreat};
 use palpate_characterize::{CleanRecording, CleanSettings, clean};
 use palpate_files::Recording;
-use palpate_files::recording::ForeignColumns;
+use palpate_files::recording::{ForeignColumns, RecordingHeader};
 
 use crate::data;
 
@@ -109,18 +109,36 @@ fn real_force_microscopy_is_read_by_the_name_of_its_height() {
     }
 }
 
-/// Judge: the instrument's own column of indentation, which is zero until it touches.
+/// Judge: the instrument's own column of indentation, which is above zero from 10.526 s and a displacement of 73.08 µm on,
+/// where its threshold of force is reached; the sensor's zero rises by 0.7 nN of 49 nN before. As a table that column is the
+/// depth. As the instrument's own file, contact is searched over the displacement. Tolerance: a sample, and 3 of the stated
+/// errors.
 #[test]
 fn real_optical_indentation_is_read_without_a_word() {
     let Some(folder) = data::folder() else {
         return;
     };
-    let clean = cleaned(
-        &folder.join("afm/chiaro_AEBP1_Indentation_002.txt"),
-        &ForeignColumns::default(),
+    let path = folder.join("afm/chiaro_AEBP1_Indentation_002.txt");
+    let columns = ForeignColumns::default();
+    let table = cleaned(&path, &columns);
+    assert!(table.depth.iter().all(|depth| depth.is_finite()));
+    assert_eq!(table.segments[0].kind, Ramp);
+    let time = table.handling.contact.time_s;
+    assert!((time - 10.526).abs() < 1.5e-3, "{time}");
+    let own = Recording::read_all(&path, &columns, &RecordingHeader::default()).unwrap();
+    let contact = clean(&own[0], &CleanSettings::default())
+        .unwrap()
+        .handling
+        .contact;
+    println!("{contact:?}");
+    let error = contact.depth_error_m.unwrap();
+    // Depth counts from the first sample, whose displacement is 81.2 nm.
+    let off = 73.08e-6 - 0.0812e-6 - contact.depth_m;
+    assert!(
+        (0.0..3.0 * error).contains(&off) && error < 1.5e-6,
+        "{contact:?}"
     );
-    assert!(clean.depth.iter().all(|depth| depth.is_finite()));
-    assert_eq!(clean.segments[0].kind, Ramp);
+    assert!(contact.drift_n_per_s.unwrap() > 0.0);
 }
 
 /// Judge: the tables themselves.

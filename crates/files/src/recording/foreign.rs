@@ -4,7 +4,9 @@ use std::path::Path;
 use super::axes::{Reading, SensorAxes};
 use super::foreign_names::Wanted;
 use super::samples::{self, Repeated};
-use super::{Origin, Recording, RecordingHeader, foreign_table, foreign_units, stretches};
+use super::{
+    Origin, Recording, RecordingHeader, foreign_table, foreign_units, stated_speed, stretches,
+};
 use crate::Error;
 use crate::table::{Column, Row};
 use crate::whole_file::{MOST_OF_TABLE, read_bytes};
@@ -61,7 +63,8 @@ impl Recording {
     /// understood. Lines above the names of the columns are passed over, but for comments
     /// `# key = value` with the keys of a recording. A row that repeats the one above it in every
     /// field is left out. A table of stretches and stresses without times is read as the recording of
-    /// a cube of one metre. What was taken for what is told by [`Recording::remarks`].
+    /// a cube of one metre; one of distances and forces without times has those of the speed that a line above it states. A
+    /// force in g or kg is the weight of that mass. What was taken for what is told by [`Recording::remarks`].
     ///
     /// # Errors
     /// When a column is not there, its unit is not known or its numbers make no recording.
@@ -78,6 +81,12 @@ impl Recording {
         if !has_all
             && is_open
             && let Some(recording) = stretches::parse(text, path, columns)?
+        {
+            return Ok(recording);
+        }
+        if !has_all
+            && columns.time.is_none()
+            && let Some(recording) = stated_speed::parse(text, path, columns)?
         {
             return Ok(recording);
         }

@@ -4,7 +4,15 @@ use crate::Error;
 use crate::table::TableText;
 use crate::words::either;
 
-const TIME: &[&str] = &["time", "t", "zeit", "temps", "tiempo", "elapsed"];
+const TIME: &[&str] = &[
+    "time",
+    "t",
+    "zeit",
+    "prüfzeit",
+    "temps",
+    "tiempo",
+    "elapsed",
+];
 const DEPTH: &[&str] = &[
     "depth",
     "indentation",
@@ -16,6 +24,10 @@ const DEPTH: &[&str] = &[
     "standardweg",
     "extension",
     "travel",
+    "distance",
+    "crosshead",
+    "traverse",
+    "traversenweg",
     "position",
     "height",
 ];

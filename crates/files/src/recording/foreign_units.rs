@@ -58,26 +58,55 @@ pub(super) fn stress(
     quantity.unit(table, None)
 }
 
-/// The units of the columns of a displacement and a force, by their names or as they are stated.
+/// The units of the columns of a displacement and a force, by their names, by a row of units below or as they are stated;
+/// and whether there is such a row.
 pub(super) fn sheet(
     table: &TableText<'_>,
     [depth, force]: [&str; 2],
     wanted: &ForeignColumns,
-) -> Result<[&'static Unit; 2], Error> {
-    let of = |name, stated, si| Quantity { name, stated, si }.unit(table, None);
-    Ok([
-        of(depth, wanted.depth_unit.as_deref(), "m")?,
-        of(force, wanted.force_unit.as_deref(), "n")?,
-    ])
+) -> Result<([&'static Unit; 2], bool), Error> {
+    let plain = [(depth, "m"), (force, "n")].map(|(name, si)| {
+        let unit = Unit::named(si).expect("SI units are in the table");
+        table.foreign_column(name, unit, unit)
+    });
+    let [first, second] = plain;
+    let plain = [first?, second?];
+    let below = match table.rows().next()? {
+        Some(row) => of_row(&row, &plain),
+        None => None,
+    };
+    let of = |name, stated, si, place: usize| {
+        let quantity = Quantity { name, stated, si };
+        quantity.unit(table, below.map(|units| units[place]))
+    };
+    let units = [
+        of(depth, wanted.depth_unit.as_deref(), "m", 0)?,
+        of(force, wanted.force_unit.as_deref(), "n", 1)?,
+    ];
+    Ok((units, below.is_some()))
 }
 
 /// The units in a row that holds units in place of numbers.
-pub(super) fn of_row(row: &Row<'_>, columns: &[Column; 3]) -> Option<[&'static Unit; 3]> {
-    let [time, depth, force] = columns.each_ref().map(|column| {
+pub(super) fn of_row<const COLUMNS: usize>(
+    row: &Row<'_>,
+    columns: &[Column; COLUMNS],
+) -> Option<[&'static Unit; COLUMNS]> {
+    let units = columns.each_ref().map(|column| {
         let word = row.text(column);
         named(word.trim_matches(['(', ')', '[', ']']))
     });
-    Some([time?, depth?, force?])
+    let found: Vec<_> = units.into_iter().flatten().collect();
+    found.try_into().ok()
+}
+
+/// The unit of a force whose instrument states a mass, that of what weighs as much.
+fn of_weight(unit: &'static Unit) -> &'static Unit {
+    let weight = match unit.suffix {
+        "g" => Unit::named("gf"),
+        "kg" => Unit::named("kgf"),
+        _ => None,
+    };
+    weight.unwrap_or(unit)
 }
 
 impl Quantity<'_> {
@@ -107,6 +136,10 @@ impl Quantity<'_> {
                 });
             }
             (written, stated) => stated.or(written),
+        };
+        let unit = match self.si {
+            "n" => unit.map(of_weight),
+            _ => unit,
         };
         match unit {
             Some(unit) if unit.si == self.si => Ok(unit),

@@ -10,6 +10,7 @@ mod header;
 mod header_keys;
 mod instruments;
 mod samples;
+mod stated_speed;
 mod stretches;
 mod write;
 mod writer;

@@ -78,7 +78,7 @@ fn sheet(text: &str, path: &Path, columns: &ForeignColumns) -> Result<Option<Rec
         return Ok(None);
     }
     let [depth, force] = [depth.choose(&table)?, force.choose(&table)?];
-    let [length, load] = foreign_units::sheet(&table, [depth, force], columns)?;
+    let ([length, load], _) = foreign_units::sheet(&table, [depth, force], columns)?;
     let remark = format!(
         "`{depth}` in {} and `{force}` in {} were read as the pull of a sheet, a row a second",
         length.spelling, load.spelling

@@ -3,6 +3,7 @@
 
 mod cutting;
 mod draw;
+mod goal;
 mod inclusion;
 mod jaws;
 mod model;
@@ -20,6 +21,7 @@ use std::path::{Path, PathBuf};
 
 pub use cutting::{CutMode, Cutting};
 pub use draw::{Drawn, Draws, FindOnSurface, LARGEST_SEED, OnSurface, SurfacePoint, Variant};
+pub use goal::{Goal, SoughtSize, TouchGoal};
 pub use inclusion::{Inclusion, InclusionPlace, InclusionShape};
 pub use jaws::Jaws;
 pub use model::{Enhancement, LocalSettings, Model};
@@ -31,7 +33,8 @@ pub use organ::{Layer, Location, Neighbour, Nodule, Organ};
 pub use region::{Region, RegionBox, RegionPlane, RegionSphere};
 pub use shape::{BuiltinOrgan, LengthUnit, Shape};
 pub use standing_alone::standing_alone;
-pub use task::{Goal, SoughtSize, Task};
+pub use task::Task;
+use task::TaskScene;
 pub use tissue_choice::TissueChoice;
 pub use tool::{DeviceKind, Tip, TipContact, TipShape, Tool, ToolKind, ToolMesh};
 pub use view::{Shading, View};
@@ -130,22 +133,31 @@ impl Scene {
             .ok_or_else(|| keys.missing("organ", "a table `[organ]`"))?;
         let neighbours = keys.tables("neighbour")?;
         let touched = Organ::from_keys(&organ, &folder)?;
-        let layers = touched.layers.len();
         let tools = tool::from_keys(&keys, &folder)?;
         let cutting = keys.table("cutting")?;
         let model = keys.table("model")?;
         let model = Model::from_keys(model.as_ref(), &touched, &tools, cutting.is_some())?;
+        let neighbours: Vec<Neighbour> = neighbours
+            .iter()
+            .map(|keys| Neighbour::from_keys(keys, &folder))
+            .collect::<Result<_, _>>()?;
+        if let Some(draws) = &draws {
+            draws.check_neighbours(neighbours.len())?;
+        }
+        let around = TaskScene {
+            layers: touched.layers.len(),
+            tools: &tools,
+            neighbours: &neighbours,
+        };
+        let task = Task::from_keys(keys.table("task")?.as_ref(), &folder, &around)?;
         let mut scene = Self {
             organ: touched,
-            neighbours: neighbours
-                .iter()
-                .map(|keys| Neighbour::from_keys(keys, &folder))
-                .collect::<Result<_, _>>()?,
+            neighbours,
             model,
             cutting: Cutting::from_keys(cutting.as_ref())?,
             tools,
             view: View::from_keys(keys.table("view")?.as_ref())?,
-            task: Task::from_keys(keys.table("task")?.as_ref(), &folder, layers)?,
+            task,
             folder,
             draws,
             variant: Variant::from_keys(&keys)?,

@@ -4,6 +4,9 @@ use std::path::Path;
 use super::{Inclusion, Region, Shape, TissueChoice};
 use crate::{Domain, Error, Event, Key, Keys};
 
+/// Stiffness of a rigid body under a tip [N/m].
+const RIGID_STIFFNESS: f64 = 1000.0;
+
 /// The organ that is touched.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Organ {
@@ -61,6 +64,8 @@ pub struct Neighbour {
     pub location: Location,
     /// Whether tools stop at it.
     pub collides: bool,
+    /// The force on a tip per depth in it [N/m].
+    pub stiffness_n_per_m: f64,
 }
 
 /// Where a body stands in the scene: each of its points is scaled about the body's own origin, turned about
@@ -241,9 +246,16 @@ impl Neighbour {
         .default("1.0"),
         Key::truth(
             "collides",
-            "Whether it is rigid to the tips of tools and to an organ of the nonlinear model.",
+            "Whether it stops the tips of tools and an organ of the nonlinear model.",
         )
         .default("false"),
+        // What a loop at 1 kHz displays without trembling on the devices of `docs/devices.md`.
+        Key::number(
+            "stiffness_n_per_m",
+            Domain::STIFFNESS,
+            "The force on a tip per depth in it, where it collides.",
+        )
+        .default("1000.0"),
     ];
 
     pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
@@ -255,6 +267,7 @@ impl Neighbour {
                 scale: keys.number("scale")?.unwrap_or(1.0),
             },
             collides: keys.truth("collides")?.unwrap_or(false),
+            stiffness_n_per_m: keys.number("stiffness_n_per_m")?.unwrap_or(RIGID_STIFFNESS),
         })
     }
 }

@@ -47,6 +47,8 @@ words! {
         OpensLayer5 = "opens_layer_5",
         /// It opens the sixth layer from outside.
         OpensLayer6 = "opens_layer_6",
+        /// Its shaft no longer touches the organ.
+        ShaftRelease = "shaft_release",
     }
 }
 
@@ -171,7 +173,7 @@ mod tests {
         assert_eq!(Events::from_words("cut;contact"), Some(events));
         assert_eq!(Events::from_words(""), Some(Events::NONE));
         assert_eq!(Events::from_words("contact;sneeze"), None);
-        assert_eq!(Event::WORDS.len(), 21);
+        assert_eq!(Event::WORDS.len(), 22);
     }
 
     #[test]

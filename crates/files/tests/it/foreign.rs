@@ -178,3 +178,40 @@ fn stretches_and_stresses_are_a_cube_of_one_metre() {
     let recording = Recording::parse_foreign(text, "a.csv", &columns).unwrap();
     assert_eq!(recording.force_n()[1], -0.25e6);
 }
+
+/// Tables as testing machines export them. Judge: their numbers, converted by hand; a gram weighs 9.80665 mN.
+#[test]
+fn tables_of_testing_machines_are_recognised() {
+    let read =
+        |text: &str| Recording::parse_foreign(text, "a.csv", &ForeignColumns::default()).unwrap();
+    // A texture analyser.
+    let texture = "Test ID\tgel\nTest Speed\t1.00\tmm/s\nForce\tDistance\tTime\ng\tmm\tsec\n0.0\t0.0\t0.0\n5.0\t0.5\t0.5\n";
+    let recording = read(texture);
+    assert_eq!(recording.time_s(), [0.0, 0.5]);
+    assert_eq!(recording.depth_m(), [0.0, 5e-4]);
+    assert!((recording.force_n()[1] - 5.0 * 9.80665e-3).abs() < 1e-15);
+    // Bluehill.
+    let bluehill = "\"Specimen label\",\"7\"\n\n\"Time\",\"Extension\",\"Load\"\n\"(s)\",\"(mm)\",\"(N)\"\n\"0.0\",\"0.0\",\"0.1\"\n\"0.1\",\"0.2\",\"0.3\"\n";
+    assert_eq!(read(bluehill).depth_m(), [0.0, 2e-4]);
+    // A machine in German, with decimal commas.
+    let german = "Prüfgeschwindigkeit;10;mm/min\nPrüfzeit;Standardweg;Standardkraft\ns;mm;N\n0,0;0,0;0,5\n0,1;0,25;1,5\n";
+    assert_eq!(read(german).force_n(), [0.5, 1.5]);
+    // Crosshead and kilograms.
+    let crosshead = "Crosshead (mm),Load (kgf),Time (s)\n0,0,0\n1,2,3\n";
+    assert!((read(crosshead).force_n()[1] - 19.6133).abs() < 1e-12);
+}
+
+/// Judge: 0.5 mm at 2 mm/s.
+#[test]
+fn times_follow_from_a_stated_speed_alone() {
+    let table = "Distance (mm)\tForce (N)\n0\t0\n0.5\t1\n0.5\t1.1\n1.5\t2\n1\t1\n";
+    let read = |text: &str| Recording::parse_foreign(text, "a.csv", &ForeignColumns::default());
+    let text = format!("Pre-Test Speed\t5\tmm/s\nTest Speed\t2\tmm/s\n{table}");
+    let recording = read(&text).unwrap();
+    assert_eq!(recording.time_s(), [0.0, 0.25, 0.75, 1.0]);
+    assert_eq!(recording.force_n(), [0.0, 1.0, 2.0, 1.0]);
+    assert!(recording.remarks()[0].contains("stated speed of 2 mm/s"));
+    assert!(recording.remarks()[1].contains("1 rows"));
+    let error = read(table).unwrap_err().to_string();
+    assert!(error.contains("time"), "{error}");
+}

@@ -338,6 +338,68 @@ fn goals_are_one_table_or_none() {
     }
 }
 
+/// Each fault of a touch is refused by its key, with what to give instead.
+#[test]
+fn a_touch_names_tools_and_a_neighbour_that_are_there() {
+    let goal = |more: &str| {
+        let text = format!(
+            "format = 1\n[organ]\nbuiltin = \"liver\"\nbuiltin_tissue = \"pig-liver\"\n{more}"
+        );
+        Scene::parse(&text, "s.toml").map(|scene| scene.task.goal)
+    };
+    let whole = "[[neighbour]]\nbuiltin = \"stomach\"\ncollides = true\n\
+                 [[tool]]\nname = \"left\"\nkind = \"grasper\"\n[[tool]]\nname = \"right\"\n\
+                 [task.touch]\ntool = \"right\"\nholder = \"left\"\ntarget_m = [0.05, 0.01, 0.05]\n\
+                 tolerance_m = 0.004\nforce_n = 0.15\ntolerance_n = 0.1\nhold_s = 3\n\
+                 injury_force_n = 0.5\ntear_force_n = 1.0\n";
+    assert_eq!(goal(whole).unwrap().word(), "touch");
+    for (from, to, expected) in [
+        (
+            "tool = \"right\"",
+            "tool = \"rihgt\"",
+            "`task.touch.tool` is \"rihgt\"; give a tool of the scene, \"left\" or \"right\"",
+        ),
+        ("tool = \"right\"\nholder", "holder", "task.touch.tool"),
+        (
+            "holder = \"left\"",
+            "holder = \"right\"",
+            "the other tool, a grasper",
+        ),
+        (
+            "kind = \"grasper\"",
+            "kind = \"probe\"",
+            "the other tool, a grasper",
+        ),
+        ("holder = \"left\"\n", "", "`holder` that pulls"),
+        (
+            "collides = true",
+            "collides = false",
+            "`[[neighbour]]` with `collides = true`",
+        ),
+        (
+            "injury_force_n = 0.5",
+            "injury_force_n = 0.1",
+            "a force above `force_n`",
+        ),
+        ("target_m = [0.05, 0.01, 0.05]\n", "", "task.touch.target_m"),
+    ] {
+        assert!(whole.contains(from), "{from}");
+        let message = goal(&whole.replace(from, to)).unwrap_err().to_string();
+        assert!(
+            message.contains(expected) && !message.contains('\n'),
+            "{message}"
+        );
+    }
+    // The surface of a neighbour on which a place is drawn is there.
+    let draw =
+        "[draw.place]\non_surface = { min_m = [0, 0, 0], max_m = [1, 1, 1], neighbour = 2 }\n";
+    let message = goal(&format!("{whole}{draw}")).unwrap_err().to_string();
+    assert!(
+        message.contains("draw.place.on_surface.neighbour") && message.contains("there are 1"),
+        "{message}"
+    );
+}
+
 /// `auto` takes what the tools need and says why; a stated kind says nothing.
 #[test]
 fn auto_chooses_and_says_why() {

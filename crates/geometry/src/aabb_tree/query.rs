@@ -204,8 +204,9 @@ impl Aabb {
     }
 }
 
-/// Distance along the ray, for a hit from either side [Möller and Trumbore 1997].
-fn ray_meets_triangle(origin: &Vec3, direction: &Vec3, corners: &[Vec3; 3]) -> Option<f64> {
+/// Distance along the ray from `origin` [m] in a unit `direction`, where it meets a triangle with these `corners` [m] from
+/// either side; none where it does not [Möller and Trumbore 1997].
+pub fn ray_meets_triangle(origin: &Vec3, direction: &Vec3, corners: &[Vec3; 3]) -> Option<f64> {
     let (ab, ac) = (corners[1] - corners[0], corners[2] - corners[0]);
     let across = direction.cross(&ac);
     let determinant = ab.dot(&across);

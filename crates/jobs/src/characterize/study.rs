@@ -2,6 +2,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use palpate_characterize::inverse::Organ;
+use palpate_characterize::lumped::fit_approach;
 use palpate_characterize::{CharacterizeSettings, characterize_organ, specimens};
 use palpate_files::scene::Shape;
 use palpate_simulate::read_organ;
@@ -38,6 +39,9 @@ pub(crate) fn of(
         let finished = match before {
             Some(finished) => Ok(finished),
             None => {
+                if groups.len() == 1 && !settings.closed_forms {
+                    warnings_before(group).for_each(|warning| watch.warn(&warning));
+                }
                 let finished = finish(group, settings, &say);
                 let written = kept
                     .get(place)
@@ -50,6 +54,17 @@ pub(crate) fn of(
         finished
     };
     on_all_cores(&groups, work).into_iter().collect()
+}
+
+/// What is known of the recordings before their laws are sought.
+fn warnings_before(group: &[ReadRecording]) -> impl Iterator<Item = String> {
+    let cleaned = group.iter().flat_map(|own| {
+        let named = |warning| format!("{}: {warning}", own.path.display());
+        own.clean.warnings.iter().map(named)
+    });
+    let recordings: Vec<_> = group.iter().map(|own| own.clean.clone()).collect();
+    let contact = fit_approach(&recordings).ok();
+    cleaned.chain(contact.and_then(|contact| contact.warning()))
 }
 
 /// The recordings of each specimen.

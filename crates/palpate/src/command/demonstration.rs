@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use palpate_files::{Motion, Overwrite, Scene, write_whole};
+use palpate_files::{Language, Motion, Overwrite, Scene, write_whole};
 use palpate_simulate::Simulation;
 use palpate_viewer::{Start, check_display};
 
@@ -22,15 +22,16 @@ const SURFACES: u64 = 60;
 
 const MOTION: &str = include_str!("../../../../assets/esophagus/motion.csv");
 
-/// The window with the built-in esophagus; where there can be none, a first touch that needs neither window
-/// nor file.
-pub(crate) fn run() -> Result<(), Failure> {
+/// The start screen, with texts in `language` or else in that of the settings; where there can be no window, a first
+/// touch that needs neither window nor file.
+pub(crate) fn run(language: Option<Language>) -> Result<(), Failure> {
     // Before anything is looked for in the user's folders.
     if let Err(why) = check_display() {
         return play(&why);
     }
     let training = crate::training::training()?;
-    match window::open(
+    match window::open_in(
+        language,
         (Start::Home, Some(training)),
         preparation::resources_with_devices()?,
     ) {

@@ -112,6 +112,11 @@ const ALL: &[Example] = &[
         "a task: an even pull"
     ),
     example!(
+        "tasks/retraction.toml",
+        "tasks/retraction.toml",
+        "a task: lift a lobe and touch what it covers"
+    ),
+    example!(
         "tasks/myotomy.toml",
         "tasks/myotomy.toml",
         "a task: cut the muscle and leave the mucosa"

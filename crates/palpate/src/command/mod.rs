@@ -25,7 +25,8 @@ mod teacher;
 mod validate;
 mod window;
 
-use clap::{Parser, Subcommand};
+use clap::{Parser, Subcommand, ValueEnum};
+use palpate_files::Language;
 
 use crate::failure::Failure;
 use crate::output;
@@ -91,8 +92,32 @@ pub(crate) struct CommandLine {
     /// Print the licences of the libraries and fonts that this program contains.
     #[arg(long)]
     notices: bool,
+    /// The language of the window, instead of that of its settings.
+    #[arg(long, value_enum)]
+    language: Option<Speech>,
     #[command(subcommand)]
     command: Option<Command>,
+}
+
+/// A language of the window.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Speech {
+    /// English
+    En,
+    /// German
+    De,
+    /// French
+    Fr,
+}
+
+impl Speech {
+    fn language(self) -> Language {
+        match self {
+            Self::En => Language::English,
+            Self::De => Language::German,
+            Self::Fr => Language::French,
+        }
+    }
 }
 
 #[derive(Debug, Subcommand)]
@@ -147,7 +172,7 @@ impl CommandLine {
     pub(crate) fn run(self) -> Result<(), Failure> {
         match self.command {
             None if self.notices => output::text(NOTICES),
-            None => demonstration::run(),
+            None => demonstration::run(self.language.map(Speech::language)),
             Some(Command::Simulate(arguments)) => simulate::run(&arguments),
             Some(Command::Precompute(arguments)) => precompute::run(&arguments),
             Some(Command::Solve(arguments)) => solve::run(&arguments),

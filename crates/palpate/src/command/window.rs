@@ -1,6 +1,6 @@
 //! The window, as the commands open it.
 
-use palpate_files::Scene;
+use palpate_files::{Language, Scene};
 use palpate_simulate::Resources;
 use palpate_viewer::training::Training;
 use palpate_viewer::{Error, Start, WindowOptions, open_window};
@@ -9,7 +9,13 @@ use super::simulate::ESOPHAGUS;
 use crate::interrupt;
 
 /// Opens a window with `resources` and waits until it is closed.
-pub(super) fn open(
+pub(super) fn open(started: (Start, Option<Training>), resources: Resources) -> Result<(), Error> {
+    open_in(None, started, resources)
+}
+
+/// The same, with texts in `language`.
+pub(super) fn open_in(
+    language: Option<Language>,
     (start, training): (Start, Option<Training>),
     resources: Resources,
 ) -> Result<(), Error> {
@@ -20,7 +26,7 @@ pub(super) fn open(
         way_out,
         resources,
         training,
-        settings: crate::settings::of_window(),
+        settings: crate::settings::of_window(language),
         is_ended: interrupt::is_asked,
     };
     open_window(start, options)

@@ -1,10 +1,10 @@
 use std::path::{Path, PathBuf};
 
 use palpate_files::scene::Task;
-use palpate_record::{Added, Attempt, Filter, Record};
+use palpate_record::{Added, Assignment, Attempt, Filter, Record};
 use palpate_simulate::SessionFolder;
 use palpate_simulate::performance::Score;
-use palpate_viewer::training::{Assigned, Class, PastResult, TrainingResult};
+use palpate_viewer::training::{Assigned, Class, NewAssignment, PastResult, TrainingResult};
 
 use super::TrainingRecord;
 use super::record::{measures, record_file};
@@ -172,6 +172,27 @@ impl TrainingRecord for Kept {
         }
         let record = Record::read(&self.file).map_err(|error| error.to_string())?;
         crate::command::progress::class(&record).map_err(|error| error.to_string())
+    }
+
+    fn assign(&mut self, given: &NewAssignment) -> Result<(), String> {
+        let due = date::end_of_day(&given.due)
+            .ok_or_else(|| format!("`{}` is no day; give one, such as 2026-12-24", given.due))?;
+        let assign = || -> Result<(), palpate_record::Error> {
+            let mut record = Record::open(&self.file)?;
+            record.check_pin(Some(given.pin.as_str()))?;
+            let cohorts = record.cohorts()?;
+            // A trainee alone is a cohort of that name.
+            if !cohorts.iter().any(|own| own.name == given.to) {
+                record.join(&given.to, std::slice::from_ref(&given.to))?;
+            }
+            record.assign(&Assignment {
+                cohort: given.to.clone(),
+                task: given.task.clone(),
+                due,
+                passes: given.passes,
+            })
+        };
+        assign().map_err(|error| error.to_string())
     }
 
     fn results(&self, trainee: &str) -> Result<Vec<PastResult>, String> {

@@ -3,35 +3,48 @@
 use std::path::Path;
 
 use palpate_files::Scene;
+use palpate_viewer::training::{OfferedTask, TaskPicture};
 
 use crate::failure::Failure;
 use crate::output;
 
-/// The tasks that come with the program: their names and scenes.
-const BUILT_IN: [(&str, &str); 3] = [
-    (
-        "palpation",
-        include_str!("../../../../assets/tasks/palpation.toml"),
-    ),
-    (
-        "traction",
-        include_str!("../../../../assets/tasks/traction.toml"),
-    ),
-    (
-        "myotomy",
-        include_str!("../../../../assets/tasks/myotomy.toml"),
-    ),
+/// A task that comes with the program.
+struct BuiltIn {
+    name: &'static str,
+    scene: &'static str,
+    picture: &'static [u8],
+}
+
+macro_rules! built_in {
+    ($name:literal) => {
+        BuiltIn {
+            name: $name,
+            scene: include_str!(concat!("../../../../assets/tasks/", $name, ".toml")),
+            picture: include_bytes!(concat!("../../../../assets/tasks/", $name, ".png")),
+        }
+    };
+}
+
+/// The tasks that come with the program.
+const BUILT_IN: [BuiltIn; 4] = [
+    built_in!("palpation"),
+    built_in!("traction"),
+    built_in!("retraction"),
+    built_in!("myotomy"),
 ];
 
 /// The lower esophagus where it lies, to be touched without a task.
 const FREE: &str = include_str!("../../../../assets/esophagus/trainer.toml");
 
 /// All tasks, the program's first. A file of the user's that is no task is told and left out.
-pub(super) fn tasks(folder: &Path) -> Result<Vec<Scene>, Failure> {
-    let all = BUILT_IN
-        .iter()
-        .map(|(name, text)| built_in(name, text, folder));
-    let mut tasks: Vec<Scene> = all.collect::<Result<_, _>>()?;
+pub(super) fn tasks(folder: &Path) -> Result<Vec<OfferedTask>, Failure> {
+    let all = BUILT_IN.iter().map(|task| {
+        Ok(OfferedTask {
+            scene: task.scene(folder)?,
+            picture: TaskPicture::decode(task.picture).ok(),
+        })
+    });
+    let mut tasks: Vec<OfferedTask> = all.collect::<Result<_, Failure>>()?;
     let own = std::fs::read_dir(folder.join("tasks"));
     let mut paths: Vec<_> = own
         .into_iter()
@@ -42,20 +55,42 @@ pub(super) fn tasks(folder: &Path) -> Result<Vec<Scene>, Failure> {
     paths.sort_unstable();
     for path in paths {
         match Scene::read(&path) {
-            Ok(scene) => tasks.push(scene),
+            Ok(scene) => tasks.push(OfferedTask {
+                picture: picture(&scene),
+                scene,
+            }),
             Err(error) => output::warnings(&[format!("a task is left out: {error}")]),
         }
     }
     Ok(tasks)
 }
 
-/// A task that comes with the program, beside the experts' sessions that the user has in `experts/NAME` of the
-/// `folder`.
-fn built_in(name: &str, text: &str, folder: &Path) -> Result<Scene, Failure> {
-    let mut scene = Scene::parse(text, format!("built-in task {name}.toml"))?;
-    let experts = folder.join("experts").join(name);
-    scene.task.expert = experts.is_dir().then_some(experts);
-    Ok(scene)
+impl BuiltIn {
+    /// Its scene, beside the experts' sessions that the user has in `experts/NAME` of the `folder`.
+    fn scene(&self, folder: &Path) -> Result<Scene, Failure> {
+        let Self { name, scene, .. } = self;
+        let mut scene = Scene::parse(scene, format!("built-in task {name}.toml"))?;
+        let experts = folder.join("experts").join(name);
+        scene.task.expert = experts.is_dir().then_some(experts);
+        Ok(scene)
+    }
+}
+
+/// The picture of a user's task. One that cannot be shown is told and left out.
+fn picture(scene: &Scene) -> Option<TaskPicture> {
+    let path = scene.task.picture.as_ref()?;
+    let bytes = std::fs::read(path).map_err(|cause| cause.to_string());
+    match bytes.and_then(|bytes| TaskPicture::decode(&bytes)) {
+        Ok(picture) => Some(picture),
+        Err(cause) => {
+            let told = format!(
+                "{}: the picture of a task is left out: {cause}",
+                path.display()
+            );
+            output::warnings(&[told]);
+            None
+        }
+    }
 }
 
 /// What is touched without a task.
@@ -73,8 +108,14 @@ mod tests {
     /// Every task that comes with the program draws its variants, and can be played.
     #[test]
     fn tasks_are_whole() {
-        for (name, text) in &BUILT_IN {
-            let drawn = Scene::parse(text, name).unwrap();
+        for BuiltIn {
+            name,
+            scene,
+            picture,
+        } in &BUILT_IN
+        {
+            assert!(TaskPicture::decode(picture).is_ok(), "{name}");
+            let drawn = Scene::parse(scene, name).unwrap();
             assert!(drawn.draws.is_some(), "{name}");
             let mut scene = draw_variant(&drawn, 0).unwrap();
             assert!(scene.task.title.is_some() && scene.task.instructions.is_some());

@@ -17,12 +17,13 @@ from palpate._palpate import (
     SimulationBatch,
     Snapshot,
     State,
+    Teleoperation,
     Tissue,
     __version__,
     isosurface,
 )
 from palpate.errors import InputError, PalpateError
-from palpate.fits import Characterization, FittedRecording, Law, Parameter, Relaxation, Specimen
+from palpate.fits import Characterization, Specimen
 from palpate.jobs import (
     Analysis,
     Design,
@@ -36,6 +37,7 @@ from palpate.jobs import (
     precompute,
     solve,
 )
+from palpate.laws import FittedRecording, Law, Parameter, Relaxation
 
 __all__ = [
     "Analysis",
@@ -62,6 +64,7 @@ __all__ = [
     "Solution",
     "Specimen",
     "State",
+    "Teleoperation",
     "Tissue",
     "__version__",
     "analyze",

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     import matplotlib.axes
     import matplotlib.figure
 
-    from palpate.fits import Law
+    from palpate.laws import Law
 
 #: How a style is drawn: line, marker.
 STYLES: dict[str, dict[str, Any]] = {

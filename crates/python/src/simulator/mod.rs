@@ -3,7 +3,8 @@
 //! ```text
 //! Simulation ─┐                ┌─ Stepper (state, workspace, clock, score)
 //!             ├─ Arc<Model> ───┤
-//! SimulationBatch ─────────────┴─ Stepper, Stepper, … on several threads
+//! SimulationBatch ─────────────┼─ Stepper, Stepper, … on several threads
+//! Teleoperation ───────────────┴─ Interaction (devices, their loops, the model's thread)
 //! ```
 //!
 //! *How we know*: `tests/test_simulation.py`, `tests/test_batch.py`; what a step costs beyond Rust's own:
@@ -23,6 +24,7 @@ mod snapshot;
 mod state;
 mod stepper;
 mod steps;
+mod teleoperation;
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -40,11 +42,12 @@ pub(crate) use renderer::Renderer;
 pub(crate) use single::Simulation;
 pub(crate) use snapshot::Snapshot;
 pub(crate) use state::State;
+pub(crate) use teleoperation::Teleoperation;
 
 /// What was prepared of a scene.
 pub(crate) struct Model {
     pub(crate) scene: Scene,
-    pub(crate) prepared: Prepared,
+    pub(crate) prepared: Arc<Prepared>,
 }
 
 impl Model {
@@ -65,6 +68,7 @@ impl Model {
                     false => ControlFlow::Continue(()),
                 }
             })?;
+            let prepared = Arc::new(prepared);
             Ok::<_, Failure>(Arc::new(Self { scene, prepared }))
         })
     }

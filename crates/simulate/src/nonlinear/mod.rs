@@ -38,8 +38,8 @@ pub(crate) use touch::Moved;
 use nalgebra::Rotation3;
 use palpate_files::Scene;
 use palpate_geometry::{
-    AabbTree, FillSettings, NodeId, Surface, TetrahedronMesh, TriangleMesh, Vec3, coarsen, fill,
-    refine_to,
+    AabbTree, FillSettings, NodeId, Surface, TetrahedronError, TetrahedronMesh, TriangleMesh, Vec3,
+    coarsen, fill, refine_to,
 };
 use palpate_mechanics::nonlinear::{
     CarriedPoints, NonlinearModel, NonlinearState, SpreadLoad, Workspace,
@@ -204,6 +204,38 @@ fn jaws_radius(tool: &Tool) -> Option<f64> {
     Some((face / std::f64::consts::PI).sqrt())
 }
 
+/// A filling of about `wanted` tetrahedra, or of more where walls are lost. One that has all of its walls but other holes
+/// than `surface`, as across a thin wall, is taken only if one finer filling does not do better.
+fn filled(surface: &Surface, mut wanted: usize) -> Result<TetrahedronMesh, TetrahedronError> {
+    let mut filling = fill(surface, &FillSettings::with_about(surface, wanted));
+    for _ in 1..FILLINGS {
+        let is_whole = filling.is_ok();
+        if filling.as_ref().is_ok_and(|mesh| is_alike(mesh, surface)) {
+            break;
+        }
+        wanted *= MORE;
+        let finer = fill(surface, &FillSettings::with_about(surface, wanted));
+        if !is_whole || finer.as_ref().is_ok_and(|mesh| is_alike(mesh, surface)) {
+            filling = finer;
+        }
+        if is_whole {
+            break;
+        }
+    }
+    filling
+}
+
+/// Whether the boundary of `filling` is a surface with as many pieces less holes as `surface`, by Euler's formula.
+fn is_alike(filling: &TetrahedronMesh, surface: &Surface) -> bool {
+    let euler = |of: &Surface| {
+        let mesh = of.mesh();
+        2 * mesh.vertices().len() as i64 - mesh.triangles().len() as i64
+    };
+    filling
+        .boundary_surface()
+        .is_ok_and(|boundary| euler(&boundary) == euler(surface))
+}
+
 /// About so many nodes in the body within `surface`: a filling that has all of its walls, made coarser, finer at inclusions.
 fn tetrahedra(
     surface: &Surface,
@@ -212,15 +244,7 @@ fn tetrahedra(
 ) -> Result<TetrahedronMesh, Error> {
     let edge = FillSettings::with_about(surface, nodes).edge;
     let longest = |place: &Vec3| regions.longest_edge(place).min(edge);
-    let mut wanted = TETRAHEDRA_PER_NODE * nodes;
-    let mut filling = fill(surface, &FillSettings::with_about(surface, wanted));
-    for _ in 1..FILLINGS {
-        if filling.is_ok() {
-            break;
-        }
-        wanted *= MORE;
-        filling = fill(surface, &FillSettings::with_about(surface, wanted));
-    }
+    let mut filling = filled(surface, TETRAHEDRA_PER_NODE * nodes);
     if regions.has_inclusions() {
         filling = filling
             .and_then(|coarse| refine_to(&coarse, Some(surface), |place| OF_EDGE * longest(place)));

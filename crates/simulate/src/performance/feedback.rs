@@ -1,61 +1,88 @@
 //! What a trainee is told of an attempt: a verdict, and what was good, what to change and what to do next.
+//!
+//! Each is a [`Phrase`]: a key and the numbers in it. A window has the words, in its language
+//! (`assets/texts/*.ftl`).
 
 use palpate_files::scene::{Goal, Task};
 
-use super::{Outcome, Score, SizeOutcome};
+use super::{Outcome, Score};
 
-/// Four sentences on an attempt.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// A text that is not written yet: its key in a catalogue, and what is filled in.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Phrase {
+    /// The key.
+    pub key: &'static str,
+    /// Placeholders and their values.
+    pub values: Vec<(&'static str, PhraseValue)>,
+}
+
+/// What is filled into a phrase.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PhraseValue {
+    /// A whole number, in the unit that the placeholder's name says: `mm`, `mn`, `s`, `percent`, or a count.
+    Number(f64),
+    /// Another phrase.
+    Phrase(Phrase),
+}
+
+impl Phrase {
+    fn plain(key: &'static str) -> Self {
+        Self {
+            key,
+            values: Vec::new(),
+        }
+    }
+
+    fn filled<const N: usize>(key: &'static str, values: [(&'static str, f64); N]) -> Self {
+        let number = |(name, value): (_, f64)| (name, PhraseValue::Number(value.round()));
+        Self {
+            key,
+            values: values.map(number).into(),
+        }
+    }
+}
+
+/// Four phrases on an attempt.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Feedback {
     /// Whether it was passed, and why not.
-    pub verdict: String,
+    pub verdict: Phrase,
     /// What was good.
-    pub good: String,
+    pub good: Phrase,
     /// The one thing to change first.
-    pub change: String,
+    pub change: Phrase,
     /// What to do next.
-    pub next: String,
-}
-
-fn millimetres(length: f64) -> String {
-    format!("{:.0} mm", 1e3 * length)
-}
-
-fn millinewtons(force: f64) -> String {
-    format!("{:.0} mN", 1e3 * force)
+    pub next: Phrase,
 }
 
 /// What is told of an attempt at `task`, which ended because its time was over if `late`.
 pub fn feedback(task: &Task, score: &Score, late: bool) -> Feedback {
     let passed = score.outcome.passed();
-    let why = why_not(task, score);
     let verdict = match (passed, late) {
-        (Some(true), _) => "Passed".to_owned(),
-        (Some(false), true) => "Not passed: the time was over".to_owned(),
-        (Some(false), false) => format!("Not passed: {why}"),
-        (None, _) => "Done".to_owned(),
+        (Some(true), _) => Phrase::plain("verdict-passed"),
+        (Some(false), true) => Phrase::plain("verdict-late"),
+        (Some(false), false) => Phrase {
+            key: "verdict-not-passed",
+            values: vec![("why", PhraseValue::Phrase(why_not(task, score)))],
+        },
+        (None, _) => Phrase::plain("verdict-done"),
     };
     Feedback {
         verdict,
         good: good(task, score),
         change: change(task, score),
         next: match passed {
-            Some(true) => format!(
-                "Next: repeat it, with other numbers, in less than {:.0} s and without errors.",
-                score.duration.max(1.0)
-            ),
-            Some(false) => {
-                "Next: watch the demonstration if the way is not clear, then try again.".to_owned()
-            }
-            None => "Next: choose a task.".to_owned(),
+            Some(true) => Phrase::filled("next-repeat", [("s", score.duration.max(1.0))]),
+            Some(false) => Phrase::plain("next-retry"),
+            None => Phrase::plain("next-choose"),
         },
     }
 }
 
-fn why_not(task: &Task, score: &Score) -> String {
+fn why_not(task: &Task, score: &Score) -> Phrase {
     let perforated = score.errors.perforations > 0;
     match (&score.outcome, &task.goal) {
-        (Outcome::Find { beside: None, .. }, _) => "no place was marked".to_owned(),
+        (Outcome::Find { beside: None, .. }, _) => Phrase::plain("why-unmarked"),
         (
             Outcome::Find {
                 found: true,
@@ -64,46 +91,59 @@ fn why_not(task: &Task, score: &Score) -> String {
             },
             _,
         ) => match size.stated {
-            None => "no diameter was stated".to_owned(),
-            Some(stated) => format!(
-                "the diameter is {}, not {}",
-                millimetres(2.0 * size.truth.radius_m),
-                millimetres(stated)
-            ),
+            None => Phrase::plain("why-no-diameter"),
+            Some(stated) => {
+                let values = [("mm", 2e3 * size.truth.radius_m), ("stated", 1e3 * stated)];
+                Phrase::filled("why-diameter", values)
+            }
         },
         (
             Outcome::Find {
                 beside: Some(off), ..
             },
             _,
-        ) => {
-            format!("the mark is {} from the lump", millimetres(*off))
-        }
+        ) => Phrase::filled("why-far", [("mm", 1e3 * off)]),
         (
             Outcome::Traction {
                 torn: Some(force), ..
             },
             _,
-        ) => {
-            format!("the tissue tore under {}", millinewtons(*force))
+        ) => Phrase::filled("why-torn", [("mn", 1e3 * force)]),
+        (Outcome::Traction { within, .. }, _) => Phrase::filled("why-short", [("s", *within)]),
+        (
+            Outcome::Touch {
+                torn: Some(force), ..
+            },
+            _,
+        ) => Phrase::filled("why-held-torn", [("mn", 1e3 * force)]),
+        (
+            Outcome::Touch {
+                injured: Some(force),
+                ..
+            },
+            _,
+        ) => Phrase::filled("why-injured", [("mn", 1e3 * force)]),
+        (Outcome::Touch { beside: None, .. }, _) => Phrase::plain("why-covered"),
+        (Outcome::Touch { within, .. }, _) if *within > 0.0 => {
+            Phrase::filled("why-touched-short", [("s", *within)])
         }
-        (Outcome::Traction { within, .. }, _) => {
-            format!("the pull was right for {within:.0} s only")
-        }
-        (Outcome::Cut { .. }, _) if perforated => "the mucosa is perforated".to_owned(),
+        (
+            Outcome::Touch {
+                beside: Some(off), ..
+            },
+            _,
+        ) => Phrase::filled("why-beside", [("mm", 1e3 * off)]),
+        (Outcome::Cut { .. }, _) if perforated => Phrase::plain("why-perforated"),
         (Outcome::Cut { part, .. }, Goal::Cut { tolerance_m, .. }) => {
             let line = score.cut.and_then(|cut| cut.along_line);
             match line {
                 Some(line) if line.largest_deviation > *tolerance_m => {
-                    format!(
-                        "the cut is {} from the line",
-                        millimetres(line.largest_deviation)
-                    )
+                    Phrase::filled("why-off-line", [("mm", 1e3 * line.largest_deviation)])
                 }
-                _ => format!("{:.0} % of the line is not cut", 100.0 * (1.0 - part)),
+                _ => Phrase::filled("why-uncut", [("percent", 100.0 * (1.0 - part))]),
             }
         }
-        _ => String::new(),
+        _ => Phrase::plain("why-unknown"),
     }
 }
 
@@ -113,7 +153,7 @@ fn peak(score: &Score) -> f64 {
     peaks.fold(0.0, f64::max)
 }
 
-fn good(task: &Task, score: &Score) -> String {
+fn good(task: &Task, score: &Score) -> Phrase {
     let gentle = task.force_limit_n.filter(|limit| peak(score) <= *limit);
     match (&score.outcome, gentle) {
         (
@@ -123,13 +163,18 @@ fn good(task: &Task, score: &Score) -> String {
                 size,
             },
             _,
-        ) => {
-            format!(
-                "Good: you found the lump, {} from its middle{}.",
-                millimetres(*off),
-                size.map_or(String::new(), |size| size_words(&size))
-            )
-        }
+        ) => match size.and_then(|size| Some((size, size.stated?))) {
+            Some((size, stated)) if size.is_right() => {
+                let truth = 2e3 * size.truth.radius_m;
+                let values = [
+                    ("mm", 1e3 * off),
+                    ("stated", 1e3 * stated),
+                    ("truth", truth),
+                ];
+                Phrase::filled("good-found-size", values)
+            }
+            _ => Phrase::filled("good-found", [("mm", 1e3 * off)]),
+        },
         (
             Outcome::Traction {
                 held: true,
@@ -137,60 +182,46 @@ fn good(task: &Task, score: &Score) -> String {
                 ..
             },
             _,
-        ) => {
-            format!(
-                "Good: you held the pull, {} off on average.",
-                millinewtons(*error)
-            )
-        }
-        (Outcome::Cut { clean: true, .. }, _) => {
-            "Good: the whole line is cut, and the mucosa is whole.".to_owned()
-        }
+        ) => Phrase::filled("good-held", [("mn", 1e3 * error)]),
+        (
+            Outcome::Touch {
+                reached: true,
+                within,
+                ..
+            },
+            _,
+        ) => Phrase::filled("good-touched", [("s", *within)]),
+        (
+            Outcome::Touch {
+                beside: Some(_),
+                torn: None,
+                ..
+            },
+            None,
+        ) => Phrase::plain("good-clear"),
+        (Outcome::Cut { clean: true, .. }, _) => Phrase::plain("good-cut"),
         (Outcome::Cut { part, .. }, _) if *part >= 0.5 => {
-            format!(
-                "Good: {:.0} % of the line is cut to its depth.",
-                100.0 * part
-            )
+            Phrase::filled("good-part", [("percent", 100.0 * part)])
         }
         (
             Outcome::Traction {
                 within, torn: None, ..
             },
             _,
-        ) if *within >= 1.0 => {
-            format!("Good: the pull was right for {within:.0} s.")
+        ) if *within >= 1.0 => Phrase::filled("good-within", [("s", *within)]),
+        (_, Some(limit)) => {
+            let values = [("mn", 1e3 * limit), ("most", 1e3 * peak(score))];
+            Phrase::filled("good-gentle", values)
         }
-        (_, Some(limit)) => format!(
-            "Good: you stayed below {}, with {} at most.",
-            millinewtons(limit),
-            millinewtons(peak(score))
-        ),
-        _ => format!("Good: you worked for {:.0} s.", score.duration),
+        _ => Phrase::filled("good-worked", [("s", score.duration)]),
     }
 }
 
-/// How near a stated diameter is.
-fn size_words(size: &SizeOutcome) -> String {
-    let truth = millimetres(2.0 * size.truth.radius_m);
-    match size.stated {
-        Some(stated) if size.is_right() => format!(
-            ", and stated {} for its diameter of {truth}",
-            millimetres(stated)
-        ),
-        _ => String::new(),
-    }
-}
-
-fn change(task: &Task, score: &Score) -> String {
+fn change(task: &Task, score: &Score) -> Phrase {
     let perforated = score.errors.perforations > 0;
-    let first = match (&score.outcome, &task.goal) {
-        (Outcome::Find { beside: None, .. }, _) => {
-            "press, and mark with Enter while you press".to_owned()
-        }
-        (Outcome::Find { found: false, .. }, _) => {
-            "press to the same depth everywhere, in rows 15 mm apart, and compare the forces"
-                .to_owned()
-        }
+    Phrase::plain(match (&score.outcome, &task.goal) {
+        (Outcome::Find { beside: None, .. }, _) => "change-mark",
+        (Outcome::Find { found: false, .. }, _) => "change-rows",
         (
             Outcome::Find {
                 size: Some(size), ..
@@ -199,61 +230,42 @@ fn change(task: &Task, score: &Score) -> String {
         ) if !size.is_right() => {
             let stated = size.stated.unwrap_or(0.0);
             match size.truth.error_of(stated) > 0.0 {
-                true => "state a smaller diameter for such a rise of the force".to_owned(),
-                false => {
-                    "state a larger diameter for such a rise of the force over the lump".to_owned()
-                }
+                true => "change-smaller",
+                false => "change-larger",
             }
         }
-        (Outcome::Traction { torn: Some(_), .. }, _) => {
-            "pull more slowly: tissue keeps yielding, and a fast pull overshoots".to_owned()
-        }
-        (Outcome::Traction { held: false, .. }, _) => {
-            "grasp first, then pull until the cue says hold, and stay there".to_owned()
-        }
-        (Outcome::Cut { .. }, _) if perforated => {
-            "lower the blade less deep, and do not press on what is bare".to_owned()
-        }
-        (Outcome::Cut { clean: false, part }, Goal::Cut { .. }) if *part < 0.97 => {
-            "cut what still shines on the organ, to its full depth".to_owned()
-        }
-        (Outcome::Cut { clean: false, .. }, _) => "stay on the line".to_owned(),
-        _ => match errors(task, score) {
-            Some(error) => error,
-            None => return "Change: nothing; there was no error.".to_owned(),
-        },
-    };
-    format!("Change: {first}.")
+        (Outcome::Traction { torn: Some(_), .. }, _) => "change-slower",
+        (Outcome::Traction { held: false, .. }, _) => "change-grasp",
+        (Outcome::Touch { torn: Some(_), .. }, _) => "change-lift-slower",
+        (
+            Outcome::Touch {
+                injured: Some(_), ..
+            },
+            _,
+        ) => "change-come-slowly",
+        (Outcome::Touch { beside: None, .. }, _) => "change-lift",
+        (Outcome::Touch { reached: false, .. }, _) => "change-stay",
+        (Outcome::Cut { .. }, _) if perforated => "change-shallower",
+        (Outcome::Cut { clean: false, part }, Goal::Cut { .. }) if *part < 0.97 => "change-uncut",
+        (Outcome::Cut { clean: false, .. }, _) => "change-line",
+        _ => return errors(task, score),
+    })
 }
 
-fn errors(task: &Task, score: &Score) -> Option<String> {
+fn errors(task: &Task, score: &Score) -> Phrase {
     let errors = &score.errors;
-    let times = |count: u64| match count {
-        1 => "once".to_owned(),
-        count => format!("{count} times"),
-    };
     match task.force_limit_n {
         Some(limit) if errors.force_limit > 0 => {
-            return Some(format!(
-                "press more gently: the force rose above {} {}",
-                millinewtons(limit),
-                times(errors.force_limit)
-            ));
+            let values = [("mn", 1e3 * limit), ("count", errors.force_limit as f64)];
+            Phrase::filled("change-gentler", values)
         }
-        _ => {}
+        _ if errors.drops > 0 => Phrase::filled("change-drops", [("count", errors.drops as f64)]),
+        _ if errors.shaft_contacts > 0 => {
+            let count = errors.shaft_contacts as f64;
+            Phrase::filled("change-shaft", [("count", count)])
+        }
+        _ => Phrase::plain("change-nothing"),
     }
-    if errors.drops > 0 {
-        return Some(format!(
-            "pull less on what you hold: it slipped {}",
-            times(errors.drops)
-        ));
-    }
-    (errors.shaft_contacts > 0).then(|| {
-        format!(
-            "keep the shaft off the organ: it touched {}",
-            times(errors.shaft_contacts)
-        )
-    })
 }
 
 #[cfg(test)]
@@ -311,26 +323,29 @@ mod tests {
             tear_force_n: Some(0.5),
         };
         let missed = told(find(0.02), Event::Mark.into(), 0.1, 1);
-        assert_eq!(
-            missed.verdict,
-            "Not passed: the mark is 20 mm from the lump"
-        );
-        assert!(missed.change.contains("same depth"));
+        let why = |key, values| Phrase {
+            key: "verdict-not-passed",
+            values: vec![("why", PhraseValue::Phrase(Phrase { key, values }))],
+        };
+        let number = |name, value| vec![(name, PhraseValue::Number(value))];
+        assert_eq!(missed.verdict, why("why-far", number("mm", 20.0)));
+        assert_eq!(missed.change.key, "change-rows");
         let found = told(find(0.002), Event::Mark.into(), 0.1, 1);
-        assert_eq!(
-            (found.verdict.as_str(), found.change.as_str()),
-            ("Passed", "Change: nothing; there was no error.")
-        );
+        let keys = [found.verdict.key, found.change.key];
+        assert_eq!(keys, ["verdict-passed", "change-nothing"]);
         let hard = told(find(0.002), Event::Mark.into(), 0.4, 1);
-        assert!(hard.change.contains("above 300 mN once"), "{hard:?}");
+        let values = [number("mn", 300.0), number("count", 1.0)].concat();
+        let gentler = Phrase {
+            key: "change-gentler",
+            values,
+        };
+        assert_eq!(hard.change, gentler);
         let torn = told(pull(), Events::NONE, 0.6, 2);
-        assert!(
-            torn.verdict.contains("tore under 600 mN") && torn.change.contains("slowly"),
-            "{torn:?}"
-        );
+        assert_eq!(torn.verdict, why("why-torn", number("mn", 600.0)));
+        assert_eq!(torn.change.key, "change-slower");
         let held = told(pull(), Events::NONE, 0.2, 4);
-        assert_eq!(held.verdict, "Passed");
+        assert_eq!(held.verdict.key, "verdict-passed");
         let short = told(pull(), Events::NONE, 0.2, 2);
-        assert_eq!(short.verdict, "Not passed: the pull was right for 2 s only");
+        assert_eq!(short.verdict, why("why-short", number("s", 2.0)));
     }
 }

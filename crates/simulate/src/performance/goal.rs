@@ -6,6 +6,7 @@ use palpate_geometry::Vec3;
 
 use super::Errors;
 use super::cut::{CutWay, aside};
+use super::touch::TouchWatch;
 
 /// A pull below this part of the wanted force is not one yet [-].
 const BEGINS: f64 = 0.2;
@@ -23,34 +24,42 @@ pub(super) struct GoalWatch {
     /// Time [s] and force [N] of each tool before.
     last: Vec<Option<(f64, Vec3)>>,
     /// The last pull of the tool that pulls.
-    pull: Option<Pull>,
+    pull: Option<Advice>,
     /// The force at which the tissue tore [N].
     torn: Option<f64>,
     within: f64,
     /// Time of the pull [s], and ∫ (F − wanted)² dt [N² s].
     pulled: (f64, f64),
+    /// Of a place that is to be touched.
+    touch: Option<TouchWatch>,
 }
 
-/// A pull beside the one that is wanted.
+/// A force beside the one that is wanted.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pull {
+pub struct Advice {
     /// Its size [N].
     pub force: f64,
     /// How it should be changed.
-    pub cue: PullCue,
+    pub cue: Cue,
 }
 
-/// The one thing that should be changed of a pull.
+/// The one thing that should be changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PullCue {
+pub enum Cue {
     /// Nothing: hold it.
     Hold,
-    /// Pull harder.
+    /// Pull or press harder.
     More,
-    /// Pull less.
+    /// Pull or press less.
     Less,
     /// Pull in the other direction.
     Turn,
+    /// Take hold of the organ: the force is that of the tool that shall.
+    Grasp,
+    /// Lift the organ out of the way of the tool that shall touch: the force is that of the tool that lifts.
+    Lift,
+    /// Touch the place that is meant: the force is that of the tool that lifts, if one has to.
+    Reach,
 }
 
 /// How far a task is.
@@ -60,8 +69,8 @@ pub enum Status {
     GoesOn {
         /// From 0 to 1 [-].
         part: Option<f64>,
-        /// The pull of a traction.
-        pull: Option<Pull>,
+        /// What to change, where a force is wanted.
+        advice: Option<Advice>,
     },
     /// It is over.
     Over {
@@ -111,6 +120,19 @@ pub enum Outcome {
         /// The pull at which the tissue tore [N]; none where it did not.
         torn: Option<f64>,
     },
+    /// A place was to be touched.
+    Touch {
+        /// How long it was touched as it should be [s].
+        within: f64,
+        /// The least distance from it at which the tool was, with the organ out of its way [m]; none if it never was.
+        beside: Option<f64>,
+        /// Whether it was touched for long enough.
+        reached: bool,
+        /// The force that injured it [N]; none where none did.
+        injured: Option<f64>,
+        /// The pull at which the held tissue tore [N]; none where it did not.
+        torn: Option<f64>,
+    },
     /// A line was to be cut.
     Cut {
         /// The part of the line that was cut [-].
@@ -139,6 +161,10 @@ impl GoalWatch {
             torn: None,
             within: 0.0,
             pulled: (0.0, 0.0),
+            touch: match goal {
+                Goal::Touch(touch) => Some(TouchWatch::new(touch, tools)),
+                _ => None,
+            },
         }
     }
 
@@ -159,6 +185,10 @@ impl GoalWatch {
         if self.awaits_diameter() && row.stated_diameter_m.is_some() {
             self.stated = row.stated_diameter_m;
             self.done = true;
+        }
+        if let Some(touch) = &mut self.touch {
+            touch.add(row);
+            self.done |= touch.is_done();
         }
         let &Goal::Traction {
             force_n,
@@ -184,7 +214,7 @@ impl GoalWatch {
         if let Some((time, before)) = before {
             let elapsed = row.time_s - time;
             let pull = self.goal.pull(&(0.5 * (before + force)));
-            if pull.is_some_and(|pull| pull.cue == PullCue::Hold) {
+            if pull.is_some_and(|pull| pull.cue == Cue::Hold) {
                 self.within += elapsed;
             }
             let middle = 0.5 * (before.norm() + force.norm());
@@ -211,6 +241,7 @@ impl GoalWatch {
             Goal::Free | Goal::Find { .. } => None,
             Goal::Traction { hold_s, .. } => Some((self.within / hold_s).min(1.0)),
             Goal::Cut { .. } => cut.covered().map(|(wanted, covered)| covered / wanted),
+            Goal::Touch(_) => self.touch.as_ref().map(TouchWatch::part),
         };
         let cut = matches!(self.goal, Goal::Cut { .. }) && part.is_some_and(|part| part >= WHOLE);
         match self.done || cut || late {
@@ -219,7 +250,10 @@ impl GoalWatch {
             },
             false => Status::GoesOn {
                 part,
-                pull: self.pull,
+                advice: match &self.touch {
+                    Some(touch) => Some(touch.advice()),
+                    None => self.pull,
+                },
             },
         }
     }
@@ -243,6 +277,10 @@ impl GoalWatch {
                 held: self.within >= *hold_s && self.torn.is_none(),
                 torn: self.torn,
             },
+            Goal::Touch(_) => self
+                .touch
+                .as_ref()
+                .map_or(Outcome::Free, TouchWatch::outcome),
             Goal::Cut { tolerance_m, .. } => {
                 let part = cut
                     .covered()
@@ -261,11 +299,11 @@ impl GoalWatch {
 /// The pull of a traction.
 trait Wanted {
     /// A force on the tool [N] beside the pull that is wanted; none where none is.
-    fn pull(&self, force: &Vec3) -> Option<Pull>;
+    fn pull(&self, force: &Vec3) -> Option<Advice>;
 }
 
 impl Wanted for Goal {
-    fn pull(&self, force: &Vec3) -> Option<Pull> {
+    fn pull(&self, force: &Vec3) -> Option<Advice> {
         let Self::Traction {
             force_n,
             tolerance_n,
@@ -281,12 +319,12 @@ impl Wanted for Goal {
             size > BEGINS * force_n && (-force).angle(&Vec3::from(direction)) > tolerance
         });
         let cue = match size {
-            _ if turned => PullCue::Turn,
-            size if size < force_n - tolerance_n => PullCue::More,
-            size if size > force_n + tolerance_n => PullCue::Less,
-            _ => PullCue::Hold,
+            _ if turned => Cue::Turn,
+            size if size < force_n - tolerance_n => Cue::More,
+            size if size > force_n + tolerance_n => Cue::Less,
+            _ => Cue::Hold,
         };
-        Some(Pull { force: size, cue })
+        Some(Advice { force: size, cue })
     }
 }
 
@@ -301,6 +339,7 @@ impl Outcome {
             Self::Find { found, size, .. } => Some(found && size.is_none_or(|own| own.is_right())),
             Self::Traction { held, .. } => Some(held),
             Self::Cut { clean, .. } => Some(clean),
+            Self::Touch { reached, .. } => Some(reached),
         }
     }
 }

@@ -93,6 +93,10 @@ impl Score {
                 });
                 add(own("diameter_error_m"), error, Less);
             }
+            Outcome::Touch { within, beside, .. } => {
+                add(own("held_s"), Some(within), More);
+                add(own("beside_m"), beside, Less);
+            }
             Outcome::Traction { within, error, .. } => {
                 add(own("held_s"), Some(within), More);
                 add(own("traction_error_n"), error, Less);

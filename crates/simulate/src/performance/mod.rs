@@ -16,6 +16,7 @@ mod goal;
 mod hand;
 mod jerk;
 mod measure;
+mod touch;
 mod words;
 
 use palpate_files::scene::Task;
@@ -24,9 +25,9 @@ use palpate_geometry::Vec3;
 
 pub use comparison::{Comparison, Standard, compare};
 pub use cut::CutScore;
-pub use feedback::{Feedback, feedback};
+pub use feedback::{Feedback, Phrase, PhraseValue, feedback};
 pub use force::ForceScore;
-pub use goal::{Outcome, Pull, PullCue, SizeOutcome, Status};
+pub use goal::{Advice, Cue, Outcome, SizeOutcome, Status};
 pub use hand::HandScore;
 pub use measure::{Better, Measure};
 pub use words::outcome_words;

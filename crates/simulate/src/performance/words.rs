@@ -32,6 +32,35 @@ pub fn outcome_words(outcome: &Outcome) -> String {
                 false => format!("The force was held for only {within:.1} s{off}."),
             }
         }
+        Outcome::Touch {
+            torn: Some(force), ..
+        } => format!(
+            "The held tissue tore, under a pull of {:.0} mN.",
+            1e3 * force
+        ),
+        Outcome::Touch {
+            injured: Some(force),
+            ..
+        } => format!(
+            "What was touched is injured, by a force of {:.0} mN.",
+            1e3 * force
+        ),
+        Outcome::Touch {
+            within,
+            beside,
+            reached,
+            injured: None,
+            torn: None,
+        } => match (reached, beside) {
+            (true, _) => format!("The target was touched for {within:.1} s."),
+            (false, None) => {
+                "The target was not touched: the organ was not held out of the way.".to_owned()
+            }
+            (false, Some(beside)) => format!(
+                "The target was touched for only {within:.1} s; the tip came within {:.1} mm of it.",
+                1e3 * beside
+            ),
+        },
         Outcome::Cut { part, clean } => match clean {
             true => "The line is cut, straight and without a perforation.".to_owned(),
             false => format!(

@@ -38,6 +38,7 @@ mod nonlinear_regions;
 mod performance;
 mod random_scenes;
 mod replay;
+mod retraction;
 mod scenes;
 mod session_end;
 mod silicone_beam;

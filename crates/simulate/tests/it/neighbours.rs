@@ -112,6 +112,29 @@ fn a_tool_stops_at_a_neighbour_and_slides_against_its_friction() {
     }
 }
 
+/// Judge: a spring of the stated stiffness.
+#[test]
+fn a_soft_neighbour_answers_with_its_stiffness() {
+    let soft = format!("{CUBE}\nstiffness_n_per_m = 150.0");
+    let (simulation, body) = beside("contact = \"slip\"", &soft);
+    let (low, high) = body.mesh().bounds();
+    let middle = 0.5 * (low + high);
+    let mut hand = Hand::new(&simulation);
+    for depth in [-1e-4, 5e-4, 1e-3] {
+        let force = hand.at(&Vec3::new(middle.x, middle.y, high.z - depth));
+        let expected = Vec3::z() * (150.0 * depth.max(0.0));
+        assert!((force - expected).norm() < 1e-9, "{force}");
+    }
+    // Another stiffness is another scene; that of every earlier one keeps its digest.
+    let digest = |neighbour: &str| {
+        let (simulation, _) = beside("contact = \"slip\"", neighbour);
+        simulation.session_header().scene_digest
+    };
+    let rigid = format!("{CUBE}\nstiffness_n_per_m = 1000.0");
+    assert_eq!(digest(&rigid), digest(CUBE));
+    assert_ne!(digest(&soft), digest(CUBE));
+}
+
 /// The servo loop is told of the neighbour, too: the force a little farther is that of the step there.
 #[test]
 fn the_slope_beside_a_neighbour_is_that_of_the_force() {

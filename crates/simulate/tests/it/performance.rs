@@ -8,7 +8,7 @@ use palpate_files::session::Event;
 use palpate_files::{Events, SessionRow};
 use palpate_geometry::Vec3;
 use palpate_simulate::performance::{
-    Outcome, Performance, Pull, PullCue, Score, Standard, Status, compare, score,
+    Advice, Cue, Outcome, Performance, Score, Standard, Status, compare, score,
 };
 
 pub(crate) fn row(time: f64, place: Vec3) -> SessionRow {
@@ -335,12 +335,12 @@ fn goals_are_reached() {
         panic!("no traction")
     };
     assert!(held && (error.unwrap() - 0.05).abs() < 1e-9);
-    let Status::GoesOn { part, pull: now } = pulled(0.45, 1.0).status() else {
+    let Status::GoesOn { part, advice: now } = pulled(0.45, 1.0).status() else {
         panic!("over")
     };
-    let hold = Pull {
+    let hold = Advice {
         force: 0.45,
-        cue: PullCue::Hold,
+        cue: Cue::Hold,
     };
     assert!((part.unwrap() - 0.5).abs() < 1e-9 && now == Some(hold));
     assert_eq!(pulled(0.7, 70.0).status(), Status::Over { late: true });
@@ -383,23 +383,23 @@ fn a_pull_has_one_cue_and_direction_counts() {
         performance
     };
     for (force, turned, expected) in [
-        (0.45, 0.0, PullCue::Hold),
-        (0.45, 29.0, PullCue::Hold),
-        (0.45, 31.0, PullCue::Turn),
-        (0.7, 180.0, PullCue::Turn),
-        (0.39, 0.0, PullCue::More),
-        (0.61, 0.0, PullCue::Less),
+        (0.45, 0.0, Cue::Hold),
+        (0.45, 29.0, Cue::Hold),
+        (0.45, 31.0, Cue::Turn),
+        (0.7, 180.0, Cue::Turn),
+        (0.39, 0.0, Cue::More),
+        (0.61, 0.0, Cue::Less),
         // Without a pull there is no direction to change.
-        (0.01, 180.0, PullCue::More),
+        (0.01, 180.0, Cue::More),
     ] {
-        let Status::GoesOn { part, pull } = pulled(force, turned).status() else {
+        let Status::GoesOn { part, advice: pull } = pulled(force, turned).status() else {
             panic!("over at {force} N")
         };
         let cue = pull.unwrap().cue;
         assert_eq!(cue, expected, "{force} N, {turned}°");
         assert_eq!(
             part.unwrap() > 0.4,
-            cue == PullCue::Hold,
+            cue == Cue::Hold,
             "{force} N, {turned}°"
         );
     }

@@ -109,9 +109,10 @@ impl Played {
 fn found(events: Events) -> Events {
     let told = [Event::Mark, Event::Lifted, Event::UndoCut, Event::BeginAnew];
     // A free tool's shaft was not known.
+    let shafts = [Event::ShaftContact, Event::ShaftRelease];
     let all = events
         .iter()
-        .filter(|event| !told.contains(event) && *event != Event::ShaftContact);
+        .filter(|event| !told.contains(event) && !shafts.contains(event));
     all.collect()
 }
 

@@ -218,3 +218,56 @@ fn thin_wall_slides((triangles, mechanical): (usize, usize), number: usize) {
     println!("{count}");
     count.assert_sound("esophagus");
 }
+
+/// A closed tube as OBJ: `radius`, `wall`, `length` and edges in m, its axis along x.
+fn tube_as_obj(radius: f64, wall: f64, length: f64, edge: f64) -> String {
+    let steps = (length / edge).round() as usize;
+    let columns = (std::f64::consts::TAU * radius / edge).round() as usize;
+    let along = |k: usize| length * (k as f64 / steps as f64 - 0.5);
+    let mut rows: Vec<[f64; 2]> = (0..=steps).map(|k| [along(k), radius]).collect();
+    rows.push([along(steps), radius - 0.5 * wall]);
+    rows.extend((0..=steps).rev().map(|k| [along(k), radius - wall]));
+    rows.push([along(0), radius - 0.5 * wall]);
+    let mut text = String::new();
+    for [x, r] in &rows {
+        for k in 0..columns {
+            let (sine, cosine) = (std::f64::consts::TAU * k as f64 / columns as f64).sin_cos();
+            text += &format!("v {x} {} {}\n", r * sine, r * cosine);
+        }
+    }
+    for row in 0..rows.len() {
+        for k in 0..columns {
+            let number = |row: usize, k: usize| 1 + row % rows.len() * columns + k % columns;
+            let (here, aside) = (number(row, k), number(row, k + 1));
+            let (further, both) = (number(row + 1, k), number(row + 1, k + 1));
+            text += &format!("f {here} {further} {both}\nf {here} {both} {aside}\n");
+        }
+    }
+    text
+}
+
+/// The first filling of this tube has edges as long as its wall is thick, and holes; the stiffness of what was made
+/// coarser of it was not positive.
+#[test]
+fn a_thin_tube_has_a_filling_without_holes() {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = folder.path().join("tube.obj");
+    fs::write(&mesh, tube_as_obj(0.01, 0.002, 0.08, 0.0012)).unwrap();
+    let ends = "anchor.planes = [{ point_m = [-0.0399, 0.0, 0.0], normal = [1.0, 0.0, 0.0] }, \
+                { point_m = [0.0399, 0.0, 0.0], normal = [-1.0, 0.0, 0.0] }]";
+    let organ = format!(
+        "mesh = {:?}\nmesh_unit = \"m\"\n{ends}",
+        mesh.to_str().unwrap()
+    );
+    let setting = Setting {
+        organ: &organ,
+        kind: "nonlinear",
+        model: "",
+        radius: 0.01,
+        shape: "sphere",
+        ..CUBE
+    };
+    let simulation = setting.simulation();
+    let force = Hand::new(&simulation).at(&Vec3::new(0.0, 0.0, 0.018)).z;
+    assert!(force > 0.0, "{force}");
+}

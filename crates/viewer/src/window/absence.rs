@@ -4,6 +4,8 @@ use eframe::egui;
 
 use super::SimulatorWindow;
 use super::choice::Choice;
+use super::page;
+use super::texts::text;
 use crate::{TissuePicture, style};
 
 impl SimulatorWindow {
@@ -31,13 +33,13 @@ impl SimulatorWindow {
                 ui.add_space(0.35 * ui.available_height());
                 match self.fault.clone() {
                     None => {
-                        ui.spinner();
-                        ui.label("preparing the organ and its model");
+                        page::spinner(ui);
+                        ui.label(text!("preparing-organ"));
                     }
                     Some(fault) => {
                         ui.colored_label(style::FAULT, fault);
                         ui.add_space(12.0);
-                        if ui.button("Open the built-in esophagus").clicked() {
+                        if ui.button(text!("absence-way-out")).clicked() {
                             self.choice = Choice::new(self.way_out.clone());
                             self.radius = 1e3 * self.choice.tip.radius_m;
                             self.fault = None;

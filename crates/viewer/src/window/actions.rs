@@ -16,6 +16,15 @@ impl SimulatorWindow {
         if std::mem::take(&mut self.takes_other) {
             wanted.push(Action::OtherTool);
         }
+        let pads = self.picture.take_requests();
+        let of_pads = [
+            (pads.mark, Action::Mark),
+            (pads.pause, Action::Pause),
+            (pads.undo, Action::Undo),
+        ];
+        let of_pads = of_pads.into_iter().filter(|(is_wanted, _)| *is_wanted);
+        wanted.extend(of_pads.map(|(_, action)| action));
+        self.change_diameter(pads.larger);
         for action in wanted {
             let request = match action {
                 Action::OtherTool => {

@@ -12,6 +12,7 @@ use palpate_simulate::performance::{
 use palpate_simulate::{Demonstration, Guidance, SessionFolder, ShownTool, Tutor, read_experts};
 
 use super::play::{ModelRequest, Play};
+use super::texts::text;
 use super::training::PastResult;
 
 /// A task that is attempted.
@@ -100,7 +101,7 @@ impl Attempt {
         let experts = match task.expert.as_deref().map(read_experts) {
             Some(Ok(experts)) => experts,
             Some(Err(error)) => {
-                trouble = Some(format!("without an expert: {error}"));
+                trouble = Some(text!("attempt-no-expert", error = error.to_string()));
                 Vec::new()
             }
             None => Vec::new(),
@@ -151,10 +152,7 @@ impl Attempt {
         }
         let mut folder = session;
         if play.scene.written.is_none() && folder.take().is_some() {
-            self.trouble = Some(
-                "not recorded: the scene was changed beside its file, so that it could not be played again"
-                    .to_owned(),
-            );
+            self.trouble = Some(text!("attempt-scene-changed"));
         }
         self.phase = Phase::GoesOn(match folder {
             None => {
@@ -171,7 +169,8 @@ impl Attempt {
                     Some(folder)
                 }
                 Err(error) => {
-                    self.trouble = Some(format!("not recorded: {error}"));
+                    let error = error.to_string();
+                    self.trouble = Some(text!("attempt-unrecorded", error = error));
                     play.begin_anew();
                     None
                 }
@@ -315,6 +314,11 @@ impl Attempt {
             Phase::Over(done) => done.folder.clone(),
             Phase::Reads | Phase::GoesOn(_) => None,
         }
+    }
+
+    /// Whether its card is read, before or after it, and no tool is moved for it.
+    pub(super) fn is_card(&self) -> bool {
+        matches!(self.phase, Phase::Reads | Phase::Over(_))
     }
 
     /// Whether it was done, one way or the other.

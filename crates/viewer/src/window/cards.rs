@@ -1,13 +1,16 @@
 //! What lies over the picture while a task is attempted: what there is to do, how far it is, how it was done.
 
+use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Align2, Color32, Frame, Margin, RichText, Ui, Vec2};
 use palpate_files::scene::Goal;
-use palpate_simulate::performance::{PullCue, Status};
+use palpate_simulate::performance::{Cue, Status};
 
 use super::attempt::{Attempt, Phase, Unsaved};
 use super::diameter;
+use super::page::{self, main_button, or_key, quiet};
 use super::results::over;
-use crate::style::{DEPTH, FAULT, QUIET, WARNING, WHITE};
+use super::texts::{of_task, text};
+use crate::style::{BAR, CARD_OVER_PICTURE, DEPTH, FAULT, QUIET, WARNING, WHITE};
 
 /// What somebody wants of an attempt.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,10 +54,18 @@ pub(super) fn show(ui: &Ui, attempt: &mut Attempt, around: &Around) -> Option<As
         Phase::Reads => card(ui, "task", Align2::CENTER_CENTER, 430.0, |ui| {
             reads(ui, attempt, around, &mut asked);
         }),
-        Phase::GoesOn(folder) => card(ui, "in progress", Align2::CENTER_TOP, 360.0, |ui| {
+        Phase::GoesOn(folder) => card(ui, "in progress", Align2::CENTER_TOP, 420.0, |ui| {
             let badge = match (folder, &unsaved) {
-                (_, Some(_)) => Some(RichText::new("NOT RECORDED").strong().color(FAULT)),
-                (Some(_), None) => Some(RichText::new("recorded").small().color(FAULT)),
+                (_, Some(_)) => Some(
+                    RichText::new(text!("attempt-not-recorded"))
+                        .strong()
+                        .color(FAULT),
+                ),
+                (Some(_), None) => Some(
+                    RichText::new(text!("attempt-recorded"))
+                        .small()
+                        .color(FAULT),
+                ),
                 (None, None) => None,
             };
             goes_on(ui, attempt, badge, &mut asked);
@@ -87,7 +98,7 @@ fn card(ui: &Ui, name: &str, align: Align2, width: f32, show: impl FnOnce(&mut U
         .pivot(align)
         .show(ui.ctx(), |ui| {
             let frame = Frame::new()
-                .fill(Color32::from_rgba_unmultiplied(16, 19, 24, 236))
+                .fill(CARD_OVER_PICTURE)
                 .corner_radius(8.0)
                 .inner_margin(Margin::symmetric(20, 14));
             frame.show(ui, |ui| {
@@ -97,8 +108,9 @@ fn card(ui: &Ui, name: &str, align: Align2, width: f32, show: impl FnOnce(&mut U
         });
 }
 
-pub(super) fn title(attempt: &Attempt) -> &str {
-    attempt.task.title.as_deref().unwrap_or("Free play")
+pub(super) fn title(attempt: &Attempt) -> String {
+    let title = attempt.task.title.as_deref();
+    title.map_or_else(|| text!("common-free-play"), of_task)
 }
 
 /// What there is to do.
@@ -106,98 +118,98 @@ fn reads(ui: &mut Ui, attempt: &Attempt, around: &Around, asked: &mut Option<Ask
     ui.label(RichText::new(title(attempt)).size(22.0).color(WHITE));
     ui.add_space(6.0);
     if let Some(words) = &attempt.task.instructions {
-        ui.label(RichText::new(words).size(15.0));
+        ui.label(RichText::new(of_task(words)).size(15.0));
     }
     ui.add_space(6.0);
-    let mut facts = vec![match &attempt.task.goal {
-        Goal::Free => "Enter ends it.".to_owned(),
-        Goal::Find { size: None, .. } => {
-            "Enter marks the place that you press on, and ends it.".to_owned()
+    ui.label(quiet(facts(attempt).join(" ")));
+    trouble(ui, attempt);
+    ui.add_space(10.0);
+    ui.horizontal_wrapped(|ui| {
+        match around.preparing {
+            Some(part) => {
+                page::spinner(ui);
+                let key = match around.begins {
+                    true => "attempt-preparing-begins",
+                    false => "attempt-preparing",
+                };
+                ui.label(text!(key, percent = (100.0 * part).round()));
+                if !around.begins && ui.button(text!("attempt-begin-ready")).clicked() {
+                    *asked = Some(Asked::Begin);
+                }
+            }
+            None => {
+                let begin = main_button(ui, &text!("attempt-begin"));
+                if begin.on_hover_text(or_key("Enter")).clicked() {
+                    *asked = Some(Asked::Begin);
+                }
+                let can_show = attempt.task.goal != Goal::Free;
+                if can_show && ui.button(text!("attempt-watch")).clicked() {
+                    *asked = Some(Asked::Show);
+                }
+            }
         }
+        tasks_button(ui, around, asked);
+    });
+}
+
+/// What ends the task, and what counts.
+fn facts(attempt: &Attempt) -> Vec<String> {
+    let task = &attempt.task;
+    let mut facts = vec![match &task.goal {
+        Goal::Free => text!("fact-free"),
+        Goal::Find { size: None, .. } => text!("fact-find"),
         Goal::Find {
             size: Some(size), ..
-        } => format!(
-            "Enter marks the place that you press on. Then set the diameter with the left and right arrow keys, and \
-             Enter states it; ± {:.0} mm counts.",
-            1e3 * size.diameter_tolerance_m
+        } => text!(
+            "fact-find-size",
+            mm = (1e3 * size.diameter_tolerance_m).round()
         ),
         Goal::Traction {
             force_n,
             tolerance_n,
             hold_s,
             ..
-        } => format!(
-            "Hold {:.0} ± {:.0} mN for {hold_s:.0} s in all; then it ends by itself.",
-            1e3 * force_n,
-            1e3 * tolerance_n
+        } => text!(
+            "fact-hold",
+            mn = (1e3 * force_n).round(),
+            tolerance = (1e3 * tolerance_n).round(),
+            s = hold_s.round()
         ),
-        Goal::Cut { .. } => {
-            "It ends by itself when the line is cut; Enter ends it before.".to_owned()
-        }
+        Goal::Touch(touch) => text!(
+            "fact-touch",
+            mn = (1e3 * touch.force_n).round(),
+            tolerance = (1e3 * touch.tolerance_n).round(),
+            s = touch.hold_s.round()
+        ),
+        Goal::Cut { .. } => text!("fact-cut"),
     }];
-    if let Some(limit) = attempt.task.time_limit_s {
-        facts.push(format!("You have {limit:.0} s."));
+    if let Some(limit) = task.time_limit_s {
+        facts.push(text!("fact-time", s = limit.round()));
     }
-    if let Some(limit) = attempt.task.force_limit_n {
-        facts.push(format!(
-            "A force above {:.0} mN counts as an error.",
-            1e3 * limit
-        ));
+    if let Some(limit) = task.force_limit_n {
+        facts.push(text!("fact-force", mn = (1e3 * limit).round()));
     }
     if attempt.has_expert() {
-        facts.push("Bright outlines show how an expert did it.".to_owned());
+        facts.push(text!("fact-expert"));
     }
     if attempt.was_shown {
-        facts.push(
-            "That was the demonstration (script). Begin draws new numbers for your attempt."
-                .to_owned(),
-        );
+        facts.push(text!("fact-shown"));
     }
-    ui.label(RichText::new(facts.join(" ")).color(QUIET));
-    trouble(ui, attempt);
-    ui.add_space(10.0);
-    ui.horizontal(|ui| match around.preparing {
-        Some(part) => {
-            ui.add(egui::Spinner::new().color(DEPTH));
-            let then = if around.begins {
-                "; then it begins"
-            } else {
-                ""
-            };
-            ui.label(format!("preparing the organ, {:.0} %{then}", 100.0 * part));
-            if !around.begins && ui.button("Begin when ready").clicked() {
-                *asked = Some(Asked::Begin);
-            }
-            if around.has_home && ui.button("Tasks").clicked() {
-                *asked = Some(Asked::Home);
-            }
-        }
-        None => {
-            let begin = button(ui, "Begin").on_hover_text("or Enter");
-            if begin.clicked() {
-                *asked = Some(Asked::Begin);
-            }
-            let can_show = attempt.task.goal != Goal::Free;
-            if can_show && ui.button("Watch demonstration (script)").clicked() {
-                *asked = Some(Asked::Show);
-            }
-            if around.has_home && ui.button("Tasks").clicked() {
-                *asked = Some(Asked::Home);
-            }
-        }
-    });
+    facts
 }
 
-pub(super) fn button(ui: &mut Ui, words: &str) -> egui::Response {
-    let text = RichText::new(words).size(16.0).color(WHITE);
-    ui.add(egui::Button::new(text).fill(Color32::from_rgb(38, 96, 92)))
+/// Back to the start screen, where there is one.
+pub(super) fn tasks_button(ui: &mut Ui, around: &Around, asked: &mut Option<Asked>) {
+    if around.has_home && ui.button(text!("common-tasks")).clicked() {
+        *asked = Some(Asked::Home);
+    }
 }
 
 /// How far it is.
 fn goes_on(ui: &mut Ui, attempt: &Attempt, badge: Option<RichText>, asked: &mut Option<Asked>) {
     ui.horizontal(|ui| {
         let shown = match attempt.is_shown() {
-            true => "demonstration (script)",
+            true => text!("common-demonstration"),
             false => title(attempt),
         };
         ui.label(RichText::new(shown).strong().color(WHITE));
@@ -206,14 +218,15 @@ fn goes_on(ui: &mut Ui, attempt: &Attempt, badge: Option<RichText>, asked: &mut 
             .time_limit_s
             .map(|limit| limit - attempt.elapsed());
         let time = match left {
-            Some(left) => format!("{:.0} s left", left.max(0.0)),
-            None => format!("{:.0} s", attempt.elapsed()),
+            Some(left) => text!("attempt-time-left", s = left.max(0.0).round()),
+            None => text!("attempt-time", s = attempt.elapsed().round()),
         };
         let hurry = left.is_some_and(|left| left < 10.0);
         let color = if hurry { WARNING } else { QUIET };
         ui.label(RichText::new(time).monospace().color(color));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if ui.small_button("End").on_hover_text("or Enter").clicked() {
+            let end = ui.small_button(text!("attempt-end"));
+            if end.on_hover_text(or_key("Enter")).clicked() {
                 *asked = Some(Asked::End);
             }
             if let Some(badge) = badge {
@@ -229,16 +242,12 @@ fn goes_on(ui: &mut Ui, attempt: &Attempt, badge: Option<RichText>, asked: &mut 
         let bar = egui::ProgressBar::new(part as f32)
             .fill(DEPTH)
             .desired_height(8.0);
-        ui.add(bar);
+        let bar = ui.add(bar);
+        page::name(&bar, Role::ProgressIndicator, &text!("attempt-part"));
     }
     let perforations = attempt.errors().perforations;
     if perforations > 0 {
-        let times = if perforations == 1 {
-            "once"
-        } else {
-            "more than once"
-        };
-        let words = format!("perforated {times}");
+        let words = text!("attempt-perforated", count = perforations);
         ui.label(RichText::new(words).size(16.0).strong().color(FAULT));
     }
     trouble(ui, attempt);
@@ -249,13 +258,14 @@ fn not_recorded(ui: &mut Ui, unsaved: Option<&mut Unsaved>, asked: &mut Option<A
     let Some(unsaved) = unsaved else { return };
     ui.add_space(4.0);
     ui.label(RichText::new(&unsaved.cause).color(FAULT));
-    ui.label("The session is in memory, its first 20 minutes at least. Record all of it in another folder:");
+    let label = ui.label(text!("attempt-elsewhere"));
     ui.horizontal(|ui| {
-        if ui.button("Record there").clicked() {
+        if ui.button(text!("attempt-record-there")).clicked() {
             *asked = Some(Asked::RecordElsewhere);
         }
         let field = egui::TextEdit::singleline(&mut unsaved.elsewhere);
-        ui.add(field.desired_width(f32::INFINITY));
+        let field = ui.add(field.desired_width(f32::INFINITY));
+        field.labelled_by(label.id);
     });
     if let Some(trouble) = &unsaved.trouble {
         ui.label(RichText::new(trouble).small().color(FAULT));
@@ -272,24 +282,44 @@ fn gauge(ui: &mut Ui, attempt: &Attempt) {
                 tolerance_n,
                 ..
             },
-            Status::GoesOn { pull, .. },
+            Status::GoesOn { advice, .. },
         ) => {
-            let (force, cue) = pull.map_or((0.0, PullCue::More), |own| (own.force, own.cue));
-            let words = match cue {
-                PullCue::Hold => ("hold", DEPTH),
-                PullCue::More => ("pull harder", WARNING),
-                PullCue::Less => ("pull less", FAULT),
-                PullCue::Turn => ("pull along the arrow", WARNING),
-            };
+            let (force, cue) = advice.map_or((0.0, Cue::More), |own| (own.force, own.cue));
             let band = [force_n - tolerance_n, force_n + tolerance_n, 2.0 * force_n];
-            (band, force, words)
+            (band, force, cue_words(cue, ["cue-harder", "cue-less"]))
+        }
+        (
+            Goal::Touch(touch),
+            Status::GoesOn {
+                advice: Some(own), ..
+            },
+        ) => {
+            let limit = attempt.task.force_limit_n.or(touch.tear_force_n);
+            let band = match (own.cue, limit) {
+                // Of the tool that holds.
+                (Cue::Grasp | Cue::Lift | Cue::Reach, Some(limit)) if touch.holder.is_some() => {
+                    [0.0, limit, 1.5 * limit]
+                }
+                _ => {
+                    let (low, high) = (
+                        touch.force_n - touch.tolerance_n,
+                        touch.force_n + touch.tolerance_n,
+                    );
+                    [low.max(0.0), high, 1.5 * high]
+                }
+            };
+            (
+                band,
+                own.force,
+                cue_words(own.cue, ["cue-press-harder", "cue-press-less"]),
+            )
         }
         _ => {
             let Some(limit) = attempt.task.force_limit_n else {
                 return;
             };
             let words = match force > limit {
-                true => ("too hard", FAULT),
+                true => ("cue-too-hard", FAULT),
                 false => ("", DEPTH),
             };
             ([0.0, limit, 1.5 * limit], force, words)
@@ -299,23 +329,49 @@ fn gauge(ui: &mut Ui, attempt: &Attempt) {
         let words = format!("{:.0} mN", 1e3 * force);
         ui.label(RichText::new(words).size(28.0).monospace().color(WHITE));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.label(RichText::new(cue.0).size(20.0).strong().color(cue.1));
+            if !cue.0.is_empty() {
+                let words = RichText::new(text!(cue.0)).size(20.0);
+                ui.label(words.strong().color(cue.1));
+            }
         });
     });
     let size = Vec2::new(ui.available_width(), 18.0);
-    let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());
+    let number = |force: f64| (1e3 * force).round();
+    let words = text!(
+        "attempt-gauge",
+        mn = number(force),
+        low = number(low),
+        high = number(high)
+    );
+    page::name(&response, Role::Meter, &words);
     let at = |force: f64| rect.min.x + rect.width() * (force / full).clamp(0.0, 1.0) as f32;
     let painter = ui.painter();
     painter.rect_filled(rect, 3.0, Color32::BLACK);
+    let edge = egui::Stroke::new(1.0, QUIET);
+    painter.rect_stroke(rect, 3.0, edge, egui::StrokeKind::Outside);
     let mut band = rect;
     (band.min.x, band.max.x) = (at(low), at(high));
-    painter.rect_filled(band, 2.0, DEPTH.gamma_multiply(0.45));
+    painter.rect_filled(band, 2.0, BAR);
     let color = if (low..=high).contains(&force) {
         WHITE
     } else {
         FAULT
     };
     painter.vline(at(force), rect.y_range(), egui::Stroke::new(5.0, color));
+}
+
+/// The phrase of a cue, with those for more and less of the force that counts, and its color.
+fn cue_words(cue: Cue, [more, less]: [&'static str; 2]) -> (&'static str, Color32) {
+    match cue {
+        Cue::Hold => ("cue-hold", DEPTH),
+        Cue::More => (more, WARNING),
+        Cue::Less => (less, FAULT),
+        Cue::Turn => ("cue-turn", WARNING),
+        Cue::Grasp => ("cue-grasp", WARNING),
+        Cue::Lift => ("cue-lift", WARNING),
+        Cue::Reach => ("cue-reach", WARNING),
+    }
 }
 
 pub(super) fn trouble(ui: &mut Ui, attempt: &Attempt) {

@@ -16,16 +16,13 @@ use palpate_simulate::{Demonstration, Replay, SessionFolder};
 use super::picture::Picture;
 use super::play::Play;
 use super::source::Playback;
+use super::texts::text;
 use super::{PlayedSession, SimulatorWindow, timeline};
 use crate::Error;
 use crate::style::WHITE;
 
 /// Between the pictures [points].
 const GAP: f32 = 4.0;
-
-/// What both are called where the demonstration is one of them.
-const OWN: &str = "your attempt";
-const SCRIPT: &str = "demonstration (script)";
 
 /// The session on the right.
 pub(super) struct Compared {
@@ -136,7 +133,7 @@ impl SimulatorWindow {
             return;
         };
         let (Some(session), Some(play)) = (session, &self.play) else {
-            self.notice = Some("the task has no demonstration".to_owned());
+            self.notice = Some(text!("demonstration-none"));
             return;
         };
         let (scene, simulation) = (play.scene.clone(), play.simulation.clone());
@@ -148,11 +145,11 @@ impl SimulatorWindow {
                 simulation: simulation.clone(),
             })
         };
-        let both = again(&own.folder.session, OWN)
-            .and_then(|left| Ok((left, again(&session, SCRIPT)?)))
+        let both = again(&own.folder.session, &text!("replay-own"))
+            .and_then(|left| Ok((left, again(&session, &text!("common-demonstration"))?)))
             .and_then(|(left, right)| Ok((Play::of_session(left, &self.gpu)?, right)));
         let shown = both.and_then(|(left, right)| {
-            self.compare(OWN.to_owned(), right)?;
+            self.compare(text!("replay-own"), right)?;
             Ok(left)
         });
         match shown {

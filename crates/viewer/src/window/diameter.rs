@@ -3,22 +3,20 @@
 use eframe::egui::{self, RichText, Ui};
 
 use super::attempt::DIAMETERS;
-use super::cards::{Asked, button};
-use crate::style::{QUIET, WHITE};
-
-/// What the card is called; the slider and the button have names of their own.
-const TITLE: &str = "Marked. How large is the lump?";
-const SLIDER: &str = "Diameter [mm]";
-const STATE: &str = "State the diameter";
+use super::cards::Asked;
+use super::page::{main_button, or_key, quiet};
+use super::texts::text;
+use crate::style::WHITE;
 
 /// Shows the card; `diameter` [mm] is none until somebody sets it.
 pub(super) fn show(ui: &mut Ui, diameter: &mut Option<u32>, asked: &mut Option<Asked>) {
     let [least, most] = DIAMETERS;
     ui.add_space(4.0);
-    ui.label(RichText::new(TITLE).size(16.0).strong().color(WHITE));
+    let title = RichText::new(text!("diameter-title")).size(16.0);
+    ui.label(title.strong().color(WHITE));
     let mut value = diameter.unwrap_or(least);
     let slider = egui::Slider::new(&mut value, least..=most)
-        .text(SLIDER)
+        .text(text!("diameter-slider"))
         .show_value(diameter.is_some());
     let slider = ui.add(slider);
     if slider.changed() || slider.clicked() {
@@ -28,17 +26,17 @@ pub(super) fn show(ui: &mut Ui, diameter: &mut Option<u32>, asked: &mut Option<A
         // The keys of the hands go on.
         slider.surrender_focus();
     }
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.add_enabled_ui(diameter.is_some(), |ui| {
-            if button(ui, STATE).on_hover_text("or Enter").clicked() {
+            let state = main_button(ui, &text!("diameter-state"));
+            if state.clicked() {
                 *asked = Some(Asked::State);
             }
         });
-        let words = match diameter {
-            None => "left and right arrow keys, or the slider",
-            Some(_) => "or Enter",
-        };
-        ui.label(RichText::new(words).color(QUIET));
+        ui.label(quiet(match diameter {
+            None => text!("diameter-keys"),
+            Some(_) => or_key("Enter"),
+        }));
     });
 }
 
@@ -55,12 +53,15 @@ mod tests {
         let (mut diameter, mut asked) = (None, None);
         let mut seen = Seen::default();
         seen.show(|ui| show(ui, &mut diameter, &mut asked));
-        assert!(seen.has(Role::Label, TITLE) && seen.has(Role::Slider, SLIDER));
-        seen.click(Role::Button, STATE);
+        assert!(
+            seen.has(Role::Label, &text!("diameter-title"))
+                && seen.has(Role::Slider, &text!("diameter-slider"))
+        );
+        seen.click(Role::Button, &text!("diameter-state"));
         seen.show(|ui| show(ui, &mut diameter, &mut asked));
         seen.show(|ui| show(ui, &mut diameter, &mut asked));
         assert_eq!((diameter, asked), (None, None), "nothing is set yet");
-        seen.click(Role::Slider, SLIDER);
+        seen.click(Role::Slider, &text!("diameter-slider"));
         seen.show(|ui| show(ui, &mut diameter, &mut asked));
         seen.show(|ui| show(ui, &mut diameter, &mut asked));
         let [least, most] = DIAMETERS;
@@ -68,7 +69,7 @@ mod tests {
         // Judge: the middle of the slider is that of its range. Tolerance: the slider contains its value and name.
         let set = f64::from(diameter.unwrap());
         assert!((set - middle).abs() <= 18.0, "{set}");
-        seen.click(Role::Button, STATE);
+        seen.click(Role::Button, &text!("diameter-state"));
         seen.show(|ui| show(ui, &mut diameter, &mut asked));
         seen.show(|ui| show(ui, &mut diameter, &mut asked));
         assert_eq!(asked, Some(Asked::State));

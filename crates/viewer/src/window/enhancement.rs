@@ -1,8 +1,10 @@
-use eframe::egui::{self, Key, RichText, Ui};
+use eframe::egui::accesskit::Role;
+use eframe::egui::{self, Key, Ui};
 use palpate_files::scene::{Enhancement, EnhancementArea, Smoothing};
 
 use super::SimulatorWindow;
-use crate::style::QUIET;
+use super::page::{self, quiet};
+use super::texts::text;
 
 /// So many times each triangle is cut into four at most; more is drawn too slowly while the tip slides.
 const MOST: usize = 4;
@@ -16,8 +18,7 @@ pub(super) fn show(window: &mut SimulatorWindow, ui: &mut Ui) {
         .and_then(|play| play.simulation.enhancement())
         .map(|of_scene| chosen.unwrap_or(*of_scene));
     let (Some(mut wanted), Some(play)) = (wanted, &mut window.play) else {
-        let hint = "around a tip the global model can show finer triangles";
-        ui.label(RichText::new(hint).small().color(QUIET));
+        ui.label(quiet(text!("finer-none")).small());
         return;
     };
     let before = wanted;
@@ -30,10 +31,10 @@ pub(super) fn show(window: &mut SimulatorWindow, ui: &mut Ui) {
             .map_or(0, |response| response.triangles),
     );
     let told = match simulation.is_carried() {
-        true => format!("{shown} triangles are seen, carried by {solved} that are solved"),
-        false => format!("{solved} triangles are solved and seen"),
+        true => text!("finer-carried", shown = shown, solved = solved),
+        false => text!("finer-solved", solved = solved),
     };
-    ui.label(RichText::new(told).small().color(QUIET));
+    ui.label(quiet(told).small());
     if wanted != before {
         window.picture.enhancement = Some(wanted);
         let enhanced = window.picture.enhance(&window.gpu, play);
@@ -54,27 +55,29 @@ fn choose(wanted: &mut Enhancement, ui: &mut Ui) {
         .show(ui, |ui| {
             // A scene may have others.
             let range = wanted.levels.min(1)..=wanted.levels.max(MOST);
-            ui.label("finer (F2)").on_hover_text(
-            "which triangles around the touched one are made finer: none, those that share an edge \
-             with it, or those that share a vertex",
-        );
+            let label = ui.label(text!("finer-title"));
+            label.on_hover_text(text!("finer-hint"));
             ui.horizontal(|ui| {
-                ui.selectable_value(&mut wanted.area, EnhancementArea::None, "no");
-                ui.selectable_value(&mut wanted.area, EnhancementArea::Edge, "edge");
-                ui.selectable_value(&mut wanted.area, EnhancementArea::Vertex, "vertex");
+                ui.selectable_value(&mut wanted.area, EnhancementArea::None, text!("finer-no"));
+                ui.selectable_value(&mut wanted.area, EnhancementArea::Edge, text!("finer-edge"));
+                ui.selectable_value(
+                    &mut wanted.area,
+                    EnhancementArea::Vertex,
+                    text!("finer-vertex"),
+                );
                 let levels = egui::Slider::new(&mut wanted.levels, range).show_value(false);
-                ui.add_enabled(wanted.area != EnhancementArea::None, levels)
-                    .on_hover_text("how often each triangle is cut into four");
+                let levels = ui.add_enabled(wanted.area != EnhancementArea::None, levels);
+                page::name(&levels, Role::Slider, &text!("finer-levels"));
+                levels.on_hover_text(text!("finer-levels"));
             });
             ui.end_row();
-            ui.label("smooth (F3)").on_hover_text(
-                "how displacements of triangles are spread: linearly, or by these functions",
-            );
+            let label = ui.label(text!("smooth-title"));
+            label.on_hover_text(text!("smooth-hint"));
             ui.horizontal(|ui| {
-                ui.selectable_value(&mut wanted.smoothing, Smoothing::None, "no");
+                ui.selectable_value(&mut wanted.smoothing, Smoothing::None, text!("finer-no"));
                 ui.selectable_value(&mut wanted.smoothing, Smoothing::Shepard, "Shepard");
                 let squares = Smoothing::MovingLeastSquares;
-                ui.selectable_value(&mut wanted.smoothing, squares, "least squares");
+                ui.selectable_value(&mut wanted.smoothing, squares, text!("smooth-squares"));
             });
             ui.end_row();
         });

@@ -95,16 +95,39 @@ impl Over<'_> {
         let edge = middle + radius * right;
         if let (Some(at), Some(edge)) = (self.seen(middle), self.seen(&edge)) {
             let size = at.distance(edge);
-            let turn = |part: u8| {
-                let angle = std::f32::consts::TAU * f32::from(part) / 48.0;
-                at + size * Vec2::angled(angle)
-            };
-            for part in (0..48).step_by(2) {
-                let dash = [turn(part), turn(part + 1)];
-                self.painter.line_segment(dash, Stroke::new(2.5, BRIGHT));
-            }
+            self.dashed_ring(at, size, BRIGHT);
             let below = at + Vec2::new(0.0, size + 22.0);
             self.named(below, "the size you stated", BRIGHT);
+        }
+    }
+
+    /// Draws the place that is to be touched: a full ring where it is seen, a dashed one where something covers it.
+    pub(super) fn target(&self, target: &Vec3, radius: f64, is_covered: bool) {
+        let [right, ..] = self.camera.axes();
+        let edge = target + radius * right;
+        let (Some(at), Some(edge)) = (self.seen(target), self.seen(&edge)) else {
+            return;
+        };
+        let size = at.distance(edge).max(6.0);
+        if is_covered {
+            self.dashed_ring(at, size, LEFT.gamma_multiply(0.8));
+        } else {
+            let shadow = Stroke::new(5.0, Color32::from_black_alpha(110));
+            self.painter.circle_stroke(at, size, shadow);
+            self.painter.circle_stroke(at, size, Stroke::new(2.5, LEFT));
+            self.painter.circle_filled(at, 3.0, LEFT);
+        }
+        self.named(at + Vec2::new(0.0, -size - 4.0), "the target", LEFT);
+    }
+
+    fn dashed_ring(&self, at: Pos2, size: f32, color: Color32) {
+        let turn = |part: u8| {
+            let angle = std::f32::consts::TAU * f32::from(part) / 48.0;
+            at + size * Vec2::angled(angle)
+        };
+        for part in (0..48).step_by(2) {
+            let dash = [turn(part), turn(part + 1)];
+            self.painter.line_segment(dash, Stroke::new(2.5, color));
         }
     }
 

@@ -1,12 +1,13 @@
 //! The start screen: what there is to do, who does it, how it went so far, and what this is not.
 
-use eframe::egui::{self, Color32, Frame, Margin, RichText, Ui};
-use egui_plot::{Line, Plot, PlotPoints, Points};
-use palpate_files::Scene;
+use eframe::egui::accesskit::Role;
+use eframe::egui::{self, Frame, Margin, RichText, TextureHandle, Ui};
+use egui_plot::{Line, PlotPoints, Points};
 
-use super::texts;
-use super::training::{Assigned, PastResult, Training};
-use crate::style::{DEPTH, FAULT, QUIET, WARNING, WHITE};
+use super::page::{self, or_key, quiet};
+use super::texts::{of_task, text};
+use super::training::{Assigned, OfferedTask, PastResult, Training};
+use crate::style::{CARD, DEPTH, FAULT, QUIET, WARNING, WHITE};
 
 /// What was chosen on the start screen.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,96 +33,97 @@ pub(super) struct Home {
     results: Option<(String, Result<Vec<PastResult>, String>)>,
     /// What they shall do.
     assigned: Vec<Assigned>,
+    /// The pictures of the tasks, once they are shown.
+    pictures: Vec<Option<TextureHandle>>,
 }
-
-/// What this is not.
-const NOT: &str = "What it is not: there is no bleeding, no smoke and no suturing; neighbours stop the \
-                   tips of tools and nothing else; a mouse gives no force. It is no certified medical device, and a score here has not been \
-                   shown to predict one in an operating room.";
 
 impl Home {
     /// Shows it; what was chosen.
     pub(super) fn show(&mut self, ui: &mut Ui, training: &mut Training) -> Option<Chosen> {
         let mut chosen = None;
-        let margin = Margin::symmetric(28, 20);
-        Frame::new().inner_margin(margin).show(ui, |ui| {
-            egui::ScrollArea::vertical()
-                .auto_shrink([false, false])
-                .show(ui, |ui| {
-                    ui.horizontal(|ui| {
-                        ui.label(RichText::new("palpate").size(34.0).color(WHITE));
-                        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                            let is_clicked =
-                                ui.button(texts::SETTINGS).on_hover_text("or F2").clicked();
-                            if is_clicked || ui.input(|input| input.key_pressed(egui::Key::F2)) {
-                                chosen = Some(Chosen::Settings);
-                            }
-                            let is_clicked =
-                                ui.button(texts::CLASS).on_hover_text("or F3").clicked();
-                            if is_clicked || ui.input(|input| input.key_pressed(egui::Key::F3)) {
-                                chosen = Some(Chosen::Class);
-                            }
-                        });
-                    });
-                    ui.label(
-                        RichText::new("organs that answer a touch, to practise on").color(QUIET),
-                    );
-                    if let Some(trouble) = &self.trouble {
-                        ui.colored_label(FAULT, trouble);
+        page::frame(ui, |ui| {
+            ui.horizontal(|ui| {
+                ui.label(RichText::new("palpate").size(34.0).color(WHITE));
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    let mut other = |key, name: &str, words| {
+                        let button = ui.button(words).on_hover_text(or_key(name));
+                        button.clicked() || ui.input(|input| input.key_pressed(key))
+                    };
+                    if other(egui::Key::F2, "F2", text!("settings-title")) {
+                        chosen = Some(Chosen::Settings);
                     }
-                    ui.add_space(14.0);
-                    let wide = ui.available_width() > 760.0;
-                    if wide {
-                        ui.columns(2, |columns| {
-                            self.tasks(&mut columns[0], training, &mut chosen);
-                            self.person(&mut columns[1], training, &mut chosen);
-                        });
-                    } else {
-                        self.tasks(ui, training, &mut chosen);
-                        ui.add_space(14.0);
-                        self.person(ui, training, &mut chosen);
+                    if other(egui::Key::F3, "F3", text!("class-title")) {
+                        chosen = Some(Chosen::Class);
                     }
-                    ui.add_space(18.0);
-                    ui.separator();
-                    ui.label(RichText::new(NOT).color(QUIET));
                 });
+            });
+            ui.label(quiet(text!("home-subtitle")));
+            if let Some(trouble) = &self.trouble {
+                ui.colored_label(FAULT, trouble);
+            }
+            ui.add_space(14.0);
+            let wide = ui.available_width() > 760.0;
+            if wide {
+                ui.columns(2, |columns| {
+                    self.tasks(&mut columns[0], training, &mut chosen);
+                    self.person(&mut columns[1], training, &mut chosen);
+                });
+            } else {
+                self.tasks(ui, training, &mut chosen);
+                ui.add_space(14.0);
+                self.person(ui, training, &mut chosen);
+            }
+            ui.add_space(18.0);
+            ui.separator();
+            ui.label(quiet(text!("home-limits")));
         });
         chosen
     }
 
     fn tasks(&mut self, ui: &mut Ui, training: &Training, chosen: &mut Option<Chosen>) {
-        ui.label(RichText::new("Tasks").size(20.0).color(WHITE));
-        ui.add_space(4.0);
+        page::heading(ui, &text!("common-tasks"));
+        if self.pictures.len() != training.tasks.len() {
+            let pictures = training.tasks.iter();
+            self.pictures = pictures.map(|task| texture(ui, task)).collect();
+        }
+        let pictures = self.pictures.clone();
         let results = self.results(training);
-        for (number, scene) in training.tasks.iter().enumerate() {
-            let title = title(scene);
-            let own: Vec<&PastResult> = results
-                .iter()
-                .flatten()
-                .filter(|result| result.task == title)
-                .collect();
-            let words = scene.task.instructions.as_deref().unwrap_or("");
-            if entry(ui, title, words, &standing(&own)) {
+        for (number, (task, picture)) in training.tasks.iter().zip(&pictures).enumerate() {
+            let own = &task.scene.task;
+            let named = own.title.as_deref();
+            let past = results.iter().flatten();
+            let past = past.filter(|result| Some(result.task.as_str()) == named);
+            let title = named.map_or_else(|| text!("common-untitled"), of_task);
+            let shown = Shown {
+                words: own.instructions.as_deref().map(of_task).unwrap_or_default(),
+                standing: standing(&past.collect::<Vec<_>>()),
+                picture: picture.as_ref(),
+            };
+            if entry(ui, &title, &shown) {
                 *chosen = Some(Chosen::Task(number));
             }
         }
-        let words = "Touch, hold, pull and cut as you like. Nothing is recorded.";
-        if entry(ui, "Free play", words, &None) {
+        let shown = Shown {
+            words: text!("home-free-hint"),
+            standing: None,
+            picture: None,
+        };
+        if entry(ui, &text!("common-free-play"), &shown) {
             *chosen = Some(Chosen::Free);
         }
     }
 
     fn person(&mut self, ui: &mut Ui, training: &mut Training, chosen: &mut Option<Chosen>) {
-        ui.label(RichText::new("You").size(20.0).color(WHITE));
-        ui.add_space(4.0);
+        page::heading(ui, &text!("home-you"));
         ui.horizontal(|ui| {
-            ui.label("name");
+            let label = ui.label(text!("home-name"));
             let field = egui::TextEdit::singleline(&mut training.trainee).desired_width(180.0);
-            ui.add(field)
-                .on_hover_text("results are kept under this name");
+            let field = ui.add(field).labelled_by(label.id);
+            field.on_hover_text(text!("home-name-hint"));
         });
-        let words = format!("sessions are kept in {}", training.sessions.display());
-        ui.label(RichText::new(words).small().color(QUIET));
+        let folder = training.sessions.display().to_string();
+        let words = text!("home-sessions-in", folder = folder);
+        ui.label(quiet(words).small());
         ui.add_space(10.0);
         let _ = self.results(training);
         for own in &self.assigned {
@@ -132,7 +134,7 @@ impl Home {
                 ui.colored_label(FAULT, trouble);
             }
             Ok(results) if results.is_empty() => {
-                ui.label(RichText::new("No results yet.").color(QUIET));
+                ui.label(quiet(text!("home-no-results")));
             }
             Ok(results) => past(ui, results, chosen),
         }
@@ -152,22 +154,21 @@ impl Home {
     }
 }
 
-fn title(scene: &Scene) -> &str {
-    scene.task.title.as_deref().unwrap_or("without a title")
-}
-
 /// A line of what somebody shall do.
 fn assigned(ui: &mut Ui, own: &Assigned) {
     let (words, color) = match (own.passed >= own.passes, own.is_over) {
-        (true, _) => ("done", DEPTH),
-        (false, false) => ("assigned", WARNING),
-        (false, true) => ("late", FAULT),
+        (true, _) => (text!("standing-done"), DEPTH),
+        (false, false) => (text!("standing-open"), WARNING),
+        (false, true) => (text!("standing-late"), FAULT),
     };
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new(words).strong().color(color));
-        ui.label(format!(
-            "{}: pass {} times by {}; {} so far",
-            own.task, own.passes, own.due, own.passed
+        ui.label(text!(
+            "home-assigned",
+            task = of_task(&own.task),
+            passes = own.passes,
+            due = own.due.as_str(),
+            passed = own.passed
         ));
     });
 }
@@ -179,20 +180,40 @@ fn standing(own: &[&PastResult]) -> Option<(String, bool)> {
         .iter()
         .filter(|result| result.passed == Some(true))
         .count();
-    let tried = match own.len() {
-        1 => "tried once".to_owned(),
-        count => format!("tried {count} times"),
-    };
-    Some((
-        format!("{tried}, passed {passed}; last {:.0} s", last.time),
-        passed > 0,
-    ))
+    let words = text!(
+        "home-tried",
+        count = own.len(),
+        passed = passed,
+        s = last.time.round()
+    );
+    Some((words, passed > 0))
 }
 
+/// The picture of a task, for the screen.
+fn texture(ui: &Ui, task: &OfferedTask) -> Option<TextureHandle> {
+    let picture = task.picture.as_ref()?;
+    let size = picture.size.map(|length| length as usize);
+    let image = egui::ColorImage::from_rgba_unmultiplied(size, &picture.pixels);
+    let name = task.scene.task.title.clone().unwrap_or_default();
+    let options = egui::TextureOptions::LINEAR;
+    Some(ui.ctx().load_texture(name, image, options))
+}
+
+/// What is shown of a thing to choose, below its title.
+struct Shown<'a> {
+    words: String,
+    /// How it went so far, and whether it was ever done.
+    standing: Option<(String, bool)>,
+    picture: Option<&'a TextureHandle>,
+}
+
+/// Height of the picture of a task [points].
+const PICTURE: f32 = 92.0;
+
 /// One thing to choose. Whether it was.
-fn entry(ui: &mut Ui, title: &str, words: &str, standing: &Option<(String, bool)>) -> bool {
+fn entry(ui: &mut Ui, title: &str, shown: &Shown<'_>) -> bool {
     let frame = Frame::new()
-        .fill(Color32::from_rgb(30, 34, 41))
+        .fill(CARD)
         .corner_radius(6.0)
         .inner_margin(Margin::symmetric(14, 10));
     let mut clicked = false;
@@ -201,17 +222,31 @@ fn entry(ui: &mut Ui, title: &str, words: &str, standing: &Option<(String, bool)
         ui.horizontal(|ui| {
             ui.label(RichText::new(title).size(16.0).color(WHITE));
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                clicked = ui.button("Open").clicked();
+                let button = ui.button(text!("home-open"));
+                page::name(
+                    &button,
+                    Role::Button,
+                    &text!("home-open-task", task = title),
+                );
+                clicked = button.clicked();
             });
         });
-        // A column would stretch its lines.
-        ui.with_layout(egui::Layout::top_down(egui::Align::LEFT), |ui| {
-            ui.label(RichText::new(words).color(QUIET));
+        ui.horizontal_top(|ui| {
+            if let Some(picture) = shown.picture {
+                let size = picture.size_vec2();
+                let size = size * (PICTURE / size.y.max(1.0));
+                let image = egui::Image::new((picture.id(), size)).alt_text(title);
+                ui.add(image.corner_radius(4.0));
+            }
+            // A column would stretch its lines.
+            ui.with_layout(egui::Layout::top_down(egui::Align::LEFT), |ui| {
+                ui.label(RichText::new(&shown.words).color(QUIET));
+                if let Some((standing, passed)) = &shown.standing {
+                    let color = if *passed { DEPTH } else { WARNING };
+                    ui.label(RichText::new(standing).small().color(color));
+                }
+            });
         });
-        if let Some((standing, passed)) = standing {
-            let color = if *passed { DEPTH } else { WARNING };
-            ui.label(RichText::new(standing).small().color(color));
-        }
     });
     // The whole card opens.
     // Its button has the keyboard's focus already.
@@ -233,23 +268,18 @@ fn past(ui: &mut Ui, results: &[PastResult], chosen: &mut Option<Chosen>) {
         && let times = own(last)
         && times.len() > 1
     {
-        let words = format!("{}: time [s] over attempts", last.task);
-        ui.label(RichText::new(words).small().color(DEPTH));
-        Plot::new("learning")
-            .height(130.0)
-            .include_y(0.0)
+        let words = text!("home-learning", task = of_task(&last.task));
+        ui.label(RichText::new(&words).small().color(DEPTH));
+        let shown = page::still_plot("learning", 130.0)
             .include_x(0.5)
             .include_x(times.len() as f64 + 0.5)
             .x_grid_spacer(egui_plot::uniform_grid_spacer(|_| [1.0, 5.0, 10.0]))
-            .allow_drag(false)
-            .allow_zoom(false)
-            .allow_scroll(false)
-            .allow_boxed_zoom(false)
             .show(ui, |plot| {
                 let points = PlotPoints::from(times.clone());
                 plot.line(Line::new("time", PlotPoints::from(times)).color(DEPTH));
                 plot.points(Points::new("attempts", points).radius(3.0).color(DEPTH));
             });
+        page::name(&shown.response, Role::Image, &words);
     }
     ui.add_space(6.0);
     egui::Grid::new("past")
@@ -257,19 +287,36 @@ fn past(ui: &mut Ui, results: &[PastResult], chosen: &mut Option<Chosen>) {
         .spacing([14.0, 4.0])
         .show(ui, |ui| {
             for result in results.iter().rev().take(8) {
-                ui.label(RichText::new(&result.date).small().color(QUIET));
-                ui.label(&result.task);
-                let (words, color) = match result.passed {
-                    Some(true) => ("passed", DEPTH),
-                    Some(false) => ("not passed", WARNING),
-                    None => ("", QUIET),
-                };
+                ui.label(quiet(&result.date).small());
+                let task = of_task(&result.task);
+                ui.label(&task);
+                let (words, color) = passed_words(result.passed);
                 ui.colored_label(color, words);
-                ui.label(format!("{:.0} s, {} errors", result.time, result.errors));
-                if result.session.exists() && ui.small_button("look").clicked() {
-                    *chosen = Some(Chosen::Session(result.session.clone()));
+                ui.label(time_and_errors(result.time, result.errors));
+                if result.session.exists() {
+                    let button = ui.small_button(text!("common-replay"));
+                    let date = result.date.as_str();
+                    let words = text!("home-replay-session", task = task, date = date);
+                    page::name(&button, Role::Button, &words);
+                    if button.clicked() {
+                        *chosen = Some(Chosen::Session(result.session.clone()));
+                    }
                 }
                 ui.end_row();
             }
         });
+}
+
+/// Whether an attempt was passed, in words; nothing where nothing had to be done.
+pub(super) fn passed_words(passed: Option<bool>) -> (String, egui::Color32) {
+    match passed {
+        Some(true) => (text!("common-passed"), DEPTH),
+        Some(false) => (text!("common-not-passed"), WARNING),
+        None => (String::new(), QUIET),
+    }
+}
+
+/// Time [s] and errors of an attempt.
+pub(super) fn time_and_errors(time: f64, errors: u64) -> String {
+    text!("common-time-errors", s = time.round(), errors = errors)
 }

@@ -17,6 +17,7 @@ mod cards;
 mod choice;
 mod class_page;
 mod compared;
+mod covered;
 mod diameter;
 mod display;
 mod enhancement;
@@ -24,8 +25,11 @@ pub mod gesture;
 mod ghosts;
 pub mod hands;
 mod home;
+#[cfg(test)]
+mod keyboard_tests;
 mod list;
 mod overlay;
+mod page;
 mod panel;
 mod picture;
 mod play;
@@ -59,6 +63,7 @@ use choice::Choice;
 use class_page::ClassPage;
 use compared::{Compared, ShownDemonstration};
 pub use display::check_display;
+use hands::gamepads::Gamepads;
 use home::Home;
 use picture::Picture;
 use play::{Play, Prepared};
@@ -66,6 +71,7 @@ use preparation::Preparation;
 use rates::Rates;
 use settings::WindowSettings;
 use settings_page::SettingsPage;
+use texts::text;
 use training::Training;
 
 /// How long a picture in which nothing moves is left as it is.
@@ -195,6 +201,7 @@ impl SimulatorWindow {
             Start::Again(session, _) => session.scene.clone(),
         };
         let choice = Choice::new(scene).with_mouse(settings.settings.mouse_hand);
+        texts::speak(settings.language());
         context
             .egui_ctx
             .set_zoom_factor(settings.settings.scale as f32);
@@ -228,6 +235,7 @@ impl SimulatorWindow {
             is_ended,
             gpu,
         };
+        window.picture.gamepads = Gamepads::start();
         match start {
             Start::Home => {
                 let mut home = Home::default();
@@ -348,11 +356,9 @@ impl SimulatorWindow {
             self.picture.count(elapsed, late);
         }
         if !play.source.is_running() {
-            let why = self.rates.touch.fault.map_or_else(
-                || "one of its threads ended".to_owned(),
-                |fault| fault.to_string(),
-            );
-            self.fault = Some(format!("the simulation has stopped: {why}; press Restart"));
+            let fault = self.rates.touch.fault;
+            let why = fault.map_or_else(|| text!("fault-thread"), |fault| fault.to_string());
+            self.fault = Some(text!("fault-stopped", why = why));
         }
     }
 
@@ -450,10 +456,12 @@ impl eframe::App for SimulatorWindow {
     }
 
     fn raw_input_hook(&mut self, _context: &egui::Context, raw: &mut egui::RawInput) {
-        if self.home.is_some() || self.settings_page.is_some() {
+        let is_page = self.home.is_some() || self.settings_page.is_some();
+        let reads_card = self.attempt.as_ref().is_some_and(Attempt::is_card);
+        if is_page || reads_card || self.looks_again() {
             return;
         }
-        // Else it would walk through the side panel, which Shift and Tab still do.
+        // Else it would walk through the buttons while tools are moved, which Shift and Tab still do.
         raw.events.retain(|event| match event {
             egui::Event::Key {
                 key: egui::Key::Tab,

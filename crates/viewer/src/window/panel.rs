@@ -1,16 +1,19 @@
+use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Button, Color32, RichText, Ui};
-use egui_plot::{Line, Plot, PlotPoints};
+use egui_plot::{Line, PlotPoints};
 use palpate_files::BuiltinTissue;
 use palpate_files::scene::{BuiltinOrgan, ModelKind, Shading, TipContact, TipShape};
 use palpate_servo::{LoopReport, lock_memory};
-use palpate_simulate::TRUSTED_DEPTH;
+use palpate_simulate::{TRUSTED_DEPTH, Work};
 
 use super::SimulatorWindow;
 use super::enhancement;
+use super::page::{self, quiet};
 use super::preparation::Preparation;
 use super::rates::Rates;
+use super::texts::{text, tool_name};
 use crate::history::SPAN;
-use crate::style::{DEPTH, FAULT, FORCE, ON_STOP, QUIET, STOP, STOP_HINT, WARNING};
+use crate::style::{DEPTH, FAULT, FORCE, ON_STOP, QUIET, STOP, WARNING};
 
 /// What can be chosen, and what is felt.
 pub(super) fn side(window: &mut SimulatorWindow, ui: &mut Ui) {
@@ -18,7 +21,7 @@ pub(super) fn side(window: &mut SimulatorWindow, ui: &mut Ui) {
         .auto_shrink([false, false])
         .show(ui, |ui| {
             ui.add_space(6.0);
-            if window.training.is_some() && ui.button("Tasks").clicked() {
+            if window.training.is_some() && ui.button(text!("common-tasks")).clicked() {
                 window.go_home();
             }
             // What is played again, or is a task, is as it was written.
@@ -38,7 +41,7 @@ pub(super) fn side(window: &mut SimulatorWindow, ui: &mut Ui) {
             scene(window, ui);
             // Which tool the mouse moves is no matter of the scene.
             let other = window.choice != before && window.choice.scene() != before.scene();
-            if ui.button("Restart").clicked() || other {
+            if ui.button(text!("panel-restart")).clicked() || other {
                 let context = ui.ctx().clone();
                 window.begin_anew(&context);
             }
@@ -58,7 +61,7 @@ fn scene(window: &mut SimulatorWindow, ui: &mut Ui) {
     let choice = &mut window.choice;
     let given = choice.given_organ();
     egui::Grid::new("scene").num_columns(2).show(ui, |ui| {
-        ui.label("organ");
+        let label = ui.label(text!("panel-organ"));
         let shown = choice
             .organ
             .map_or(given.clone(), |organ| organ.word().to_owned());
@@ -69,18 +72,24 @@ fn scene(window: &mut SimulatorWindow, ui: &mut Ui) {
                 for (word, organ) in BuiltinOrgan::WORDS {
                     ui.selectable_value(&mut choice.organ, Some(*organ), *word);
                 }
-            });
+            })
+            .response
+            .labelled_by(label.id);
         ui.end_row();
-        ui.label("tissue");
-        let shown = choice.tissue.map_or("of the scene", BuiltinTissue::word);
+        let label = ui.label(text!("panel-tissue"));
+        let shown = choice
+            .tissue
+            .map_or_else(|| text!("panel-of-scene"), |own| own.word().to_owned());
         egui::ComboBox::from_id_salt("tissue")
             .selected_text(shown)
             .show_ui(ui, |ui| {
-                ui.selectable_value(&mut choice.tissue, None, "of the scene");
+                ui.selectable_value(&mut choice.tissue, None, text!("panel-of-scene"));
                 for (word, tissue) in BuiltinTissue::WORDS {
                     ui.selectable_value(&mut choice.tissue, Some(*tissue), *word);
                 }
-            });
+            })
+            .response
+            .labelled_by(label.id);
         ui.end_row();
         model(choice, ui);
         tool(choice, &mut window.radius, ui);
@@ -88,11 +97,13 @@ fn scene(window: &mut SimulatorWindow, ui: &mut Ui) {
 }
 
 fn model(choice: &mut super::Choice, ui: &mut Ui) {
-    ui.label("model");
-    let words = |kind| match kind {
-        ModelKind::Local => "around the tip",
-        ModelKind::Hybrid => "global model, linear",
-        ModelKind::Nonlinear => "global model, large deformation",
+    let label = ui.label(text!("panel-model"));
+    let words = |kind| {
+        text!(match kind {
+            ModelKind::Local => "panel-local",
+            ModelKind::Hybrid => "panel-hybrid",
+            ModelKind::Nonlinear => "panel-nonlinear",
+        })
     };
     egui::ComboBox::from_id_salt("model")
         .selected_text(words(choice.model))
@@ -100,17 +111,16 @@ fn model(choice: &mut super::Choice, ui: &mut Ui) {
             for (_, kind) in ModelKind::WORDS {
                 ui.selectable_value(&mut choice.model, *kind, words(*kind));
             }
-        });
+        })
+        .response
+        .labelled_by(label.id);
     ui.end_row();
 }
 
 fn tool(choice: &mut super::Choice, radius: &mut f64, ui: &mut Ui) {
-    ui.label("tool");
-    let names: Vec<String> = choice
-        .tools()
-        .iter()
-        .map(|tool| tool.name.clone())
-        .collect();
+    let label = ui.label(text!("panel-tool"));
+    let tools = choice.tools().iter();
+    let names: Vec<String> = tools.map(|tool| tool_name(&tool.name)).collect();
     let mut taken = choice.tool;
     egui::ComboBox::from_id_salt("tool")
         .selected_text(&names[taken])
@@ -118,25 +128,35 @@ fn tool(choice: &mut super::Choice, radius: &mut f64, ui: &mut Ui) {
             for (number, name) in names.iter().enumerate() {
                 ui.selectable_value(&mut taken, number, name);
             }
-        });
+        })
+        .response
+        .labelled_by(label.id);
     if taken != choice.tool {
         choice.take(taken);
         *radius = 1e3 * choice.tip.radius_m;
     }
     ui.end_row();
-    ui.label("tip");
+    ui.label(text!("panel-tip"));
     ui.horizontal(|ui| {
-        ui.selectable_value(&mut choice.tip.shape, TipShape::Flat, "flat");
-        ui.selectable_value(&mut choice.tip.shape, TipShape::Sphere, "ball");
-        ui.selectable_value(&mut choice.tip.contact, TipContact::Stick, "sticks");
-        ui.selectable_value(&mut choice.tip.contact, TipContact::Slip, "slips");
+        ui.selectable_value(&mut choice.tip.shape, TipShape::Flat, text!("panel-flat"));
+        ui.selectable_value(&mut choice.tip.shape, TipShape::Sphere, text!("panel-ball"));
+        ui.selectable_value(
+            &mut choice.tip.contact,
+            TipContact::Stick,
+            text!("panel-sticks"),
+        );
+        ui.selectable_value(
+            &mut choice.tip.contact,
+            TipContact::Slip,
+            text!("panel-slips"),
+        );
     });
     ui.end_row();
-    ui.label("radius");
+    let label = ui.label(text!("panel-radius"));
     let slider = egui::Slider::new(radius, 0.5..=8.0)
         .suffix(" mm")
         .max_decimals(1);
-    let slider = ui.add(slider);
+    let slider = ui.add(slider).labelled_by(label.id);
     // The model is made anew when the hand lets go, not at every step of the slider.
     if slider.drag_stopped() || slider.changed() && !slider.dragged() {
         choice.tip.radius_m = 1e-3 * *radius;
@@ -149,36 +169,35 @@ fn look(window: &mut SimulatorWindow, ui: &mut Ui) {
     let picture = &mut window.picture;
     ui.horizontal_wrapped(|ui| {
         let modes = [
-            (Shading::Plain, "plain"),
-            (Shading::Texture, "texture"),
-            (Shading::SphereMap, "sphere map"),
-            (Shading::CubeMap, "cube map"),
+            (Shading::Plain, "look-plain"),
+            (Shading::Texture, "look-texture"),
+            (Shading::SphereMap, "look-sphere-map"),
+            (Shading::CubeMap, "look-cube-map"),
         ];
-        for (shading, word) in modes {
-            ui.selectable_value(&mut picture.shading, shading, word);
+        for (shading, key) in modes {
+            ui.selectable_value(&mut picture.shading, shading, text!(key));
         }
     });
     ui.horizontal_wrapped(|ui| {
-        ui.selectable_value(&mut picture.endoscope, false, "orbit");
-        ui.selectable_value(&mut picture.endoscope, true, "endoscope");
+        ui.selectable_value(&mut picture.endoscope, false, text!("look-orbit"));
+        ui.selectable_value(&mut picture.endoscope, true, text!("look-endoscope"));
         if ui
-            .button("frame")
-            .on_hover_text("the whole organ")
+            .button(text!("look-frame"))
+            .on_hover_text(text!("look-whole"))
             .clicked()
         {
             picture.frame_anew();
         }
-        ui.checkbox(&mut picture.looks.relief, "relief");
+        ui.checkbox(&mut picture.looks.relief, text!("look-relief"));
     });
     match window.surroundings.clone() {
         None => {
-            let hint = "drop a PNG here: the maps are made of it";
-            ui.label(RichText::new(hint).small().color(QUIET));
+            ui.label(quiet(text!("look-drop")).small());
         }
         Some(path) => {
             ui.horizontal_wrapped(|ui| {
-                ui.label(RichText::new(format!("maps: {path}")).small());
-                if ui.small_button("own").clicked() {
+                ui.label(RichText::new(text!("look-maps", path = path)).small());
+                if ui.small_button(text!("look-own")).clicked() {
                     window.picture.surround(&window.gpu, None);
                     window.surroundings = None;
                 }
@@ -199,31 +218,23 @@ fn felt(window: &SimulatorWindow, ui: &mut Ui) {
         .play
         .as_ref()
         .map_or(1.0, |play| play.simulation.force_scale());
-    let text = format!("a device displays the force × {scale} (force_scale of the scene)");
-    ui.label(RichText::new(text).small().color(QUIET));
-    plot(ui, ("force", "force [mN]", FORCE), window.history.force());
-    plot(ui, ("depth", "depth [mm]", DEPTH), window.history.depth());
+    ui.label(quiet(text!("felt-scale", scale = scale)).small());
+    plot(ui, ("felt-force", FORCE), window.history.force());
+    plot(ui, ("felt-depth", DEPTH), window.history.depth());
 }
 
-fn plot(ui: &mut Ui, (name, label, color): (&str, &str, Color32), points: Vec<[f64; 2]>) {
-    ui.label(RichText::new(label).small().color(color));
-    Plot::new(name)
-        .height(112.0)
+fn plot(ui: &mut Ui, (key, color): (&str, Color32), points: Vec<[f64; 2]>) {
+    let words = text!(key);
+    ui.label(RichText::new(&words).small().color(color));
+    let plot = page::still_plot(key, 112.0)
         .include_x(-SPAN)
         .include_x(0.0)
-        .include_y(0.0)
         .include_y(1.0)
-        .allow_drag(false)
-        .allow_zoom(false)
-        .allow_scroll(false)
-        .allow_boxed_zoom(false)
         .show(ui, move |plot| {
-            plot.line(
-                Line::new(name, PlotPoints::from(points))
-                    .color(color)
-                    .width(1.6),
-            );
+            let line = Line::new(key, PlotPoints::from(points));
+            plot.line(line.color(color).width(1.6));
         });
+    page::name(&plot.response, Role::Image, &words);
 }
 
 /// How often what happens, beside how often it should.
@@ -332,10 +343,7 @@ pub(super) fn status(window: &SimulatorWindow, ui: &mut Ui) {
         } else if let Some(preparation) = &window.preparation {
             waiting(preparation, ui);
         } else if depth > TRUSTED_DEPTH {
-            ui.colored_label(
-                WARNING,
-                "deeper than 10 mm no model here has been compared with tissue",
-            );
+            ui.colored_label(WARNING, text!("warning-deep"));
         } else {
             warnings(window, ui);
         }
@@ -347,9 +355,9 @@ fn emergency_stop(window: &SimulatorWindow, ui: &mut Ui) {
     let Some(play) = window.play.as_ref().filter(|play| play.has_devices()) else {
         return;
     };
-    let words = RichText::new("EMERGENCY STOP").color(ON_STOP);
+    let words = RichText::new(text!("stop-emergency")).color(ON_STOP);
     let button = ui.add(Button::new(words).fill(STOP));
-    if button.on_hover_text(STOP_HINT).clicked() {
+    if button.on_hover_text(text!("stop-hint")).clicked() {
         play.source.emergency_stop();
     }
 }
@@ -359,25 +367,39 @@ fn arm(window: &SimulatorWindow, is_latched: bool, ui: &mut Ui) {
     let Some(play) = window.play.as_ref().filter(|_| is_latched) else {
         return;
     };
-    let button = ui.button("Arm forces");
-    let hint = "forces return over half a second, once the hand is slow and the force small";
-    if button.on_hover_text(hint).clicked() {
+    let button = ui.button(text!("stop-arm"));
+    if button.on_hover_text(text!("stop-arm-hint")).clicked() {
         play.source.arm();
     }
 }
 
 /// What is being prepared, and how far it is.
 fn waiting(preparation: &Preparation, ui: &mut Ui) {
-    ui.spinner();
+    page::spinner(ui);
     let Some(progress) = preparation.progress() else {
-        ui.label("preparing the organ and its model");
+        ui.label(text!("preparing-organ"));
         return;
     };
-    ui.label(progress.work.words());
+    let words = text!(work(progress.work));
+    ui.label(&words);
     let bar = egui::ProgressBar::new(progress.part as f32);
-    ui.add(bar.desired_width(160.0).show_percentage());
+    let bar = ui.add(bar.desired_width(160.0).show_percentage());
+    page::name(&bar, Role::ProgressIndicator, &words);
     // Nothing else moves while one waits.
     ui.ctx().request_repaint_after(super::REST);
+}
+
+/// The key of what is being done.
+fn work(work: Work) -> &'static str {
+    match work {
+        Work::ForceOverDepth => "preparing-force",
+        Work::Reading => "preparing-reading",
+        Work::Influences => "preparing-influences",
+        Work::Tetrahedra => "preparing-tetrahedra",
+        Work::Factors => "preparing-factors",
+        Work::Responses => "preparing-responses",
+        Work::Storing => "preparing-storing",
+    }
 }
 
 /// Where the operating system does not give what a touch with forces needs.
@@ -400,12 +422,12 @@ fn warnings(window: &SimulatorWindow, ui: &mut Ui) {
     }
     match &warnings[..] {
         [] => {
-            ui.colored_label(QUIET, "no warnings");
+            ui.colored_label(QUIET, text!("warning-none"));
         }
         [first, more @ ..] => {
             let text = match more.len() {
                 0 => first.clone(),
-                n => format!("{first} (and {n} more)"),
+                more => text!("warning-more", first = first.as_str(), more = more),
             };
             let label = egui::Label::new(RichText::new(text).small().color(WARNING)).truncate();
             ui.add(label).on_hover_text(warnings.join("\n\n"));

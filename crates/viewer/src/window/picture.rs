@@ -9,8 +9,10 @@ use palpate_simulate::ShownTool;
 use super::attempt::Attempt;
 use super::gesture::{Gesture, GestureContext, Mouse};
 use super::ghosts::Over;
-use super::hands::gamepad::Gamepad;
-use super::hands::{Hand, Room, keys};
+use super::hands::gamepad::{Pad, PadPart, PadRequests};
+use super::hands::gamepads::Gamepads;
+use super::hands::{Drive, Hand, Room, keys};
+use super::overlay;
 use super::play::Play;
 use super::render_quality::RenderQuality;
 use crate::render::{Body, Looks, Renderer, Target, ToolPicture, View};
@@ -37,7 +39,9 @@ pub(super) struct Picture {
     pub(super) shown: Option<Vec<Option<ShownTool>>>,
     /// Whether the keys are listed.
     pub(super) lists_keys: bool,
-    gamepad: Option<Gamepad>,
+    pub(super) gamepads: Gamepads,
+    /// What gamepads want to be done once.
+    requests: PadRequests,
     /// Whether a key or a stick moves a hand.
     driven: bool,
     orbit: Option<Orbit>,
@@ -63,7 +67,8 @@ impl Picture {
             hands: Vec::new(),
             shown: None,
             lists_keys: false,
-            gamepad: Gamepad::first(),
+            gamepads: Gamepads::default(),
+            requests: PadRequests::default(),
             driven: false,
             orbit: None,
             camera: None,
@@ -110,7 +115,12 @@ impl Picture {
 
     /// Whether there is a gamepad, which does not wake the window.
     pub(super) fn has_gamepad(&self) -> bool {
-        self.gamepad.as_ref().is_some_and(|pad| !pad.is_gone())
+        self.gamepads.is_any()
+    }
+
+    /// What gamepads wanted to be done once since the last time.
+    pub(super) fn take_requests(&mut self) -> PadRequests {
+        std::mem::take(&mut self.requests)
     }
 
     /// Lays a picture around the organ.
@@ -128,6 +138,7 @@ impl Picture {
         tool: usize,
     ) -> Rect {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+        overlay::describe(&response, play, tool);
         let aspect = f64::from(rect.width() / rect.height().max(1.0));
         let mesh = play.surface().mesh();
         let (low, high) = mesh.bounds();
@@ -211,6 +222,11 @@ impl Picture {
                     over.arrow(&Vec3::from(pose.position_m), &Vec3::from(*direction));
                 }
             }
+            Goal::Touch(touch) => {
+                let target = Vec3::from(touch.target_m);
+                let is_covered = play.covers(&target, &camera.eye);
+                over.target(&target, touch.tolerance_m, is_covered);
+            }
             Goal::Find { target_m, .. } if attempt.is_over() => {
                 for nodule in &play.scene.organ.nodules {
                     let middle = Vec3::from(nodule.center_m);
@@ -273,12 +289,18 @@ impl Picture {
     fn drive(&mut self, ui: &egui::Ui, (play, tool): (&mut Play, usize), room: &Room<'_>) {
         let free = !ui.ctx().egui_wants_keyboard_input();
         let elapsed = f64::from(ui.input(|input| input.unstable_dt)).min(0.05);
-        let pad = self.gamepad.as_ref().map(Gamepad::look);
+        let pads = self.gamepads.look();
+        let requests = pads.iter().map(Pad::requests);
+        self.requests = requests.fold(self.requests, PadRequests::and);
+        let tools = play.scene.tools.len();
         self.driven = false;
         for (number, hand) in self.hands.iter_mut().enumerate() {
             let scene_tool = &play.scene.tools[number];
             let side = side(&scene_tool.name, number);
-            let mut drive = pad.map(|pad| pad.drive(side)).unwrap_or_default();
+            let of_tool = pads.iter().enumerate().filter_map(|(number, pad)| {
+                Some(pad.drive(PadPart::of([number, pads.len()], side, tools)?))
+            });
+            let mut drive = of_tool.fold(Drive::default(), Drive::and);
             if free {
                 drive = drive.and(ui.input(|input| keys::drive(&keys::HANDS[side], input)));
             }

@@ -10,6 +10,7 @@ use palpate_simulate::interactive::{
 use palpate_simulate::{Progress, Replay, Resources, Simulation, read_neighbour};
 
 use super::PlayedSession;
+use super::covered::is_covered;
 use super::hands::Hand;
 use super::source::{Playback, Source};
 use crate::render::{Body, Tint};
@@ -204,6 +205,12 @@ impl Play {
     /// The organ at rest.
     pub(super) fn surface(&self) -> &Surface {
         self.simulation.surface()
+    }
+
+    /// Whether the organ, as it is now, lies between an `eye` and a `place` [m].
+    pub(super) fn covers(&mut self, place: &Vec3, eye: &Vec3) -> bool {
+        let triangles = self.simulation.surface().mesh().triangles();
+        is_covered((&self.source.snapshot().vertices, triangles), place, eye)
     }
 
     /// Moves the tool of a hand to where the hand is, with its grip and its cut; from `start` [m] without a

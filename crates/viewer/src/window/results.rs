@@ -1,12 +1,16 @@
 //! How an attempt was done: a verdict, what to do about it, one plot; the rest is folded.
 
+use eframe::egui::accesskit::Role;
 use eframe::egui::{self, RichText, Ui};
-use egui_plot::{HLine, Line, Plot, PlotPoints};
+use egui_plot::{HLine, Line, PlotPoints};
 use palpate_files::scene::Goal;
 use palpate_simulate::performance::{Measure, feedback};
 
 use super::attempt::{Attempt, Done};
-use super::cards::{Around, Asked, button, title, trouble};
+use super::cards::{Around, Asked, tasks_button, title, trouble};
+use super::home::{passed_words, time_and_errors};
+use super::page::{self, main_button, or_key, quiet};
+use super::texts::{decimal, phrase, say_if_there, text, tool_name};
 use crate::style::{DEPTH, FORCE, QUIET, WARNING, WHITE};
 
 /// How it was done.
@@ -24,50 +28,49 @@ pub(super) fn over(
     };
     ui.label(RichText::new(title(attempt)).color(QUIET));
     ui.label(
-        RichText::new(&told.verdict)
+        RichText::new(phrase(&told.verdict))
             .size(22.0)
             .strong()
             .color(color),
     );
     ui.add_space(4.0);
     for sentence in [&told.good, &told.change, &told.next] {
-        ui.label(RichText::new(sentence).size(15.0).color(WHITE));
+        ui.label(RichText::new(phrase(sentence)).size(15.0).color(WHITE));
     }
     ui.add_space(6.0);
     forces(ui, attempt);
     earlier(ui, done);
     let most = (ui.ctx().content_rect().height() - 520.0).max(90.0);
-    egui::CollapsingHeader::new("All measures").show(ui, |ui| {
+    egui::CollapsingHeader::new(text!("result-measures")).show(ui, |ui| {
         egui::ScrollArea::vertical()
             .max_height(most)
             .show(ui, |ui| measures(ui, done));
     });
     if let Some(folder) = &done.folder {
-        let words = format!("recorded in {}", folder.display());
-        ui.label(RichText::new(words).small().color(QUIET));
+        let words = text!("result-recorded-in", folder = folder.display().to_string());
+        ui.label(quiet(words).small());
     }
     trouble(ui, attempt);
     ui.add_space(8.0);
-    ui.horizontal(|ui| {
-        if button(ui, "Retry").on_hover_text("or Enter").clicked() {
+    ui.horizontal_wrapped(|ui| {
+        let retry = main_button(ui, &text!("result-retry"));
+        if retry.on_hover_text(or_key("Enter")).clicked() {
             *asked = Some(Asked::Begin);
         }
-        if done.folder.is_some() && ui.button("Replay").clicked() {
+        if done.folder.is_some() && ui.button(text!("common-replay")).clicked() {
             *asked = Some(Asked::Again);
         }
-        if around.has_home && ui.button("Tasks").clicked() {
-            *asked = Some(Asked::Home);
-        }
+        tasks_button(ui, around, asked);
     });
     if done.folder.is_some() && attempt.task.goal != Goal::Free {
         ui.add_space(4.0);
         match around.comparing {
             Some(part) => {
-                let words = format!("computing the demonstration, {:.0} %", 100.0 * part);
-                ui.label(RichText::new(words).color(QUIET));
+                let percent = (100.0 * part).round();
+                ui.label(quiet(text!("result-computing", percent = percent)));
             }
             None => {
-                if ui.button("Replay beside the demonstration").clicked() {
+                if ui.button(text!("result-compare")).clicked() {
                     *asked = Some(Asked::Compare);
                 }
             }
@@ -83,29 +86,33 @@ fn forces(ui: &mut Ui, attempt: &Attempt) {
             tolerance_n,
             ..
         } => vec![force_n - tolerance_n, force_n + tolerance_n],
+        Goal::Touch(touch) => attempt
+            .task
+            .force_limit_n
+            .or(touch.tear_force_n)
+            .into_iter()
+            .collect(),
         _ => attempt.task.force_limit_n.into_iter().collect(),
     };
-    let words = match lines.len() {
-        0 => "Force [mN] over time [s]",
-        1 => "Force [mN] over time [s], and its limit",
-        _ => "Force [mN] over time [s], and its band",
-    };
-    ui.label(RichText::new(words).small().color(QUIET));
+    let words = text!(match lines.len() {
+        0 => "result-force",
+        1 => "result-force-limit",
+        _ => "result-force-band",
+    });
+    ui.label(quiet(&words).small());
     let points = attempt.forces.iter();
     let points: Vec<[f64; 2]> = points.map(|[time, force]| [*time, 1e3 * force]).collect();
-    Plot::new("forces")
-        .height(110.0)
-        .include_y(0.0)
-        .allow_drag(false)
-        .allow_zoom(false)
-        .allow_scroll(false)
-        .allow_boxed_zoom(false)
-        .show(ui, |plot| {
-            plot.line(Line::new("force", PlotPoints::from(points)).color(FORCE));
-            for line in lines {
-                plot.hline(HLine::new("band", 1e3 * line).color(DEPTH).width(2.0));
-            }
-        });
+    let most = points
+        .iter()
+        .fold(0.0, |most: f64, [_, force]| most.max(*force));
+    let plot = page::still_plot("forces", 110.0).show(ui, |plot| {
+        plot.line(Line::new("force", PlotPoints::from(points)).color(FORCE));
+        for line in lines {
+            plot.hline(HLine::new("band", 1e3 * line).color(DEPTH).width(2.0));
+        }
+    });
+    let words = text!("result-force-most", plot = words, mn = most.round());
+    page::name(&plot.response, Role::Image, &words);
 }
 
 /// The last attempts of the same trainee.
@@ -114,24 +121,19 @@ const EARLIER: usize = 4;
 /// One's own attempts before.
 fn earlier(ui: &mut Ui, done: &Done) {
     if done.earlier.is_empty() {
-        ui.label(RichText::new("This was your first attempt.").color(QUIET));
+        ui.label(quiet(text!("result-first")));
         return;
     }
-    let word = |passed: Option<bool>| match passed {
-        Some(true) => ("passed", DEPTH),
-        Some(false) => ("not passed", WARNING),
-        None => ("", QUIET),
-    };
-    ui.label(RichText::new("Your attempts").small().color(QUIET));
+    ui.label(quiet(text!("result-attempts")).small());
     egui::Grid::new("earlier")
         .num_columns(3)
         .spacing([18.0, 3.0])
         .show(ui, |ui| {
             let mut row = |when: &str, passed: Option<bool>, time: f64, errors: u64| {
-                ui.label(RichText::new(when).color(QUIET));
-                let (words, color) = word(passed);
+                ui.label(quiet(when));
+                let (words, color) = passed_words(passed);
                 ui.label(RichText::new(words).color(color));
-                ui.label(format!("{time:.0} s, {errors} errors"));
+                ui.label(time_and_errors(time, errors));
                 ui.end_row();
             };
             let errors = &done.score.errors;
@@ -141,7 +143,7 @@ fn earlier(ui: &mut Ui, done: &Done) {
                 + errors.shaft_contacts
                 + errors.undone;
             row(
-                "now",
+                &text!("result-now"),
                 done.score.outcome.passed(),
                 done.score.duration,
                 count,
@@ -169,11 +171,15 @@ fn measures(ui: &mut Ui, done: &Done) {
         .spacing([18.0, 3.0])
         .show(ui, |ui| {
             let heads = match done.compared.is_empty() {
-                true => ["", "you", "", ""],
-                false => ["", "you", "experts", ""],
+                true => ["", "result-you", "", ""],
+                false => ["", "result-you", "result-experts", ""],
             };
             for head in heads {
-                ui.label(RichText::new(head).small().color(QUIET));
+                let words = match head {
+                    "" => String::new(),
+                    key => text!(key),
+                };
+                ui.label(quiet(words).small());
             }
             ui.end_row();
             let all = done.score.measures().into_iter();
@@ -186,8 +192,12 @@ fn measures(ui: &mut Ui, done: &Done) {
                     let mean = words(&measure.key, own.standard.mean).1;
                     ui.label(RichText::new(mean).monospace().color(QUIET));
                     match own.proficient {
-                        Some(true) => ui.label(RichText::new("proficient").color(DEPTH)),
-                        Some(false) => ui.label(RichText::new("not yet").color(WARNING)),
+                        Some(true) => {
+                            ui.label(RichText::new(text!("result-proficient")).color(DEPTH))
+                        }
+                        Some(false) => {
+                            ui.label(RichText::new(text!("result-not-yet")).color(WARNING))
+                        }
                         None => ui.label(""),
                     };
                 }
@@ -211,13 +221,14 @@ fn words(key: &str, value: f64) -> (String, String) {
     ];
     let unit = units.iter().find(|(ending, ..)| plain.ends_with(ending));
     let (ending, factor, unit) = unit.copied().unwrap_or(("", 1.0, ""));
-    let name = plain
-        .strip_suffix(ending)
-        .unwrap_or(plain)
-        .replace('_', " ");
+    let of_measure = format!("measure-{}", plain.replace('_', "-"));
+    let name = say_if_there(&of_measure).unwrap_or_else(|| {
+        let name = plain.strip_suffix(ending).unwrap_or(plain);
+        name.replace('_', " ")
+    });
     let name = match tool {
         "" => name,
-        tool => format!("{tool}: {name}"),
+        tool => format!("{}: {name}", tool_name(tool)),
     };
     let value = factor * value;
     let decimals = match value.abs() {
@@ -227,7 +238,7 @@ fn words(key: &str, value: f64) -> (String, String) {
         size if size < 100.0 => 1,
         _ => 0,
     };
-    (name, format!("{value:.decimals$} {unit}"))
+    (name, format!("{} {unit}", decimal(value, decimals)))
 }
 
 #[cfg(test)]
@@ -244,7 +255,7 @@ mod tests {
         assert_eq!(read("time_s", 12.34), "time 12.3 s");
         assert_eq!(
             read("right.force_time_n_s", 2.0),
-            "right: force time 2.00 N s"
+            "right: force integral 2.00 N s"
         );
         assert_eq!(read("right.peak_force_n", 0.5), "right: peak force 500 mN");
         assert_eq!(read("perforations", 2.0), "perforations 2 ");

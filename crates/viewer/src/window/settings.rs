@@ -2,23 +2,38 @@
 
 use std::path::PathBuf;
 
-use palpate_files::Settings;
+use palpate_files::{Language, Settings};
 
 /// The settings of a window.
 pub struct WindowSettings {
     /// What is set.
     pub settings: Settings,
+    /// The language that the environment names.
+    pub environment: Language,
+    /// The language that was asked for at this start, if any; until another one is set.
+    pub asked_language: Option<Language>,
     /// Why it is not what was set before, or is not kept; in a sentence.
     pub trouble: Option<String>,
     /// Where it is kept.
     pub keeper: Box<dyn SettingsKeeper>,
 }
 
+/// What a folder or file of the program is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FolderContent {
+    /// Sessions and results.
+    Sessions,
+    /// The settings.
+    Settings,
+    /// Prepared organs.
+    Cache,
+}
+
 /// A folder or file that the program uses.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NamedFolder {
-    /// What is in it, for people.
-    pub name: &'static str,
+    /// What is in it.
+    pub content: FolderContent,
     /// Where it is.
     pub path: PathBuf,
 }
@@ -60,9 +75,21 @@ pub trait SettingsKeeper {
 }
 
 impl WindowSettings {
+    /// The language of the texts.
+    pub(super) fn language(&self) -> Language {
+        let asked = self.asked_language.unwrap_or(self.settings.language);
+        match asked {
+            Language::System => self.environment,
+            language => language,
+        }
+    }
+
     /// Takes over what a person set, and keeps it.
     pub(super) fn change(&mut self, settings: Settings) {
         if self.settings != settings {
+            if self.settings.language != settings.language {
+                self.asked_language = None;
+            }
             self.trouble = self.keeper.save(&settings).err();
             self.settings = settings;
         }

@@ -2,12 +2,14 @@
 
 use std::path::PathBuf;
 
-use eframe::egui::{self, Frame, Key, Margin, RichText, Slider, Ui};
-use palpate_files::{MouseHand, Settings};
+use eframe::egui::{self, RichText, Slider, Ui};
+use palpate_files::{Language, MouseHand, Settings};
 
-use super::settings::{CacheUse, NamedFolder, WindowSettings};
-use super::texts;
-use crate::style::{DEPTH, FAULT, QUIET, WHITE};
+use super::hands::gamepads::gamepads;
+use super::page::{self, heading, quiet};
+use super::settings::{CacheUse, FolderContent, NamedFolder, WindowSettings};
+use super::texts::{self, decimal, text};
+use crate::style::{DEPTH, FAULT};
 
 /// The page, while it is shown.
 pub(super) struct SettingsPage {
@@ -38,36 +40,26 @@ impl SettingsPage {
 
     /// Shows it; whether somebody leaves it.
     pub(super) fn show(&mut self, ui: &mut Ui, own: &mut WindowSettings) -> bool {
-        let mut is_left = ui.input(|input| input.key_pressed(Key::Escape));
-        let margin = Margin::symmetric(28, 20);
-        Frame::new().inner_margin(margin).show(ui, |ui| {
-            egui::ScrollArea::vertical()
-                .auto_shrink([false, false])
-                .show(ui, |ui| {
-                    ui.label(RichText::new(texts::SETTINGS).size(34.0).color(WHITE));
-                    if let Some(trouble) = &own.trouble {
-                        ui.colored_label(FAULT, trouble);
-                    }
-                    hands(ui, own);
-                    self.display(ui, own);
-                    self.folders(ui, own);
-                    self.cache(ui, own);
-                    self.devices(ui, own);
-                    ui.add_space(18.0);
-                    let back = ui.button(texts::BACK).on_hover_text(texts::BACK_HINT);
-                    is_left |= back.clicked();
-                });
-        });
-        is_left
+        page::leavable(ui, &text!("settings-title"), |ui| {
+            if let Some(trouble) = &own.trouble {
+                ui.colored_label(FAULT, trouble);
+            }
+            hands(ui, own);
+            language(ui, own);
+            self.display(ui, own);
+            self.folders(ui, own);
+            self.cache(ui, own);
+            self.devices(ui, own);
+        })
     }
 
     fn display(&mut self, ui: &mut Ui, own: &mut WindowSettings) {
-        heading(ui, texts::DISPLAY);
+        heading(ui, &text!("settings-display"));
         let [least, most] = Settings::SCALES;
         let slider = Slider::new(&mut self.scale, least..=most)
             .step_by(0.05)
             .custom_formatter(|scale, _| format!("{:.0} %", 100.0 * scale))
-            .text(texts::SCALE);
+            .text(text!("settings-scale"));
         let slider = ui.add(slider);
         if slider.drag_stopped() || slider.changed() && !slider.dragged() {
             own.change(Settings {
@@ -78,25 +70,28 @@ impl SettingsPage {
     }
 
     fn folders(&mut self, ui: &mut Ui, own: &mut WindowSettings) {
-        heading(ui, texts::FOLDERS);
+        heading(ui, &text!("settings-folders"));
         egui::Grid::new("folders")
             .num_columns(2)
             .spacing([18.0, 4.0])
             .show(ui, |ui| {
                 for folder in &self.folders {
-                    ui.label(folder.name);
-                    let path = folder.path.display().to_string();
-                    ui.label(RichText::new(path).color(QUIET));
+                    ui.label(text!(match folder.content {
+                        FolderContent::Sessions => "settings-sessions",
+                        FolderContent::Settings => "settings-file",
+                        FolderContent::Cache => "settings-cached",
+                    }));
+                    ui.label(quiet(folder.path.display().to_string()));
                     ui.end_row();
                 }
             });
-        ui.horizontal(|ui| {
-            let label = ui.label(texts::TRAINING_FOLDER);
+        ui.horizontal_wrapped(|ui| {
+            let label = ui.label(text!("settings-training-folder"));
             let field = egui::TextEdit::singleline(&mut self.training_folder)
-                .hint_text(texts::TRAINING_FOLDER_HINT)
+                .hint_text(text!("settings-training-hint"))
                 .desired_width(360.0);
             ui.add(field).labelled_by(label.id);
-            if ui.button(texts::SAVE_FOLDER).clicked() {
+            if ui.button(text!("settings-set-folder")).clicked() {
                 let typed = self.training_folder.trim();
                 let folder = (!typed.is_empty()).then(|| {
                     let typed = PathBuf::from(typed);
@@ -111,61 +106,87 @@ impl SettingsPage {
             }
         });
         if self.is_folder_changed && own.trouble.is_none() {
-            ui.label(RichText::new(texts::NEXT_START).color(DEPTH));
+            ui.label(RichText::new(text!("settings-next-start")).color(DEPTH));
         }
     }
 
     fn cache(&mut self, ui: &mut Ui, own: &mut WindowSettings) {
-        heading(ui, texts::CACHE);
+        heading(ui, &text!("settings-cache"));
         match &self.cache {
             Ok(cache) => {
-                let files = if cache.files == 1 { "file" } else { "files" };
-                ui.label(format!(
-                    "{} {files}, {:.1} MB",
-                    cache.files,
-                    1e-6 * cache.bytes as f64
-                ));
+                let size = decimal(1e-6 * cache.bytes as f64, 1);
+                ui.label(text!("settings-cache-use", files = cache.files, mb = size));
             }
             Err(trouble) => {
                 ui.colored_label(FAULT, trouble);
             }
         }
-        let clear = ui.button(texts::CLEAR_CACHE);
-        if clear.on_hover_text(texts::CLEAR_HINT).clicked() {
+        let clear = ui.button(text!("settings-clear-cache"));
+        if clear.on_hover_text(text!("settings-clear-hint")).clicked() {
             self.cache = own.keeper.clear_cache();
         }
     }
 
     fn devices(&mut self, ui: &mut Ui, own: &WindowSettings) {
-        heading(ui, texts::DEVICES);
+        heading(ui, &text!("settings-devices"));
         for line in self.devices.iter().flatten() {
-            ui.label(RichText::new(line).color(QUIET));
+            ui.label(quiet(line));
         }
-        if ui.button(texts::LOOK_FOR_DEVICES).clicked() {
-            self.devices = Some(own.keeper.devices());
+        if ui.button(text!("settings-find-devices")).clicked() {
+            let pads = gamepads();
+            let mut devices = own.keeper.devices();
+            match pads.as_slice() {
+                [] => devices.push(text!("settings-no-gamepad")),
+                pads => devices.extend(
+                    pads.iter()
+                        .map(|name| text!("settings-gamepad", name = name)),
+                ),
+            }
+            self.devices = Some(devices);
         }
     }
 }
 
-fn heading(ui: &mut Ui, words: &str) {
-    ui.add_space(14.0);
-    ui.label(RichText::new(words).size(20.0).color(WHITE));
-    ui.add_space(2.0);
-}
+/// The choices of a mouse's hand, with the keys of their texts.
+const MOUSE_HANDS: [(MouseHand, &str); 3] = [
+    (MouseHand::Scene, "settings-mouse-scene"),
+    (MouseHand::Left, "settings-mouse-left"),
+    (MouseHand::Right, "settings-mouse-right"),
+];
 
 fn hands(ui: &mut Ui, own: &mut WindowSettings) {
-    heading(ui, texts::HANDS);
-    ui.label(texts::MOUSE_HAND);
+    heading(ui, &text!("settings-hands"));
+    ui.label(text!("settings-mouse"));
     let mut hand = own.settings.mouse_hand;
-    let all = [MouseHand::Scene, MouseHand::Left, MouseHand::Right];
-    for (each, words) in all.into_iter().zip(texts::MOUSE_HANDS) {
-        ui.radio_value(&mut hand, each, words);
+    for (each, key) in MOUSE_HANDS {
+        ui.radio_value(&mut hand, each, text!(key));
     }
     own.change(Settings {
         mouse_hand: hand,
         ..own.settings.clone()
     });
-    ui.label(RichText::new(texts::OTHER_HAND).color(QUIET));
+    ui.label(quiet(text!("settings-other-hand")));
+}
+
+fn language(ui: &mut Ui, own: &mut WindowSettings) {
+    heading(ui, &text!("settings-language"));
+    let mut language = own.asked_language.unwrap_or(own.settings.language);
+    let before = language;
+    ui.radio_value(&mut language, Language::System, text!("settings-system"));
+    for (each, name) in texts::languages() {
+        ui.radio_value(&mut language, each, name);
+    }
+    if language != before {
+        own.asked_language = None;
+        own.change(Settings {
+            language,
+            ..own.settings.clone()
+        });
+        texts::speak(own.language());
+    }
+    let [translated, all] = texts::translated();
+    let words = text!("settings-translated", translated = translated, all = all);
+    ui.label(quiet(words));
 }
 
 #[cfg(test)]
@@ -173,6 +194,7 @@ mod tests {
     use std::cell::RefCell;
     use std::rc::Rc;
 
+    use eframe::egui::Key;
     use eframe::egui::accesskit::Role;
 
     use super::super::settings::SettingsKeeper;
@@ -225,6 +247,8 @@ mod tests {
         };
         let own = WindowSettings {
             settings: Settings::default(),
+            environment: Language::English,
+            asked_language: None,
             trouble: None,
             keeper: Box::new(keeper),
         };
@@ -249,40 +273,40 @@ mod tests {
         look(&mut seen, &mut page, &mut own);
         assert!(saved.borrow().is_empty(), "nothing is changed yet");
         for (role, label) in [
-            (Role::Slider, texts::SCALE),
-            (Role::Button, texts::CLEAR_CACHE),
-            (Role::Button, texts::LOOK_FOR_DEVICES),
-            (Role::Button, texts::SAVE_FOLDER),
-            (Role::Button, texts::BACK),
-            (Role::Label, "3 files, 6.0 MB"),
+            (Role::Slider, &text!("settings-scale")),
+            (Role::Button, &text!("settings-clear-cache")),
+            (Role::Button, &text!("settings-find-devices")),
+            (Role::Button, &text!("settings-set-folder")),
+            (Role::Button, &text!("common-back")),
+            (Role::Label, &"3 files, 6.0 MB".to_owned()),
         ] {
             assert!(seen.has(role, label), "{label}: {:?}", seen.labels());
         }
-        seen.click(Role::RadioButton, texts::MOUSE_HANDS[1]);
+        seen.click(Role::RadioButton, &text!("settings-mouse-left"));
         assert!(!look(&mut seen, &mut page, &mut own));
         assert_eq!(saved.borrow().last().unwrap().mouse_hand, MouseHand::Left);
-        seen.click(Role::Slider, texts::SCALE);
+        seen.click(Role::Slider, &text!("settings-scale"));
         look(&mut seen, &mut page, &mut own);
         let scale = saved.borrow().last().unwrap().scale;
         assert!(scale != 1.0 && scale == own.settings.scale, "{scale}");
-        seen.click(Role::Button, texts::CLEAR_CACHE);
+        seen.click(Role::Button, &text!("settings-clear-cache"));
         look(&mut seen, &mut page, &mut own);
         assert!(seen.has(Role::Label, "0 files, 0.0 MB"));
-        seen.click(Role::Button, texts::LOOK_FOR_DEVICES);
+        seen.click(Role::Button, &text!("settings-find-devices"));
         look(&mut seen, &mut page, &mut own);
         assert!(seen.has(Role::Label, "a device of the test"));
-        seen.click(Role::Button, texts::BACK);
+        seen.click(Role::Button, &text!("common-back"));
         assert!(look(&mut seen, &mut page, &mut own));
     }
 
-    /// By keys alone: Tab to the first radio button, Space on the next one, Escape leaves.
+    /// By keys alone: Tab past the button that leaves to the first radio button, Space on the next one, Escape leaves.
     #[test]
     fn settings_are_changed_by_keys() {
         let (saved, mut own) = shown(false);
         let mut page = SettingsPage::new(&own);
         let mut seen = Seen::default();
         look(&mut seen, &mut page, &mut own);
-        for key in [Key::Tab, Key::Tab, Key::Space] {
+        for key in [Key::Tab, Key::Tab, Key::Tab, Key::Space] {
             seen.press(key);
             look(&mut seen, &mut page, &mut own);
         }
@@ -299,7 +323,7 @@ mod tests {
         let mut page = SettingsPage::new(&own);
         let mut seen = Seen::default();
         look(&mut seen, &mut page, &mut own);
-        seen.click(Role::RadioButton, texts::MOUSE_HANDS[2]);
+        seen.click(Role::RadioButton, &text!("settings-mouse-right"));
         look(&mut seen, &mut page, &mut own);
         look(&mut seen, &mut page, &mut own);
         assert!(seen.has(Role::Label, "the disk is full"));

@@ -9,11 +9,12 @@ use palpate_simulate::{Replay, SessionFolder};
 use super::attempt::{Attempt, Phase};
 use super::cards::{self, Around, Asked};
 use super::choice::Choice;
-use super::class_page::ClassPage;
+use super::class_page::{ClassPage, Wanted};
 use super::compared::ShownDemonstration;
 use super::home::{Chosen, Home};
 use super::play::{ModelRequest, Play};
 use super::settings_page::SettingsPage;
+use super::texts::text;
 use super::training::TrainingResult;
 use super::{SimulatorWindow, panel};
 
@@ -30,9 +31,12 @@ impl SimulatorWindow {
         let context = ui.ctx().clone();
         let scene = match chosen {
             None => return,
-            Some(Chosen::Task(number)) => training.tasks[number].clone(),
+            Some(Chosen::Task(number)) => training.tasks[number].scene.clone(),
             Some(Chosen::Class) => {
-                self.class_page = Some(ClassPage(training.record.class()));
+                let titles = training.tasks.iter();
+                let titles = titles.filter_map(|task| task.scene.task.title.clone());
+                let page = ClassPage::new(training.record.class(), titles.collect());
+                self.class_page = Some(page);
                 return;
             }
             Some(Chosen::Settings) => {
@@ -56,12 +60,21 @@ impl SimulatorWindow {
 
     /// The teacher's page instead of everything else.
     pub(super) fn show_class(&mut self, ui: &mut egui::Ui) {
-        if let Some(page) = &self.class_page
-            && egui::CentralPanel::default()
-                .show(ui, |ui| page.show(ui))
-                .inner
-        {
-            self.class_page = None;
+        let (Some(page), Some(training)) = (&mut self.class_page, &mut self.training) else {
+            return;
+        };
+        let panel = egui::CentralPanel::default();
+        match panel.show(ui, |ui| page.show(ui)).inner {
+            None => {}
+            Some(Wanted::Leave) => {
+                self.class_page = None;
+                // What was assigned is seen on the start screen.
+                self.home = Some(Home::default());
+            }
+            Some(Wanted::Assign(given)) => {
+                let outcome = training.record.assign(&given);
+                page.take(outcome, training.record.class());
+            }
         }
     }
 
@@ -178,7 +191,7 @@ impl SimulatorWindow {
             score: &done.score,
         });
         if let Err(trouble) = kept {
-            attempt.trouble = Some(format!("the result is not kept: {trouble}"));
+            attempt.trouble = Some(text!("result-not-kept", trouble = trouble));
         }
         attempt.compare_with(earlier);
     }
@@ -280,16 +293,20 @@ impl SimulatorWindow {
 
     /// The arrow keys set the diameter that is to be stated.
     pub(super) fn set_diameter(&mut self, context: &egui::Context) {
+        if !context.egui_wants_keyboard_input() {
+            let times = |key| context.input(|input| input.num_presses(key)) as i32;
+            self.change_diameter(times(egui::Key::ArrowRight) - times(egui::Key::ArrowLeft));
+        }
+    }
+
+    /// Sets the diameter that is to be stated by so many millimetres more or less.
+    pub(super) fn change_diameter(&mut self, by: i32) {
         if let Some(attempt) = &mut self.attempt
+            && by != 0
             && attempt.awaits_diameter()
             && !attempt.is_shown()
-            && !context.egui_wants_keyboard_input()
         {
-            let times = |key| context.input(|input| input.num_presses(key)) as i32;
-            let by = times(egui::Key::ArrowRight) - times(egui::Key::ArrowLeft);
-            if by != 0 {
-                attempt.change_diameter(by);
-            }
+            attempt.change_diameter(by);
         }
     }
 
@@ -369,9 +386,7 @@ impl SimulatorWindow {
 fn scene_of(session: &Path) -> Result<Scene, String> {
     let folder = SessionFolder::read(session).map_err(|error| error.to_string())?;
     folder.scene.ok_or_else(|| {
-        format!(
-            "{} has no scene.toml, so that it cannot be looked at again",
-            session.display()
-        )
+        let folder = session.display().to_string();
+        text!("replay-no-scene", folder = folder)
     })
 }

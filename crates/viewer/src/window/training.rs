@@ -1,7 +1,9 @@
 //! What a window needs to know of a training, and where it gives the results.
 
+use std::io::Cursor;
 use std::path::PathBuf;
 
+use image::ImageFormat;
 use palpate_files::Scene;
 use palpate_files::scene::Task;
 use palpate_simulate::performance::Score;
@@ -9,7 +11,7 @@ use palpate_simulate::performance::Score;
 /// What a window needs to train somebody.
 pub struct Training {
     /// The tasks to choose from: scenes with a title.
-    pub tasks: Vec<Scene>,
+    pub tasks: Vec<OfferedTask>,
     /// What is touched without a task.
     pub free: Scene,
     /// The folder in which sessions are kept.
@@ -18,6 +20,50 @@ pub struct Training {
     pub trainee: String,
     /// Where results are kept.
     pub record: Box<dyn TrainingRecord>,
+}
+
+/// A task of the start screen.
+pub struct OfferedTask {
+    /// Its scene.
+    pub scene: Scene,
+    /// A picture of it; none where there is none.
+    pub picture: Option<TaskPicture>,
+}
+
+/// A picture of a task.
+pub struct TaskPicture {
+    /// Rows of pixels from the top, each red, green, blue and how opaque it is.
+    pub(super) pixels: Vec<u8>,
+    /// Across and down [pixels].
+    pub(super) size: [u32; 2],
+}
+
+impl TaskPicture {
+    /// No picture is larger, across or down [pixels].
+    const LARGEST: u32 = 4096;
+
+    /// From the bytes of a PNG file.
+    ///
+    /// # Errors
+    /// When they are no picture, or too large a one; in a sentence without the name of the file.
+    pub fn decode(bytes: &[u8]) -> Result<Self, String> {
+        let mut reader = image::ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
+        let mut limits = image::Limits::default();
+        limits.max_image_width = Some(Self::LARGEST);
+        limits.max_image_height = Some(Self::LARGEST);
+        reader.limits(limits);
+        let picture = reader.decode().map_err(|cause| {
+            format!(
+                "it is no PNG picture of at most {0} by {0} pixels ({cause}); save it as one",
+                Self::LARGEST
+            )
+        })?;
+        let picture = picture.into_rgba8();
+        Ok(Self {
+            size: [picture.width(), picture.height()],
+            pixels: picture.into_raw(),
+        })
+    }
 }
 
 /// Where results are kept.
@@ -43,6 +89,12 @@ pub trait TrainingRecord {
     /// When they cannot be read; in a sentence.
     fn class(&self) -> Result<Class, String>;
 
+    /// Gives a cohort or a trainee something to do.
+    ///
+    /// # Errors
+    /// When the PIN is wrong, the date is none, or it cannot be kept; in a sentence.
+    fn assign(&mut self, given: &NewAssignment) -> Result<(), String>;
+
     /// The results of a trainee, the last one last.
     ///
     /// # Errors
@@ -50,9 +102,26 @@ pub trait TrainingRecord {
     fn results(&self, trainee: &str) -> Result<Vec<PastResult>, String>;
 }
 
+/// What a teacher gives somebody to do.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct NewAssignment {
+    /// The cohort or trainee.
+    pub to: String,
+    /// The title of the task.
+    pub task: String,
+    /// The day until whose end it is to be done, such as 2026-12-24.
+    pub due: String,
+    /// Passed attempts that are needed.
+    pub passes: u32,
+    /// The teacher's PIN; empty without one.
+    pub pin: String,
+}
+
 /// What a teacher sees of all trainees.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Class {
+    /// Cohorts and trainees, to whom something can be given to do.
+    pub assignees: Vec<String>,
     /// What cohorts shall do, the first due first.
     pub assignments: Vec<AssignedTask>,
     /// Each task that was attempted.
@@ -83,8 +152,19 @@ pub struct TraineeStanding {
     pub attempts: usize,
     /// Passed attempts until it was due.
     pub passed: usize,
-    /// `done`, `open` or `late`.
-    pub standing: &'static str,
+    /// Whether that is enough.
+    pub standing: StandingWord,
+}
+
+/// Whether somebody has done an assignment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StandingWord {
+    /// Passed often enough, in time.
+    Done,
+    /// There is time.
+    Open,
+    /// There is no more time.
+    Late,
 }
 
 /// How trainees come on with a task.

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use nalgebra::UnitQuaternion;
 use palpate_geometry::Vec3;
 use palpate_viewer::gesture::{Aim, Mouse};
-use palpate_viewer::hands::gamepad::{Gamepad, Pad};
+use palpate_viewer::hands::gamepad::{Layout, Pad, PadEvent, PadPart, PadRequests};
 use palpate_viewer::hands::keys::{ACTIONS, CUTS, HANDS, JAWS};
 use palpate_viewer::hands::{Drive, Hand, Room};
 use palpate_viewer::{Camera, Orbit};
@@ -185,56 +185,134 @@ fn no_key_does_two_things() {
     assert_eq!(different.len(), keys.len());
 }
 
-/// An event as the kernel writes it.
-fn event(kind: u8, number: u8, value: i16) -> [u8; 8] {
-    let [low, high] = value.to_le_bytes();
-    [1, 2, 3, 4, low, high, kind, number]
+/// An event of a button, and one of an axis with the range that its driver states.
+fn button(code: u16, is_down: bool) -> PadEvent {
+    PadEvent::Button { code, is_down }
 }
 
-#[test]
-fn a_gamepad_moves_both_hands() {
-    let mut pad = Pad::default();
-    assert!(!pad.drive(0).moves() && !pad.drive(1).moves());
-    // What is told at the start: a stick at rest, triggers let go, a button that is held.
-    for (kind, number, value) in [(0x82, 0, 900), (0x82, 2, -32_767), (0x81, 9, 1)] {
-        pad.take(event(kind, number, value));
+fn axis(code: u16, value: i32, [least, most]: [i32; 2]) -> PadEvent {
+    PadEvent::Axis {
+        code,
+        part: f64::from(value - least) / f64::from(most - least),
     }
-    assert!(!pad.drive(0).moves() && !pad.drive(0).jaws);
-    pad.take(event(2, 0, i16::MAX));
-    pad.take(event(2, 4, i16::MIN));
-    pad.take(event(2, 5, i16::MAX));
-    assert_eq!(pad.drive(0).way, [1.0, 0.0, 0.0]);
-    // Up is negative on a stick; a pressed trigger goes in.
-    assert_eq!(pad.drive(1).way, [0.0, 1.0, 1.0]);
-    pad.take(event(1, 10, 1));
-    pad.take(event(1, 2, 1));
-    assert!(pad.drive(1).jaws && pad.drive(0).cuts && !pad.drive(1).cuts);
-    // What is no event of a known kind changes nothing.
+}
+
+const XPAD_STICK: [i32; 2] = [-32_768, 32_767];
+const XPAD_TRIGGER: [i32; 2] = [0, 1023];
+const BYTE: [i32; 2] = [0, 255];
+
+/// A pad of `xpad`: at rest its sticks are a little off the middle, and a button is held from before.
+fn xpad() -> Pad {
+    let mut pad = Pad::new(Layout::of(&[0, 1, 2, 3, 4, 5, 0x10, 0x11]));
+    for code in [0, 1, 3, 4] {
+        pad.begin(axis(code, 900, XPAD_STICK));
+    }
+    for code in [2, 5] {
+        pad.begin(axis(code, 0, XPAD_TRIGGER));
+    }
+    pad.begin(button(0x130, true));
+    pad
+}
+
+/// Halves of one gamepad move both hands. Judge: the codes and ranges in the sources of the driver `xpad`.
+#[test]
+fn halves_of_a_gamepad_move_both_hands() {
+    let mut pad = xpad();
+    assert!(!pad.drive(PadPart::Left).moves() && !pad.drive(PadPart::Right).moves());
+    assert_eq!(
+        pad.requests(),
+        PadRequests::default(),
+        "what is held was not pressed"
+    );
+    pad.take(axis(0, 32_767, XPAD_STICK));
+    // Up is negative on a stick; a pulled trigger goes in, a shoulder out.
+    pad.take(axis(4, -32_768, XPAD_STICK));
+    pad.take(axis(5, 1023, XPAD_TRIGGER));
+    pad.take(button(0x136, true));
+    // The range has no middle: half a count off, and the other axis rests.
+    let near = |found: [f64; 3], wanted: [f64; 3]| {
+        let off = (0..3).map(|k| (found[k] - wanted[k]).abs());
+        assert!(off.fold(0.0, f64::max) < 1e-4, "{found:?} {wanted:?}");
+    };
+    near(pad.drive(PadPart::Left).way, [1.0, 0.0, -1.0]);
+    near(pad.drive(PadPart::Right).way, [0.0, 1.0, 1.0]);
+    pad.take(button(0x13e, true));
+    pad.take(button(0x133, true));
+    let seen = pad.look();
+    assert!(seen.drive(PadPart::Right).jaws && !seen.drive(PadPart::Left).jaws);
+    assert!(seen.drive(PadPart::Left).cuts && !seen.drive(PadPart::Right).cuts);
+    assert!(!pad.drive(PadPart::Right).jaws, "jaws change once");
+    assert!(pad.drive(PadPart::Left).cuts, "a cut lasts");
+    // What has no use here changes nothing.
     let before = pad;
-    pad.take(event(7, 0, 1));
-    pad.take(event(2, 200, 1));
-    pad.take(event(1, 200, 1));
+    for event in [button(0x2c0, true), axis(0x28, 5, BYTE), button(1, true)] {
+        pad.take(event);
+    }
     assert_eq!(pad, before);
 }
 
+/// A gamepad of `hid-playstation` moves one tool whole; `hid-generic` has its right stick elsewhere.
 #[test]
-fn a_machine_without_a_gamepad_does_without() {
-    assert!(Gamepad::open(std::path::Path::new("/there/is/none")).is_none());
+fn a_whole_gamepad_moves_one_tool() {
+    let mut pad = Pad::new(Layout::of(&[0, 1, 2, 3, 4, 5]));
+    for code in [0, 1, 3, 4] {
+        pad.begin(axis(code, 128, BYTE));
+    }
+    pad.take(axis(2, 255, BYTE));
+    pad.take(axis(3, 255, BYTE));
+    pad.take(button(0x137, true));
+    let drive = pad.drive(PadPart::Whole);
+    assert_eq!((drive.way[2], drive.roll, drive.jaws), (-1.0, -1.0, true));
+    let mut pad = Pad::new(Layout::of(&[0, 1, 2, 5, 9, 10]));
+    pad.take(axis(9, 1023, XPAD_TRIGGER));
+    pad.take(axis(2, 0, BYTE));
+    let drive = pad.drive(PadPart::Whole);
+    assert_eq!((drive.way[2], drive.roll), (1.0, 1.0));
 }
 
-/// What a gamepad tells comes from its thread, and an unplugged one moves nothing.
+/// A marks, the menu button pauses, the view button undoes, and the digital pad, an axis or buttons, sets a diameter.
 #[test]
-fn an_unplugged_gamepad_lets_go() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("js0");
-    let mut events = event(2, 0, i16::MAX).to_vec();
-    events.extend([1, 2, 3]);
-    std::fs::write(&path, events).unwrap();
-    let gamepad = Gamepad::open(&path).unwrap();
-    let waited = (0..500).find(|_| {
-        std::thread::sleep(std::time::Duration::from_millis(2));
-        gamepad.is_gone()
-    });
-    assert!(waited.is_some());
-    assert_eq!(gamepad.look(), Pad::default());
+fn buttons_of_a_gamepad_ask_once() {
+    let mut pad = xpad();
+    pad.take(button(0x130, false));
+    for code in [0x130, 0x13b, 0x13a] {
+        pad.take(button(code, true));
+    }
+    pad.take(axis(0x10, 1, [-1, 1]));
+    pad.take(axis(0x10, 0, [-1, 1]));
+    let wanted = PadRequests {
+        mark: true,
+        pause: true,
+        undo: true,
+        larger: 1,
+    };
+    assert_eq!(pad.look().requests(), wanted);
+    assert_eq!(pad.look().requests(), PadRequests::default());
+    pad.take(axis(0x10, -1, [-1, 1]));
+    assert_eq!(pad.look().requests().larger, -1);
+    pad.take(axis(0x10, 0, [-1, 1]));
+    pad.take(button(0x223, true));
+    assert_eq!(pad.look().requests().larger, 1);
+}
+
+/// Who moves what: one gamepad both tools, two gamepads a tool each, any gamepad a single tool.
+#[test]
+fn gamepads_share_the_tools() {
+    use PadPart::{Left, Right, Whole};
+    for (pad, side, tools, part) in [
+        ([0, 1], 1, 1, Some(Whole)),
+        ([1, 2], 1, 1, Some(Whole)),
+        ([0, 1], 0, 2, Some(Left)),
+        ([0, 1], 1, 2, Some(Right)),
+        ([0, 2], 0, 2, Some(Whole)),
+        ([0, 2], 1, 2, None),
+        ([1, 2], 1, 2, Some(Whole)),
+        ([2, 3], 1, 2, None),
+    ] {
+        assert_eq!(
+            PadPart::of(pad, side, tools),
+            part,
+            "{pad:?} {side} {tools}"
+        );
+    }
 }

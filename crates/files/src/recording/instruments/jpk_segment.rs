@@ -156,6 +156,7 @@ impl Segment<'_> {
             Some("signedshort") => whole(&bytes, |own| f64::from(i16::from_be_bytes(own))),
             Some("unsignedshort") => whole(&bytes, |own| f64::from(u16::from_be_bytes(own))),
             Some("signedinteger") => whole(&bytes, |own| f64::from(i32::from_be_bytes(own))),
+            Some("signedlong") => whole(&bytes, |own| i64::from_be_bytes(own) as f64),
             Some("unsignedinteger") => whole(&bytes, |own| f64::from(u32::from_be_bytes(own))),
             _ => return Err(missing("is encoded in a way that is not read")),
         };

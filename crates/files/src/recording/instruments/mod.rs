@@ -7,8 +7,10 @@
 //! *How we know*: `instruments::…`: real files against the export of another program; files of an independent writer, cut
 //! short and changed byte by byte.
 
+mod igor;
 mod jpk;
 mod jpk_segment;
+mod nanosurf;
 mod optics11;
 mod properties;
 mod zip;
@@ -57,6 +59,12 @@ impl Recording {
         };
         if jpk::is_archive(bytes) {
             return jpk::read(&file);
+        }
+        if igor::is_wave(bytes) {
+            return Ok(vec![igor::read(&file)?]);
+        }
+        if nanosurf::is_nid(bytes) {
+            return nanosurf::read(&file);
         }
         let text = super::foreign::text(bytes);
         let text = text.trim_start_matches('\u{feff}');

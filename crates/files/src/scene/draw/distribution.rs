@@ -20,7 +20,7 @@ pub(super) enum Recipe {
     UniformVector([[f64; 3]; 2]),
     /// Each of several values as often as the others.
     OneOf(Vec<Drawn>),
-    /// Evenly over a part of the organ's surface.
+    /// Evenly over a part of a surface.
     OnSurface(OnSurface),
     /// A depth below a draw on the surface, against the normal there.
     Below { name: String, depth: Depth },
@@ -35,7 +35,7 @@ pub(super) enum Depth {
     Drawn(String),
 }
 
-/// A part of an organ's surface: what of it lies in a box, and faces a direction.
+/// A part of a surface: what of it lies in a box, and faces a direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OnSurface {
     /// The corner of the box with the smallest coordinates [m].
@@ -44,7 +44,12 @@ pub struct OnSurface {
     pub max_m: [f64; 3],
     /// The normals there are within 60° of this direction; none for all [-].
     pub facing: Option<[f64; 3]>,
+    /// The neighbour whose surface it is, from 0; none for the organ's.
+    pub neighbour: Option<usize>,
 }
+
+/// No scene has more neighbours.
+const MOST_NEIGHBOURS: u64 = 1000;
 
 /// The keys of a draw, of which one says how.
 pub(crate) const KEYS: &[Key] = &[
@@ -64,7 +69,7 @@ pub(crate) const KEYS: &[Key] = &[
     Key::table(
         "on_surface",
         OnSurface::KEYS,
-        "A place, evenly over a part of the organ's surface.",
+        "A place, evenly over a part of the surface of the organ or of a neighbour.",
     )
     .optional("", "another key says how"),
     Key::text(
@@ -95,6 +100,13 @@ impl OnSurface {
             "The normals there are within 60 degrees of this direction.",
         )
         .optional("[0.0, 0.0, 1.0]", "all"),
+        Key::integer(
+            "neighbour",
+            1,
+            MOST_NEIGHBOURS,
+            "The surface is that of the `[[neighbour]]` with this number, from 1 in the order of the file.",
+        )
+        .optional("1", "it is the organ's"),
     ];
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
@@ -102,6 +114,7 @@ impl OnSurface {
             min_m: keys.required_vector("min_m")?,
             max_m: keys.required_vector("max_m")?,
             facing: keys.direction("facing")?,
+            neighbour: keys.integer("neighbour")?.map(|number| number as usize - 1),
         })
     }
 
@@ -190,12 +203,30 @@ impl Distribution {
         }
     }
 
+    /// Refuses the surface of a neighbour that a scene with so many does not have.
+    pub(super) fn check_neighbour(&self, count: usize) -> Result<(), Error> {
+        let neighbour = match &self.recipe {
+            Recipe::OnSurface(on) => on.neighbour,
+            _ => None,
+        };
+        match neighbour.filter(|number| *number >= count) {
+            None => Ok(()),
+            Some(number) => Err(Error::BadValue {
+                place: self.place.clone(),
+                key: format!("draw.{}.on_surface.neighbour", self.name),
+                found: (number + 1).to_string(),
+                expected: format!("the number of a `[[neighbour]]`, of which there are {count}")
+                    .into(),
+            }),
+        }
+    }
+
     /// The error for a part of the surface that is empty.
     pub(super) fn no_surface(&self) -> Error {
         Error::BadValue {
             place: self.place.clone(),
             key: format!("draw.{}.on_surface", self.name),
-            found: "a box without a part of the organ's surface that faces that way".to_owned(),
+            found: "a box without a part of the surface that faces that way".to_owned(),
             expected: "a box around a part of the surface".into(),
         }
     }

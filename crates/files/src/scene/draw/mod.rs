@@ -53,7 +53,7 @@ pub enum Drawn {
     Text(String),
 }
 
-/// A point of an organ's surface.
+/// A point of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePoint {
     /// Where it is [m].
@@ -62,7 +62,7 @@ pub struct SurfacePoint {
     pub normal: [f64; 3],
 }
 
-/// Finds a point of the organ's surface from three uniform numbers in [0, 1); none where the surface has no such
+/// Finds a point of a surface from three uniform numbers in [0, 1); none where the surface has no such
 /// point.
 pub type FindOnSurface<'f> = &'f dyn Fn(&OnSurface, [f64; 3]) -> Option<SurfacePoint>;
 
@@ -110,7 +110,14 @@ impl Draws {
         Ok(Some(draws))
     }
 
-    /// The parts of the organ's surface on which places are drawn; if there are any, the surface has to be known.
+    /// Refuses surfaces of neighbours that a scene with so many does not have.
+    pub(super) fn check_neighbours(&self, count: usize) -> Result<(), Error> {
+        self.each
+            .iter()
+            .try_for_each(|own| own.check_neighbour(count))
+    }
+
+    /// The parts of surfaces on which places are drawn; if there are any, those surfaces have to be known.
     pub fn surfaces(&self) -> impl Iterator<Item = &OnSurface> {
         self.each.iter().filter_map(|own| match &own.recipe {
             Recipe::OnSurface(on) => Some(on),
@@ -152,7 +159,7 @@ impl Draws {
 }
 
 impl Scene {
-    /// The variant of this scene that belongs to a seed; `find` finds points of the organ's surface, if any draw
+    /// The variant of this scene that belongs to a seed; `find` finds points of surfaces, if any draw
     /// needs them ([`Draws::surfaces`]). A scene that draws nothing, or was drawn, is its only variant.
     ///
     /// # Errors
@@ -171,6 +178,7 @@ impl Scene {
         let mut scene = Self::parse(&text, name)?;
         // It may have been named elsewhere than in the document.
         scene.task.expert.clone_from(&self.task.expert);
+        scene.task.picture.clone_from(&self.task.picture);
         Ok(scene)
     }
 }

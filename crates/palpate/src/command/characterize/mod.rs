@@ -134,10 +134,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let recordings = arguments.recordings.asked();
     let progress = Progress::of_job(Reader::of_json(arguments.json));
     let found = characterize(&recordings, arguments.choice()?, folder.as_ref(), &progress)?;
-    drop(progress);
+    let answer = found.answer;
+    let warnings = progress.unsaid(warnings::for_people(&answer));
     let unbroken = Unbroken::begin();
     arguments.write(found.tissues)?;
-    let answer = found.answer;
     if let Some(path) = &arguments.report {
         let page = report::html(&answer, &found.portraits, &arguments.said());
         write_whole(path, page.as_bytes())?;
@@ -151,7 +151,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     for path in arguments.files().chain(written) {
         output::line(format!("written: {}", path.display()))?;
     }
-    output::warnings(&warnings::for_people(&answer));
+    output::warnings(&warnings);
     Ok(())
 }
 

@@ -12,6 +12,8 @@ pub(super) struct Answer {
     palpate: &'static str,
     pub(super) devices: Vec<Device>,
     pub(super) absent: Vec<Absent>,
+    /// Names of gamepads, which display no force.
+    pub(super) gamepads: Vec<String>,
 }
 
 /// A kind of which there is nothing.
@@ -63,6 +65,7 @@ impl Default for Answer {
             palpate: output::VERSION,
             devices: Vec::new(),
             absent: Vec::new(),
+            gamepads: Vec::new(),
         }
     }
 }
@@ -98,6 +101,13 @@ impl Answer {
         }
         for absent in &self.absent {
             let _ = writeln!(text, "{}: {}", absent.kind, printable(&absent.why));
+        }
+        for name in &self.gamepads {
+            let _ = writeln!(
+                text,
+                "gamepad: {} (moves tools in a window, without forces)",
+                printable(name)
+            );
         }
         text
     }

@@ -5,6 +5,7 @@ mod answer;
 use clap::{Args, ValueEnum};
 use palpate_devices::{Found, Kind, Places, SelfTest, self_test};
 use palpate_servo::Clock;
+use palpate_viewer::hands::gamepads::gamepads;
 
 use answer::{Answer, Device};
 
@@ -66,6 +67,9 @@ impl Word {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let places = Places::from_environment()?;
     let mut answer = Answer::default();
+    if arguments.kind.is_none() {
+        answer.gamepads = gamepads();
+    }
     let kinds = match arguments.kind {
         Some(word) => vec![word.kind()],
         None => Kind::ALL.to_vec(),

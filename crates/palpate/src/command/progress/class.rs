@@ -1,8 +1,10 @@
 //! What the teacher's page of the window shows: the numbers of `palpate progress` and `palpate teacher show`.
 
-use palpate_record::{Filter, Record};
+use std::collections::BTreeSet;
+
+use palpate_record::{Attempt, Filter, Record};
 use palpate_viewer::training::{
-    AssignedTask, Class, TaskProgress, TraineeProgress, TraineeStanding,
+    AssignedTask, Class, StandingWord, TaskProgress, TraineeProgress, TraineeStanding,
 };
 
 use super::course::{LearningCurve, Learnt};
@@ -15,9 +17,22 @@ pub(crate) fn class(record: &Record) -> Result<Class, Failure> {
     let attempts = record.attempts(&Filter::default())?;
     let courses = LearningCurve::all(&attempts, None);
     Ok(Class {
+        assignees: assignees(record, &attempts)?,
         assignments: assignments(record)?,
         tasks: courses.iter().map(task).collect(),
     })
+}
+
+/// Cohorts, and then trainees who have no cohort of their own name.
+fn assignees(record: &Record, attempts: &[Attempt]) -> Result<Vec<String>, Failure> {
+    let cohorts = record.cohorts()?;
+    let mut all: Vec<String> = cohorts.iter().map(|own| own.name.clone()).collect();
+    let members = cohorts.into_iter().flat_map(|own| own.trainees);
+    let trainees = attempts.iter().map(|own| own.trainee.clone());
+    let trainees: BTreeSet<String> = members.chain(trainees).collect();
+    let others = trainees.into_iter().filter(|name| !all.contains(name));
+    all.extend(others.collect::<Vec<_>>());
+    Ok(all)
 }
 
 fn assignments(record: &Record) -> Result<Vec<AssignedTask>, Failure> {
@@ -34,7 +49,11 @@ fn assignments(record: &Record) -> Result<Vec<AssignedTask>, Failure> {
                 trainee: own.trainee,
                 attempts: own.attempts,
                 passed: own.passed,
-                standing: own.standing,
+                standing: match own.standing {
+                    "done" => StandingWord::Done,
+                    "open" => StandingWord::Open,
+                    _ => StandingWord::Late,
+                },
             })
             .collect(),
     });
@@ -150,6 +169,9 @@ mod tests {
             panic!("{class:?}")
         };
         let standings = given.trainees.iter().map(|own| (own.passed, own.standing));
-        assert_eq!(standings.collect::<Vec<_>>(), [(1, "done"), (0, "late")]);
+        assert_eq!(
+            standings.collect::<Vec<_>>(),
+            [(1, StandingWord::Done), (0, StandingWord::Late)]
+        );
     }
 }

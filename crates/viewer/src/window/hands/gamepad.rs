@@ -1,151 +1,278 @@
-//! A gamepad, as Linux tells of it: `/dev/input/js0`, eight bytes per event, read on a thread of its own.
+//! What the sticks and buttons of a gamepad want, by the codes of Linux for gamepads (`linux/input-event-codes.h`; which
+//! code is where: the kernel's `Documentation/input/gamepad.rst`).
 //!
-//! ```text
-//! u32 time [ms], i16 value, u8 kind (1 button, 2 axis; 0x80 the state at the start), u8 number
-//! ```
+//! *How we know*: `hands::…`, with events written as the drivers `xpad`, `hid-playstation` and `hid-generic` report them.
 //!
-//! No crate stands behind it: those that read gamepads need the headers of `libudev` to be built, which a
-//! machine with Rust and a C compiler need not have. Sticks and buttons are those of the kernel's `xpad`.
-//!
-//! *How we know*: `gamepad::…`, with events as the kernel writes them.
-//!
-//! *Limits*: Linux; the first gamepad; other layouts than `xpad`'s have other numbers. No gamepad was at
-//! hand when this was written.
-
-use std::fs::File;
-use std::io::Read;
-use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+//! *Limits*: no gamepad was at hand when this was written. `xpad` names X and Y the other way round than the kernel's
+//! document, so both do the same here.
 
 use super::Drive;
 
-/// Part of a stick's way in which it counts as let go [-].
+/// Part of a stick's way in which it counts as released [-].
 const DEAD: f64 = 0.14;
 
-const AXES: usize = 8;
+const SOUTH: u16 = 0x130;
+const EAST: u16 = 0x131;
+const NORTH: u16 = 0x133;
+const WEST: u16 = 0x134;
+const SHOULDERS: [u16; 2] = [0x136, 0x137];
+const TRIGGER_BUTTONS: [u16; 2] = [0x138, 0x139];
+const SELECT: u16 = 0x13a;
+const START: u16 = 0x13b;
+const THUMBS: [u16; 2] = [0x13d, 0x13e];
+const PAD_LEFT: u16 = 0x222;
+const PAD_RIGHT: u16 = 0x223;
 
-/// Numbers of the axes: sticks to the right and down, triggers from -1 to 1.
-const STICKS: [[usize; 2]; 2] = [[0, 1], [3, 4]];
-const TRIGGERS: [usize; 2] = [2, 5];
+/// The code of the button that every gamepad has.
+pub const FIRST_BUTTON: u16 = SOUTH;
 
-/// Numbers of the buttons that are in, and of those that shut the jaws and cut.
-const SHOULDERS: [u8; 2] = [4, 5];
-const JAWS: [u8; 2] = [9, 10];
-const CUTS: [u8; 2] = [2, 1];
+/// Codes of axes up to the digital pad's.
+const AXES: usize = 0x12;
+const LEFT_STICK: [usize; 2] = [0x00, 0x01];
+const PAD_ACROSS: usize = 0x10;
+
+/// Something that happened at a gamepad.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PadEvent {
+    /// A button went down or up.
+    Button {
+        /// Its code.
+        code: u16,
+        /// Whether it is down.
+        is_down: bool,
+    },
+    /// An axis moved.
+    Axis {
+        /// Its code.
+        code: u16,
+        /// Where it is, as a part of its range, from 0 to 1 [-].
+        part: f64,
+    },
+}
+
+/// Which axes of a gamepad are its right stick and its triggers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Layout {
+    /// The right stick is RX and RY, the triggers are Z and RZ.
+    #[default]
+    Sticks,
+    /// The right stick is Z and RZ, the triggers are brake and gas.
+    Pedals,
+}
+
+impl Layout {
+    /// Of a gamepad with axes of these codes.
+    pub fn of(axes: &[u16]) -> Self {
+        match axes.contains(&0x03) && axes.contains(&0x04) {
+            true => Self::Sticks,
+            false => Self::Pedals,
+        }
+    }
+
+    fn right_stick(self) -> [usize; 2] {
+        match self {
+            Self::Sticks => [0x03, 0x04],
+            Self::Pedals => [0x02, 0x05],
+        }
+    }
+
+    fn triggers(self) -> [usize; 2] {
+        match self {
+            Self::Sticks => [0x02, 0x05],
+            Self::Pedals => [0x0a, 0x09],
+        }
+    }
+}
+
+/// What of a gamepad moves a tool.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PadPart {
+    /// All of it.
+    Whole,
+    /// The stick, trigger, shoulder and buttons of the left hand.
+    Left,
+    /// Those of the right hand.
+    Right,
+}
+
+impl PadPart {
+    /// What of gamepad number `pad` of `pads` moves the tool of a side, left (0) or right (1), of so many `tools`. One
+    /// gamepad serves both hands by halves, two serve a hand each, and a single tool has all of them.
+    pub fn of([pad, pads]: [usize; 2], side: usize, tools: usize) -> Option<Self> {
+        match (tools, pads, side) {
+            (0 | 1, ..) => Some(Self::Whole),
+            (_, 1, 0) => Some(Self::Left),
+            (_, 1, _) => Some(Self::Right),
+            _ => (pad == side).then_some(Self::Whole),
+        }
+    }
+}
+
+/// What a gamepad wants to be done once.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct PadRequests {
+    /// To mark the place, to begin, or to end.
+    pub mark: bool,
+    /// To pause or to continue.
+    pub pause: bool,
+    /// To undo the last cut.
+    pub undo: bool,
+    /// To state a diameter that is so many millimetres larger [mm].
+    pub larger: i32,
+}
+
+impl PadRequests {
+    /// What `self` and `other` want together.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            mark: self.mark || other.mark,
+            pause: self.pause || other.pause,
+            undo: self.undo || other.undo,
+            larger: self.larger + other.larger,
+        }
+    }
+}
 
 /// Sticks and buttons as they are.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pad {
-    axes: [f64; AXES],
+    layout: Layout,
+    /// Each as a part of its range; none before it has moved.
+    axes: [Option<f64>; AXES],
     /// Bit by bit.
-    buttons: u32,
+    down: u64,
     /// Buttons that went down since somebody looked, bit by bit.
-    pressed: u32,
+    pressed: u64,
 }
 
 impl Pad {
-    /// Takes an event of the kernel's.
-    pub fn take(&mut self, event: [u8; 8]) {
-        let [_, _, _, _, low, high, kind, number] = event;
-        let value = i16::from_le_bytes([low, high]);
-        match kind & !0x80 {
-            1 if number < 32 => {
-                let bit = 1 << number;
-                let was_down = self.buttons & bit != 0;
-                self.buttons &= !bit;
-                if value != 0 {
-                    self.buttons |= bit;
-                    // What is held at the start was not pressed.
-                    if !was_down && kind & 0x80 == 0 {
-                        self.pressed |= bit;
-                    }
-                }
-            }
-            2 => {
-                if let Some(axis) = self.axes.get_mut(usize::from(number)) {
-                    *axis = (f64::from(value) / f64::from(i16::MAX)).max(-1.0);
-                }
-            }
-            _ => {}
+    /// With all sticks and buttons released.
+    pub fn new(layout: Layout) -> Self {
+        Self {
+            layout,
+            axes: [None; AXES],
+            down: 0,
+            pressed: 0,
         }
     }
 
-    /// What it wants of the left hand (0) or of the right one (1): the stick moves it, the trigger takes it
-    /// in and the button above it out; a stick that is pressed down closes or opens the jaws; X and B cut.
-    pub fn drive(&self, hand: usize) -> Drive {
-        let hand = hand.min(1);
-        let down = |button: u8| self.buttons & (1 << button) != 0;
-        let [across, below] = STICKS[hand].map(|axis| alive(self.axes[axis]));
-        // A trigger that was never touched tells 0; let go it tells -1.
-        let trigger = self.axes[TRIGGERS[hand]].max(0.0);
-        let out = f64::from(u8::from(down(SHOULDERS[hand])));
-        Drive {
-            way: [across, -below, trigger - out],
-            jaws: self.pressed & (1 << JAWS[hand]) != 0,
-            cuts: down(CUTS[hand]),
-            ..Drive::default()
+    /// The bit of a button; none for one that has no use here.
+    fn bit(code: u16) -> u64 {
+        match code {
+            SOUTH..=0x13f => 1 << (code - SOUTH),
+            PAD_LEFT | PAD_RIGHT => 1 << (16 + code - PAD_LEFT),
+            _ => 0,
         }
     }
-}
 
-/// A stick's way without what it says when it is let go.
-fn alive(axis: f64) -> f64 {
-    let beyond = (axis.abs() - DEAD).max(0.0) / (1.0 - DEAD);
-    axis.signum() * beyond
-}
-
-/// A gamepad that is read. The thread ends with it, after the gamepad's next event, or when it is unplugged.
-#[derive(Debug, Clone, Default)]
-pub struct Gamepad {
-    pad: Arc<Mutex<Pad>>,
-    gone: Arc<AtomicBool>,
-}
-
-impl Gamepad {
-    /// The first gamepad of this machine; none where there is none.
-    pub fn first() -> Option<Self> {
-        Self::open(Path::new("/dev/input/js0"))
+    /// Takes the state at the start: what is held then was not pressed.
+    pub fn begin(&mut self, event: PadEvent) {
+        self.take(event);
+        self.pressed = 0;
     }
 
-    /// Reads events from `path`; none when it cannot be read.
-    pub fn open(path: &Path) -> Option<Self> {
-        let file = File::open(path).ok()?;
-        let pad = Arc::new(Mutex::new(Pad::default()));
-        let gone = Arc::new(AtomicBool::new(false));
-        let (told, ended) = (Arc::downgrade(&pad), Arc::clone(&gone));
-        let read = move || {
-            let mut file = file;
-            let mut event = [0; 8];
-            while file.read_exact(&mut event).is_ok() {
-                let Some(pad) = told.upgrade() else { return };
-                lock(&pad).take(event);
+    /// Takes an event.
+    pub fn take(&mut self, event: PadEvent) {
+        match event {
+            PadEvent::Button { code, is_down } => self.push(Self::bit(code), is_down),
+            PadEvent::Axis { code, part } => {
+                let code = usize::from(code);
+                let part = part.clamp(0.0, 1.0);
+                if code == PAD_ACROSS {
+                    self.push(Self::bit(PAD_LEFT), part < 0.25);
+                    self.push(Self::bit(PAD_RIGHT), part > 0.75);
+                } else if let Some(axis) = self.axes.get_mut(code) {
+                    *axis = Some(part);
+                }
             }
-            // Nobody holds what is unplugged.
-            if let Some(pad) = told.upgrade() {
-                *lock(&pad) = Pad::default();
-            }
-            ended.store(true, Ordering::Release);
-        };
-        let thread = std::thread::Builder::new().name("gamepad".to_owned());
-        thread.spawn(read).ok()?;
-        Some(Self { pad, gone })
+        }
     }
 
-    /// Whether it was unplugged.
-    pub fn is_gone(&self) -> bool {
-        self.gone.load(Ordering::Acquire)
+    fn push(&mut self, bit: u64, is_down: bool) {
+        if is_down {
+            self.pressed |= bit & !self.down;
+            self.down |= bit;
+        } else {
+            self.down &= !bit;
+        }
     }
 
-    /// Sticks and buttons as they are, with the buttons that went down since the last look.
-    pub fn look(&self) -> Pad {
-        let mut pad = lock(&self.pad);
-        let seen = *pad;
-        pad.pressed = 0;
+    /// What is pressed since the last look; nothing is any more.
+    pub fn look(&mut self) -> Self {
+        let seen = *self;
+        self.pressed = 0;
         seen
     }
-}
 
-fn lock(pad: &Mutex<Pad>) -> std::sync::MutexGuard<'_, Pad> {
-    pad.lock().unwrap_or_else(PoisonError::into_inner)
+    fn is_down(&self, code: u16) -> bool {
+        self.down & Self::bit(code) != 0
+    }
+
+    fn is_pressed(&self, code: u16) -> bool {
+        self.pressed & Self::bit(code) != 0
+    }
+
+    /// A stick's way to the right and up, from -1 to 1, without what it says when it is released.
+    fn stick(&self, axes: [usize; 2]) -> [f64; 2] {
+        let [across, below] = axes.map(|axis| {
+            let way = 2.0 * self.axes[axis].unwrap_or(0.5) - 1.0;
+            way.signum() * (way.abs() - DEAD).max(0.0) / (1.0 - DEAD)
+        });
+        [across, -below]
+    }
+
+    /// How far a trigger is pulled, from 0 to 1; some gamepads have a button there.
+    fn trigger(&self, hand: usize) -> f64 {
+        let pulled = self.axes[self.layout.triggers()[hand]].unwrap_or(0.0);
+        let pressed = f64::from(u8::from(self.is_down(TRIGGER_BUTTONS[hand])));
+        pulled.max(pressed)
+    }
+
+    /// What a part of it wants of a tool. Halves: the stick moves the tool in the picture, the trigger moves it in and
+    /// the shoulder out; the stick's button closes or opens the jaws; X, Y (left) and B (right) cut. The whole: the left
+    /// stick moves it, the right trigger moves it in and the left one out, the right stick rolls it; the right shoulder
+    /// or a stick's button closes or opens the jaws, the left shoulder slows down; B, X and Y cut.
+    pub fn drive(&self, part: PadPart) -> Drive {
+        let left_cuts = self.is_down(WEST) || self.is_down(NORTH);
+        let right_cuts = self.is_down(EAST);
+        let half = |hand: usize, stick, cuts| {
+            let [across, up] = self.stick(stick);
+            let out = f64::from(u8::from(self.is_down(SHOULDERS[hand])));
+            Drive {
+                way: [across, up, self.trigger(hand) - out],
+                jaws: self.is_pressed(THUMBS[hand]),
+                cuts,
+                ..Drive::default()
+            }
+        };
+        match part {
+            PadPart::Left => half(0, LEFT_STICK, left_cuts),
+            PadPart::Right => half(1, self.layout.right_stick(), right_cuts),
+            PadPart::Whole => {
+                let [across, up] = self.stick(LEFT_STICK);
+                let [roll, _] = self.stick(self.layout.right_stick());
+                let jaws = [SHOULDERS[1], THUMBS[0], THUMBS[1]];
+                Drive {
+                    way: [across, up, self.trigger(1) - self.trigger(0)],
+                    roll: -roll,
+                    fine: self.is_down(SHOULDERS[0]),
+                    jaws: jaws.into_iter().any(|code| self.is_pressed(code)),
+                    cuts: left_cuts || right_cuts,
+                }
+            }
+        }
+    }
+
+    /// What it wants to be done once: A marks, the menu button pauses, the view button undoes a cut, the digital pad
+    /// changes a diameter.
+    pub fn requests(&self) -> PadRequests {
+        let larger = i32::from(self.is_pressed(PAD_RIGHT)) - i32::from(self.is_pressed(PAD_LEFT));
+        PadRequests {
+            mark: self.is_pressed(SOUTH),
+            pause: self.is_pressed(START),
+            undo: self.is_pressed(SELECT),
+            larger,
+        }
+    }
 }

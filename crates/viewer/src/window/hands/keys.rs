@@ -69,28 +69,28 @@ pub const JAWS: Key = Key::G;
 /// See [`JAWS`].
 pub const CUTS: Key = Key::C;
 
-/// The lines of the list: what is done, and by which keys of the left and of the right hand.
+/// The lines of the list: the text's key of what is done, and the keys of the left and of the right hand.
 pub const LINES: [[&str; 3]; 5] = [
-    ["up · left · down · right", "W A S D", "I J K L"],
-    ["in · out, along the shaft", "E · Q", "U · O"],
-    ["roll", "R · F", "Y · H"],
-    ["jaws: close or open", "V", "N"],
-    ["cut, while held", "X", "M"],
+    ["keys-move", "W A S D", "I J K L"],
+    ["keys-shaft", "E · Q", "U · O"],
+    ["keys-roll", "R · F", "Y · H"],
+    ["keys-jaws", "V", "N"],
+    ["keys-cut", "X", "M"],
 ];
 
-/// What else is in the list.
+/// What else is in the list: keys, and the text's key of what they do.
 pub const MORE: [[&str; 2]; 11] = [
-    ["Shift", "finer"],
-    ["Tab", "the mouse takes the other tool"],
-    ["G · C", "jaws · cut of the mouse's tool"],
-    ["drag", "press in; cutting: along; jaws shut: pull"],
-    ["Z", "undo a cut"],
-    ["P", "pause or go on"],
-    ["Backspace", "begin again"],
-    ["Enter", "this is the place, or: done"],
-    ["Space", "emergency stop: no device has a force"],
-    ["F4", "engineer view, or trainee view"],
-    ["? or F1", "this list"],
+    ["Shift", "keys-fine"],
+    ["Tab", "keys-other-tool"],
+    ["G · C", "keys-mouse-tool"],
+    ["", "keys-drag"],
+    ["Z", "keys-undo"],
+    ["P", "keys-pause"],
+    ["Backspace", "keys-reset"],
+    ["Enter", "keys-mark"],
+    ["Space", "keys-stop"],
+    ["F4", "keys-engineer"],
+    ["? · F1", "keys-list"],
 ];
 
 /// What the keys of `hand` want.

@@ -14,6 +14,7 @@
 //! [`Gesture`]: super::gesture::Gesture
 
 pub mod gamepad;
+pub mod gamepads;
 pub mod keys;
 
 use nalgebra::UnitQuaternion;

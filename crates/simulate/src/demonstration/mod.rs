@@ -5,6 +5,9 @@
 //!
 //! *Limits*: it moves tips and jaws, and turns no tool.
 
+mod uncover;
+mod ways;
+
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
@@ -14,33 +17,17 @@ use palpate_geometry::Vec3;
 
 use crate::performance::{Performance, Status};
 use crate::{Simulation, SimulationState, SimulationWorkspace, step};
+use ways::{RestSurface, cut, depths, found, pulled};
 
 /// Speed through the air [m/s], and in the tissue or towards it [m/s].
 const FREE: f64 = 0.025;
 const SLOW: f64 = 0.005;
 
-/// How far over the surface a tip waits [m].
-const ABOVE: f64 = 0.012;
-
-/// How deep a probe presses [m], and a grasper before its jaws shut [m].
-const PRESS: f64 = 0.005;
-const BITE: f64 = 0.0016;
-
-/// How far beside the line the other hand holds [m], and how far it pulls away from it [m].
-const ASIDE: f64 = 0.0055;
-const STRETCH: f64 = 0.0005;
-
 /// How fast a pull follows what is missing of its force [m/(N s)].
 const FOLLOWS: f64 = 0.03;
 
-/// How far a cut goes on beyond the ends of its line [m].
-const BEYOND: f64 = 0.002;
-
 /// A demonstration without a time limit ends after this time [s].
 const LONGEST: f64 = 300.0;
-
-/// Points of a way over the surface are this far apart [m].
-const SPACING: f64 = 0.001;
 
 /// A tool of a demonstration, at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,40 +78,11 @@ enum Step {
     Mark,
     /// States a diameter [m].
     State(f64),
-    /// Keeps a pull [N], for ever.
+    /// Keeps a pull or a push [N], for ever.
     Pull {
         tool: usize,
         wanted: Vec3,
     },
-}
-
-/// The surface at rest, as a script looks at it.
-struct RestSurface<'s>(&'s Simulation);
-
-impl RestSurface<'_> {
-    /// The nearest point of the surface [m], and the outward normal there.
-    fn at(&self, place: &Vec3) -> (Vec3, Vec3) {
-        let mesh = self.0.surface().mesh();
-        let nearest = self.0.tree.nearest(mesh, place);
-        let normal = mesh.area_vector(nearest.triangle).normalize();
-        (nearest.on.position, normal)
-    }
-
-    /// So far above the surface [m], or below it.
-    fn over(&self, place: &Vec3, height: f64) -> Vec3 {
-        let (point, normal) = self.at(place);
-        point + height * normal
-    }
-
-    /// Where the surface faces a direction, in its middle [m].
-    fn facing(&self, direction: &Vec3) -> Vec3 {
-        let mesh = self.0.surface().mesh();
-        let (low, high) = mesh.bounds();
-        let (middle, extent) = (0.5 * (low + high), (high - low).norm());
-        let from = middle + extent * direction;
-        let hit = self.0.tree.cast(mesh, &from, &-direction, 2.0 * extent);
-        hit.map_or(middle, |hit| from - hit.distance * direction)
-    }
 }
 
 impl Demonstration {
@@ -169,6 +127,11 @@ impl Demonstration {
                 let depths = depths(simulation, layers.unwrap_or(1));
                 let line = [*from_m, *to_m].map(Vec3::from);
                 cut(&ground, line, &depths, (blade, of(&[ToolKind::Grasper])))
+            }
+            Goal::Touch(touch) => {
+                let number = |name: &String| scene.tools.iter().position(|own| own.name == *name);
+                let holder = touch.holder.as_ref().and_then(number);
+                uncover::touched(simulation, touch, (number(&touch.tool)?, holder))
             }
         };
         Some(Self {
@@ -324,118 +287,4 @@ impl Demonstration {
     pub fn states(&self) -> Option<f64> {
         self.states
     }
-}
-
-/// Presses beside a place, and on it.
-fn found(ground: &RestSurface<'_>, target: &Vec3) -> Vec<Step> {
-    let (_, normal) = ground.at(target);
-    let across = normal.cross(&Vec3::z()).try_normalize(1e-6);
-    let across = across.unwrap_or(Vec3::x());
-    let along = normal.cross(&across);
-    let beside = [
-        0.022 * across,
-        0.016 * along,
-        -0.012 * across,
-        Vec3::zeros(),
-    ];
-    let mut steps = Vec::new();
-    for (number, aside) in beside.iter().enumerate() {
-        let place = target + aside;
-        let to = |height: f64, speed: f64| Step::Move {
-            tool: 0,
-            to: ground.over(&place, height),
-            speed,
-            cuts: false,
-        };
-        steps.extend([to(ABOVE, FREE), to(0.001, FREE), to(-PRESS, SLOW)]);
-        steps.push(Step::Wait(0.8));
-        match number + 1 == beside.len() {
-            true => steps.push(Step::Mark),
-            false => steps.extend([to(0.001, SLOW), to(ABOVE, FREE)]),
-        }
-    }
-    steps
-}
-
-/// Grasps where the surface faces the pull, and pulls.
-fn pulled(ground: &RestSurface<'_>, tool: usize, wanted: Vec3) -> Vec<Step> {
-    let place = ground.facing(&wanted.normalize());
-    let mut steps = grasped(ground, tool, &place);
-    steps.push(Step::Pull { tool, wanted });
-    steps
-}
-
-fn grasped(ground: &RestSurface<'_>, tool: usize, place: &Vec3) -> Vec<Step> {
-    let to = |height: f64, speed: f64| Step::Move {
-        tool,
-        to: ground.over(place, height),
-        speed,
-        cuts: false,
-    };
-    vec![
-        to(ABOVE, FREE),
-        Step::Wait(0.5),
-        to(0.001, FREE),
-        to(-BITE, SLOW),
-        Step::Grip { tool, to: 1.0 },
-        Step::Wait(0.3),
-    ]
-}
-
-/// How deep a blade goes to open each layer but the next [m]: half way between their lower faces.
-fn depths(simulation: &Simulation, layers: usize) -> Vec<f64> {
-    let bottoms = simulation.cut_depths();
-    let depth = |number: usize| {
-        let bottom = bottoms[number];
-        match bottoms.get(number + 1) {
-            Some(next) => 0.5 * (bottom + next),
-            None => bottom + 0.0003,
-        }
-    };
-    (0..layers.min(bottoms.len())).map(depth).collect()
-}
-
-/// Holds beside a line, if something can hold, and cuts along it, once for each depth.
-fn cut(
-    ground: &RestSurface<'_>,
-    [from, to]: [Vec3; 2],
-    depths: &[f64],
-    (blade, grasper): (usize, Option<usize>),
-) -> Vec<Step> {
-    let along = (to - from).normalize();
-    let mut steps = Vec::new();
-    if let Some(tool) = grasper {
-        let (middle, normal) = ground.at(&(0.5 * (from + to)));
-        // The side that a left hand comes from.
-        let aside = normal.cross(&along).normalize();
-        let aside = if aside.x > 0.0 { -aside } else { aside };
-        let place = middle + ASIDE * aside;
-        steps.extend(grasped(ground, tool, &place));
-        steps.push(Step::Move {
-            tool,
-            to: ground.over(&place, -BITE) + STRETCH * aside,
-            speed: SLOW,
-            cuts: false,
-        });
-    }
-    let length = (to - from).norm() + 2.0 * BEYOND;
-    let pieces = (length / SPACING).ceil() as u32;
-    for depth in depths {
-        let place =
-            |piece: u32| from + along * (length * f64::from(piece) / f64::from(pieces) - BEYOND);
-        let over = |piece: u32, height: f64, speed: f64, cuts: bool| Step::Move {
-            tool: blade,
-            to: ground.over(&place(piece), height),
-            speed,
-            cuts,
-        };
-        steps.extend([over(0, ABOVE, FREE, false), over(0, 0.001, FREE, false)]);
-        steps.push(over(0, -depth, SLOW, false));
-        steps.extend((0..=pieces).map(|piece| over(piece, -depth, SLOW, true)));
-        steps.extend([
-            over(pieces, 0.001, SLOW, false),
-            over(pieces, ABOVE, FREE, false),
-        ]);
-    }
-    steps
 }

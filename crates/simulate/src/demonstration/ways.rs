@@ -1,0 +1,166 @@
+//! Ways over the surface of an organ at rest.
+
+use palpate_geometry::Vec3;
+
+use super::{FREE, SLOW, Step};
+use crate::Simulation;
+
+/// How far over the surface a tip waits [m].
+const ABOVE: f64 = 0.012;
+
+/// How deep a probe presses [m], and a grasper before its jaws shut [m].
+const PRESS: f64 = 0.005;
+pub(super) const BITE: f64 = 0.0016;
+
+/// How far beside the line the other hand holds [m], and how far it pulls away from it [m].
+const ASIDE: f64 = 0.0055;
+const STRETCH: f64 = 0.0005;
+
+/// How far a cut goes on beyond the ends of its line [m].
+const BEYOND: f64 = 0.002;
+
+/// Points of a way over the surface are this far apart [m].
+const SPACING: f64 = 0.001;
+
+/// The surface at rest, as a script looks at it.
+pub(super) struct RestSurface<'s>(pub(super) &'s Simulation);
+
+impl RestSurface<'_> {
+    /// The nearest point of the surface [m], and the outward normal there.
+    pub(super) fn at(&self, place: &Vec3) -> (Vec3, Vec3) {
+        let mesh = self.0.surface().mesh();
+        let nearest = self.0.tree.nearest(mesh, place);
+        let normal = mesh.area_vector(nearest.triangle).normalize();
+        (nearest.on.position, normal)
+    }
+
+    /// So far above the surface [m], or below it.
+    pub(super) fn over(&self, place: &Vec3, height: f64) -> Vec3 {
+        let (point, normal) = self.at(place);
+        point + height * normal
+    }
+
+    /// Where the surface faces a direction, in its middle [m].
+    pub(super) fn facing(&self, direction: &Vec3) -> Vec3 {
+        let mesh = self.0.surface().mesh();
+        let (low, high) = mesh.bounds();
+        let (middle, extent) = (0.5 * (low + high), (high - low).norm());
+        let from = middle + extent * direction;
+        let hit = self.0.tree.cast(mesh, &from, &-direction, 2.0 * extent);
+        hit.map_or(middle, |hit| from - hit.distance * direction)
+    }
+}
+
+/// Presses beside a place, and on it.
+pub(super) fn found(ground: &RestSurface<'_>, target: &Vec3) -> Vec<Step> {
+    let (_, normal) = ground.at(target);
+    let across = normal.cross(&Vec3::z()).try_normalize(1e-6);
+    let across = across.unwrap_or(Vec3::x());
+    let along = normal.cross(&across);
+    let beside = [
+        0.022 * across,
+        0.016 * along,
+        -0.012 * across,
+        Vec3::zeros(),
+    ];
+    let mut steps = Vec::new();
+    for (number, aside) in beside.iter().enumerate() {
+        let place = target + aside;
+        let to = |height: f64, speed: f64| Step::Move {
+            tool: 0,
+            to: ground.over(&place, height),
+            speed,
+            cuts: false,
+        };
+        steps.extend([to(ABOVE, FREE), to(0.001, FREE), to(-PRESS, SLOW)]);
+        steps.push(Step::Wait(0.8));
+        match number + 1 == beside.len() {
+            true => steps.push(Step::Mark),
+            false => steps.extend([to(0.001, SLOW), to(ABOVE, FREE)]),
+        }
+    }
+    steps
+}
+
+/// Grasps where the surface faces the pull, and pulls.
+pub(super) fn pulled(ground: &RestSurface<'_>, tool: usize, wanted: Vec3) -> Vec<Step> {
+    let place = ground.facing(&wanted.normalize());
+    let mut steps = grasped(ground, tool, &place);
+    steps.push(Step::Pull { tool, wanted });
+    steps
+}
+
+pub(super) fn grasped(ground: &RestSurface<'_>, tool: usize, place: &Vec3) -> Vec<Step> {
+    let to = |height: f64, speed: f64| Step::Move {
+        tool,
+        to: ground.over(place, height),
+        speed,
+        cuts: false,
+    };
+    vec![
+        to(ABOVE, FREE),
+        Step::Wait(0.5),
+        to(0.001, FREE),
+        to(-BITE, SLOW),
+        Step::Grip { tool, to: 1.0 },
+        Step::Wait(0.3),
+    ]
+}
+
+/// How deep a blade goes to open each layer but the next [m]: half way between their lower faces.
+pub(super) fn depths(simulation: &Simulation, layers: usize) -> Vec<f64> {
+    let bottoms = simulation.cut_depths();
+    let depth = |number: usize| {
+        let bottom = bottoms[number];
+        match bottoms.get(number + 1) {
+            Some(next) => 0.5 * (bottom + next),
+            None => bottom + 0.0003,
+        }
+    };
+    (0..layers.min(bottoms.len())).map(depth).collect()
+}
+
+/// Holds beside a line, if something can hold, and cuts along it, once for each depth.
+pub(super) fn cut(
+    ground: &RestSurface<'_>,
+    [from, to]: [Vec3; 2],
+    depths: &[f64],
+    (blade, grasper): (usize, Option<usize>),
+) -> Vec<Step> {
+    let along = (to - from).normalize();
+    let mut steps = Vec::new();
+    if let Some(tool) = grasper {
+        let (middle, normal) = ground.at(&(0.5 * (from + to)));
+        // The side that a left hand comes from.
+        let aside = normal.cross(&along).normalize();
+        let aside = if aside.x > 0.0 { -aside } else { aside };
+        let place = middle + ASIDE * aside;
+        steps.extend(grasped(ground, tool, &place));
+        steps.push(Step::Move {
+            tool,
+            to: ground.over(&place, -BITE) + STRETCH * aside,
+            speed: SLOW,
+            cuts: false,
+        });
+    }
+    let length = (to - from).norm() + 2.0 * BEYOND;
+    let pieces = (length / SPACING).ceil() as u32;
+    for depth in depths {
+        let place =
+            |piece: u32| from + along * (length * f64::from(piece) / f64::from(pieces) - BEYOND);
+        let over = |piece: u32, height: f64, speed: f64, cuts: bool| Step::Move {
+            tool: blade,
+            to: ground.over(&place(piece), height),
+            speed,
+            cuts,
+        };
+        steps.extend([over(0, ABOVE, FREE, false), over(0, 0.001, FREE, false)]);
+        steps.push(over(0, -depth, SLOW, false));
+        steps.extend((0..=pieces).map(|piece| over(piece, -depth, SLOW, true)));
+        steps.extend([
+            over(pieces, 0.001, SLOW, false),
+            over(pieces, ABOVE, FREE, false),
+        ]);
+    }
+    steps
+}

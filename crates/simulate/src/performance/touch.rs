@@ -1,0 +1,164 @@
+//! How far the touch of a place beside the organ is.
+
+use palpate_files::scene::TouchGoal;
+use palpate_files::{Event, SessionRow};
+use palpate_geometry::Vec3;
+
+use super::goal::{Advice, Cue, Outcome};
+
+/// Watches two tools: one that touches, and one that may hold the organ out of its way.
+#[derive(Debug, Clone)]
+pub(super) struct TouchWatch {
+    goal: TouchGoal,
+    tool: Option<usize>,
+    holder: Option<usize>,
+    /// Whether the holder holds tissue.
+    holds: bool,
+    /// The force on the holder [N].
+    pull: f64,
+    /// Whether the shaft of the tool touches the organ.
+    shaft_touches: bool,
+    /// Where the tool was last; none before it is there, and after it is lifted.
+    tip: Option<Tip>,
+    /// Time [s] and cue of its row before.
+    last: Option<(f64, Cue)>,
+    within: f64,
+    /// [m]
+    beside: Option<f64>,
+    /// [N]
+    injured: Option<f64>,
+    torn: Option<f64>,
+}
+
+/// The tip of the tool.
+#[derive(Debug, Clone, Copy)]
+struct Tip {
+    /// From the target [m].
+    distance: f64,
+    /// [N]
+    force: f64,
+    touches_organ: bool,
+}
+
+impl TouchWatch {
+    pub(super) fn new(goal: &TouchGoal, tools: &[String]) -> Self {
+        let number = |name: &String| tools.iter().position(|tool| tool == name);
+        Self {
+            tool: number(&goal.tool),
+            holder: goal.holder.as_ref().and_then(number),
+            goal: goal.clone(),
+            holds: false,
+            pull: 0.0,
+            shaft_touches: false,
+            tip: None,
+            last: None,
+            within: 0.0,
+            beside: None,
+            injured: None,
+            torn: None,
+        }
+    }
+
+    pub(super) fn add(&mut self, row: &SessionRow) {
+        let force = Vec3::from(row.force_n).norm();
+        if self.holder == Some(row.tool) {
+            self.follow_holder(row, force);
+        }
+        if self.tool == Some(row.tool) {
+            self.follow_tool(row, force);
+        }
+    }
+
+    fn follow_holder(&mut self, row: &SessionRow, force: f64) {
+        let happened = |event| row.events.contains(event);
+        let lets_go = [
+            Event::GripRelease,
+            Event::Lifted,
+            Event::Jump,
+            Event::BeginAnew,
+        ];
+        self.holds |= happened(Event::Grip);
+        self.holds &= !lets_go.into_iter().any(happened);
+        self.pull = force;
+        if self.holds && self.goal.tear_force_n.is_some_and(|tear| force > tear) {
+            self.torn = Some(force);
+        }
+    }
+
+    fn follow_tool(&mut self, row: &SessionRow, force: f64) {
+        let happened = |event| row.events.contains(event);
+        self.shaft_touches |= happened(Event::ShaftContact);
+        self.shaft_touches &= !happened(Event::ShaftRelease) && !happened(Event::BeginAnew);
+        let way = Vec3::from(row.position_m) - Vec3::from(self.goal.target_m);
+        self.tip = (!happened(Event::Lifted)).then_some(Tip {
+            distance: way.norm(),
+            force,
+            touches_organ: row.contact,
+        });
+        let cue = self.advice().cue;
+        if let Some((time, before)) = self.last.replace((row.time_s, cue))
+            && (before, cue) == (Cue::Hold, Cue::Hold)
+        {
+            self.within += row.time_s - time;
+        }
+        if !matches!(cue, Cue::Grasp | Cue::Lift) {
+            let nearer = |beside: f64| beside.min(way.norm());
+            self.beside = Some(self.beside.map_or(way.norm(), nearer));
+        }
+        // What presses the organ does not press the target.
+        let injures = |most: f64| !row.contact && force > most;
+        if self.goal.injury_force_n.is_some_and(injures) {
+            self.injured = Some(force);
+        }
+    }
+
+    /// The one thing to change now.
+    pub(super) fn advice(&self) -> Advice {
+        let goal = &self.goal;
+        let pull = |cue| Advice {
+            force: self.pull,
+            cue,
+        };
+        if goal.holder.is_some() && !self.holds {
+            return pull(Cue::Grasp);
+        }
+        let Some(tip) = self.tip else {
+            return pull(Cue::Reach);
+        };
+        if self.shaft_touches || tip.touches_organ {
+            return pull(Cue::Lift);
+        }
+        if tip.distance > goal.tolerance_m {
+            return pull(Cue::Reach);
+        }
+        let cue = match tip.force {
+            force if force < goal.force_n - goal.tolerance_n => Cue::More,
+            force if force > goal.force_n + goal.tolerance_n => Cue::Less,
+            _ => Cue::Hold,
+        };
+        Advice {
+            force: tip.force,
+            cue,
+        }
+    }
+
+    pub(super) fn is_done(&self) -> bool {
+        self.within >= self.goal.hold_s || self.injured.is_some() || self.torn.is_some()
+    }
+
+    /// What of the time is over [-].
+    pub(super) fn part(&self) -> f64 {
+        (self.within / self.goal.hold_s).min(1.0)
+    }
+
+    pub(super) fn outcome(&self) -> Outcome {
+        let harmed = self.injured.is_some() || self.torn.is_some();
+        Outcome::Touch {
+            within: self.within,
+            beside: self.beside,
+            reached: self.within >= self.goal.hold_s && !harmed,
+            injured: self.injured,
+            torn: self.torn,
+        }
+    }
+}
