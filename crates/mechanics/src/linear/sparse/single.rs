@@ -191,3 +191,57 @@ fn products<const N: usize>(x: &[&[f32]; N], y: &[f32]) -> [f32; N] {
         sums[k].iter().sum::<f32>() + tail
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linear::sparse::Pattern;
+
+    /// A cube of nodes with three unknowns each, but one in the last, which all couple with those of the neighbouring
+    /// nodes: against the factors in `f64`. There are supernodes of many blocks, and one with a column left over.
+    #[test]
+    fn a_solution_agrees_with_the_factors_in_double_precision() {
+        let (side, axes) = (6_u32, 3);
+        let place = |node: u32| [node % side, node / side % side, node / side / side];
+        let are_near = |a: u32, b: u32| {
+            let pairs = place(a).into_iter().zip(place(b));
+            pairs.map(|(a, b)| a.abs_diff(b)).sum::<u32>() <= 1
+        };
+        let size = axes * side.pow(3) - 2;
+        let all = (0..size).flat_map(|column| (column..size).map(move |row| (column, row)));
+        let entries = all
+            .filter(|&(column, row)| are_near(column / axes, row / axes))
+            .collect();
+        let pattern = Pattern::new(size as usize, entries);
+        let value = |column: usize, row: usize| {
+            // Larger than the sum of at most twenty others, each at most one.
+            if column == row {
+                22.0
+            } else {
+                ((column + 7 * row) as f64).sin()
+            }
+        };
+        let columns = 0..pattern.size();
+        let values: Vec<f64> = columns
+            .flat_map(|column| pattern.rows(column).iter().map(move |&row| (column, row)))
+            .map(|(column, row)| value(column, row))
+            .collect();
+        let mut factors = Factors::new(&pattern).unwrap();
+        factors.factor(&pattern, &values).unwrap();
+        let mut exact: Vec<f64> = (0..pattern.size()).map(|i| (i as f64).cos()).collect();
+        let mut x: Vec<f32> = exact.iter().map(|&value| value as f32).collect();
+        factors.solve_many(&mut exact, 1);
+        let single = SingleFactors::new(&factors);
+        let widths = single.nodes.iter().map(|node| node.columns);
+        assert!(widths.clone().any(|width| width % BLOCK != 0) && widths.max() > Some(2 * BLOCK));
+        single.solve(&mut x, &mut vec![f32::NAN; single.scratch()]);
+        let largest = exact.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        for (x, exact) in x.iter().zip(&exact) {
+            // Some hundred products a number, each rounded to half of 1.2e-7, in a matrix of condition below 20.
+            assert!(
+                (f64::from(*x) - exact).abs() < 1e-5 * largest,
+                "{x} {exact}"
+            );
+        }
+    }
+}
