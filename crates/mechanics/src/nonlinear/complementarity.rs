@@ -113,6 +113,11 @@ impl Complementarity {
         }
     }
 
+    /// Whether [`Self::solve_bearing`] has an answer in this row, other than zero.
+    pub(super) fn is_free(&self, row: usize) -> bool {
+        self.free.binary_search(&row).is_ok()
+    }
+
     /// How many rows are infeasible, and the last of them.
     fn infeasible(&self, tools: usize, count: usize) -> (usize, usize) {
         let (mut number, mut last) = (0, 0);

@@ -2,15 +2,19 @@
 //!
 //! What bears is found once in a step, with the forces of the tools, by the compliance of the body at rest, turned with
 //! the body ([`Complementarity`]); the conjugate gradients are projected onto these conditions. Forces, and what bears, are
-//! found once more at the end, without moving the body. Contacts have no columns of Z: they take a solution by the
-//! factors in each projection.
+//! found once more at the end, without moving the body. Of the contacts, those that bear have columns of Z, up to
+//! [`MOST_COLUMNS`]; where more bear, each projection takes a solution by the factors instead, which costs as much as
+//! some ten columns.
 
 use super::complementarity::Complementarity;
 use super::contact::{Contacts, MOST_CONTACTS, UnilateralContact};
-use super::coupling::{Coupling, Rows};
+use super::coupling::{Coupling, Rows, influence};
 use super::model::NonlinearModel;
 use super::state::NonlinearState;
 use crate::Vec3;
+
+/// Columns of Z of contacts: with more of them, four projections cost less by solutions.
+const MOST_COLUMNS: usize = 64;
 
 /// The body with the rotations of its nodes: what turns the factors.
 #[derive(Debug, Clone, Copy)]
@@ -50,6 +54,9 @@ pub(super) struct Constraints {
     t: Vec<f64>,
     /// How far conditions are violated [m].
     violation: Vec<f64>,
+    /// The contacts that have columns of Z, and these; three values a node [m/N].
+    with_columns: Vec<usize>,
+    columns: Vec<f32>,
     /// Forces on all nodes, and what they displace.
     load: Vec<f32>,
     displaced: Vec<f32>,
@@ -67,6 +74,8 @@ impl Constraints {
             direction: vec![0.0; rows],
             t: vec![0.0; rows],
             violation: vec![0.0; rows],
+            with_columns: Vec::with_capacity(MOST_COLUMNS),
+            columns: vec![0.0; MOST_COLUMNS * size],
             load: vec![0.0; size],
             displaced: vec![0.0; size],
             scratch: vec![0.0; model.rest.scratch()],
@@ -90,7 +99,7 @@ impl Constraints {
             contacts,
         } = conditions;
         self.tools.list(couplings);
-        self.tools.prepare(body.model, couplings, body.rotations);
+        self.tools.prepare(body, couplings);
         self.contacts.prepare(body.model, contacts, body.rotations);
         let tools = self.tools.rows.len();
         for i in 0..tools {
@@ -146,6 +155,7 @@ impl Constraints {
             self.violation[tools + number] = contact.gap(guess) + own;
         }
         self.solve_forces();
+        self.find_columns(body);
         change.fill(0.0);
         self.add_displacement(body, change);
     }
@@ -268,11 +278,39 @@ impl Constraints {
         }
     }
 
+    /// Finds the columns of Z of the contacts that bear, or did before, if these are few enough.
+    #[inline(always)]
+    fn find_columns(&mut self, body: Turned<'_>) {
+        self.with_columns.clear();
+        let (tools, size) = (self.tools.rows.len(), self.load.len());
+        let is_used = |row: usize| self.t[row] != 0.0 || self.problem.is_free(row);
+        let used = (tools..self.count()).filter(|&row| is_used(row));
+        if used.clone().count() <= MOST_COLUMNS {
+            self.with_columns.extend(used.map(|row| row - tools));
+        }
+        let columns = self.columns.chunks_exact_mut(size);
+        for (column, &number) in columns.zip(&self.with_columns) {
+            let contact = &self.contacts.listed[number];
+            influence(body, &contact.nodes, &[contact.normal], column);
+        }
+    }
+
     /// x ← x + Z t.
     #[inline(always)]
     fn add_displacement(&mut self, body: Turned<'_>, x: &mut [f32]) {
         self.tools.add_influence(&self.t, x);
-        if self.contacts.listed.is_empty() {
+        let tools = self.tools.rows.len();
+        if !self.with_columns.is_empty() {
+            let columns = self.columns.chunks_exact(self.load.len());
+            for (column, &number) in columns.zip(&self.with_columns) {
+                let t = self.t[tools + number] as f32;
+                for (x, z) in x.iter_mut().zip(column) {
+                    *x += t * z;
+                }
+            }
+            return;
+        }
+        if self.t[tools..self.count()].iter().all(|t| *t == 0.0) {
             return;
         }
         self.load.fill(0.0);

@@ -33,8 +33,8 @@ const NOWHERE: u32 = u32::MAX;
 /// A point of the boundary that may bear on rigid bodies.
 #[derive(Debug, Clone)]
 pub struct BoundaryPoint {
-    nodes: [u32; NODES],
-    weights: [f64; NODES],
+    /// With their weights [-].
+    nodes: [(u32, f64); NODES],
     /// Where it is at rest [m].
     pub place: Vec3,
     /// c [m/N].
@@ -61,10 +61,9 @@ impl BoundaryPoint {
             let Moduli { c10, c01, .. } = moduli[face.tetrahedron];
             let compliance = SOFTNESS * edge / (6.0 * (c10 + c01) * area);
             for at in [[NEAR, FAR, FAR], [FAR, NEAR, FAR], [FAR, FAR, NEAR]] {
-                let [u, v, w] = at;
+                let ([u, v, w], weights) = (at, shape_on_face(at));
                 points.push(Self {
-                    nodes: face.nodes.map(|node| node as u32),
-                    weights: shape_on_face(at),
+                    nodes: std::array::from_fn(|k| (face.nodes[k] as u32, weights[k])),
                     place: a * u + b * v + c * w,
                     compliance,
                 });
@@ -75,9 +74,9 @@ impl BoundaryPoint {
 
     /// Where it is displaced to [m] where the nodes have the `displacements` [m].
     pub fn displacement(&self, displacements: &[f64]) -> Vec3 {
-        let nodes = self.nodes.iter().zip(self.weights);
+        let nodes = self.nodes.iter();
         nodes
-            .map(|(&node, weight)| {
+            .map(|&(node, weight)| {
                 let u = &displacements[3 * node as usize..][..3];
                 weight * Vec3::new(u[0], u[1], u[2])
             })
@@ -102,17 +101,15 @@ pub(super) struct Contact {
     pub(super) point: u32,
     /// c [m/N].
     pub(super) compliance: f64,
-    nodes: [u32; NODES],
-    weights: [f64; NODES],
-    normal: Vec3,
+    pub(super) nodes: [(u32, f64); NODES],
+    pub(super) normal: Vec3,
     offset: f64,
 }
 
 impl Contact {
     /// Along the normal, of `values` on all nodes.
     pub(super) fn along(&self, values: &[f32]) -> f64 {
-        let nodes = self.nodes.iter().zip(self.weights);
-        let along = nodes.map(|(&node, weight)| {
+        let along = self.nodes.iter().map(|&(node, weight)| {
             let value = &values[3 * node as usize..][..3];
             let along = value.iter().zip(self.normal.iter());
             weight * along.map(|(u, n)| f64::from(*u) * n).sum::<f64>()
@@ -122,8 +119,7 @@ impl Contact {
 
     /// n · u + o where the nodes have the `displacements` [m].
     pub(super) fn gap(&self, displacements: &[f64]) -> f64 {
-        let nodes = self.nodes.iter().zip(self.weights);
-        let along = nodes.map(|(&node, weight)| {
+        let along = self.nodes.iter().map(|&(node, weight)| {
             let u = &displacements[3 * node as usize..][..3];
             let along = u.iter().zip(self.normal.iter());
             weight * along.map(|(u, n)| u * n).sum::<f64>()
@@ -133,7 +129,7 @@ impl Contact {
 
     /// Adds a `force` [N] on the body to the forces on all nodes.
     pub(super) fn add(&self, force: f64, forces: &mut [f32]) {
-        for (&node, weight) in self.nodes.iter().zip(self.weights) {
+        for &(node, weight) in &self.nodes {
             let own = &mut forces[3 * node as usize..][..3];
             for (own, n) in own.iter_mut().zip(self.normal.iter()) {
                 *own += (force * weight * n) as f32;
@@ -167,7 +163,6 @@ impl Contacts {
                 point: contact.point,
                 compliance: point.compliance,
                 nodes: point.nodes,
-                weights: point.weights,
                 normal: contact.normal,
                 offset: contact.offset,
             }
@@ -175,7 +170,7 @@ impl Contacts {
         for node in self.nodes.drain(..) {
             self.places[node as usize] = NOWHERE;
         }
-        for node in self.listed.iter().flat_map(|own| own.nodes) {
+        for (node, _) in self.listed.iter().flat_map(|own| own.nodes) {
             let place = &mut self.places[node as usize];
             if *place == NOWHERE {
                 *place = self.nodes.len() as u32;
@@ -192,7 +187,7 @@ impl Contacts {
             let first = self.columns.len();
             self.columns.resize(first + self.nodes.len(), [0.0; 3]);
             let columns = &mut self.columns[first..];
-            for (&node, weight) in own.nodes.iter().zip(own.weights) {
+            for &(node, weight) in &own.nodes {
                 let Some(place) = model.loaded[node as usize] else {
                     continue;
                 };
@@ -221,8 +216,7 @@ impl Contacts {
     pub(super) fn shared(&self, to: usize, from: usize) -> f64 {
         let columns = &self.columns[from * self.nodes.len()..];
         let own = &self.listed[to];
-        let nodes = own.nodes.iter().zip(own.weights);
-        let along = nodes.map(|(&node, weight)| {
+        let along = own.nodes.iter().map(|&(node, weight)| {
             let column = &columns[self.places[node as usize] as usize];
             let along = column.iter().zip(own.normal.iter());
             weight * along.map(|(u, n)| f64::from(*u) * n).sum::<f64>()

@@ -1,5 +1,6 @@
 use nalgebra::{DMatrix, Matrix3};
 
+use super::constraints::Turned;
 use super::model::NonlinearModel;
 use crate::Vec3;
 
@@ -27,13 +28,12 @@ pub struct Coupling<'a> {
 }
 
 impl Coupling<'_> {
-    pub(super) fn directions(&self) -> impl Iterator<Item = Vec3> {
-        let all = [Vec3::x(), Vec3::y(), Vec3::z()];
-        let (axes, count) = match self.along {
-            Some(along) => ([along, along, along], 1),
-            None => (all, 3),
-        };
-        axes.into_iter().take(count)
+    /// The directions along which it acts, the first so many of three.
+    fn axes(&self) -> ([Vec3; 3], usize) {
+        match self.along {
+            Some(along) => ([along; 3], 1),
+            None => ([Vec3::x(), Vec3::y(), Vec3::z()], 3),
+        }
     }
 }
 
@@ -71,7 +71,8 @@ impl Rows {
         self.rows.clear();
         for (tool, coupling) in couplings.iter().enumerate() {
             if let Some(coupling) = coupling {
-                let directions = coupling.directions();
+                let (axes, count) = coupling.axes();
+                let directions = axes.into_iter().take(count);
                 self.rows
                     .extend(directions.map(|direction| Row { tool, direction }));
             }
@@ -80,17 +81,12 @@ impl Rows {
 
     /// Makes Z and C with the `rotations` of the nodes.
     #[inline(always)]
-    pub(super) fn prepare(
-        &mut self,
-        model: &NonlinearModel,
-        couplings: &[Option<Coupling<'_>>],
-        rotations: &[[f32; 9]],
-    ) {
+    pub(super) fn prepare(&mut self, body: Turned<'_>, couplings: &[Option<Coupling<'_>>]) {
         let mut first = 0;
         for coupling in couplings.iter().flatten() {
-            let count = coupling.directions().count();
+            let (directions, count) = coupling.axes();
             let columns = &mut self.influences[first * self.size..(first + count) * self.size];
-            influence(model, coupling, rotations, columns);
+            influence(body, coupling.nodes, &directions[..count], columns);
             first += count;
         }
         for (i, row) in self.rows.iter().enumerate() {
@@ -175,27 +171,24 @@ fn mean(coupling: &Coupling<'_>, direction: &Vec3, values: &[f32]) -> f64 {
         .sum()
 }
 
-/// Columns of Z of one coupling: Q_a Σ_b w_b K⁻¹_ab Q_bᵀ, along its directions.
+/// Columns of Z: Q_a Σ_b w_b K⁻¹_ab Q_bᵀ of the weighted `nodes`, along each of the `directions`.
 #[inline(always)]
-fn influence(
-    model: &NonlinearModel,
-    coupling: &Coupling<'_>,
-    rotations: &[[f32; 9]],
+pub(super) fn influence(
+    body: Turned<'_>,
+    nodes: &[(u32, f64)],
+    directions: &[Vec3],
     columns: &mut [f32],
 ) {
     columns.fill(0.0);
+    let Turned { model, rotations } = body;
     let size = rotations.len() * 3;
-    let (directions, count) = match coupling.along {
-        Some(along) => ([along; 3], 1),
-        None => ([Vec3::x(), Vec3::y(), Vec3::z()], 3),
-    };
-    for &(node, weight) in coupling.nodes {
+    for &(node, weight) in nodes {
         let Some(place) = model.loaded[node as usize] else {
             continue;
         };
         let influence = &model.influences[place as usize].values;
         let q = &rotations[node as usize];
-        for (column, direction) in columns.chunks_exact_mut(size).zip(&directions[..count]) {
+        for (column, direction) in columns.chunks_exact_mut(size).zip(directions) {
             // w Qᵀ times the direction.
             let turned: [f32; 3] = std::array::from_fn(|i| {
                 let sum: f64 = (0..3).map(|k| f64::from(q[3 * i + k]) * direction[k]).sum();
