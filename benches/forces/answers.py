@@ -2,7 +2,9 @@
 """Writes the converged answers of the scenes, `answers/*.json`: force and settling of the surface at the judged times,
 for each law of `laws.py`, with their errors.
 
-Needs palpate, felupe and gmsh (see docs/comparisons/forces.md). Run: benches/forces/answers.py [--law LAW] [scene ...]; minutes.
+Needs palpate, felupe and gmsh, and for bodies that are not axisymmetric better also pypardiso
+(see docs/comparisons/forces.md). Run: benches/forces/answers.py [--law LAW] [scene ...]; hours with
+all scenes.
 
 Linear tissue: `palpate solve` with contact on the deformed surface, where it has the body; its error is the largest of
 its own estimate and the difference to FElupe. Other laws, bodies and the settling: FElupe on two meshes, whose
@@ -14,11 +16,12 @@ import json
 
 import numpy as np
 
-from engines import felupe_axisymmetric
+from engines import felupe_axisymmetric, felupe_solid
 from laws import LAWS
 from scene import ANSWERS, Scene, names
 
 FINENESS = [0.1, 0.05]  # edges under the tool [radii]
+SOLID_LAWS = ["linear", "neo_hookean"]  # of bodies that are not axisymmetric: a law takes some ten minutes
 
 
 def judged_depths(scene):
@@ -28,25 +31,28 @@ def judged_depths(scene):
 def by_felupe(scene, law):
     """Force, settling [judged time], their errors, and the force over depth."""
     wanted = np.unique(judged_depths(scene))
+    code, meshes, increments = felupe_axisymmetric, FINENESS, 10
+    if not scene.axisymmetric:
+        code, meshes, increments = felupe_solid, felupe_solid.MESHES[scene.name], 4
     # Small increments, for convergence, that meet the judged depths.
-    stops = np.concatenate([np.linspace(a, b, 11)[1:] for a, b in zip([0, *wanted], wanted)])
+    stops = np.concatenate([np.linspace(a, b, increments + 1)[1:] for a, b in zip([0, *wanted], wanted)])
     found = []
-    for edge in FINENESS:
-        force, settled, _ = felupe_axisymmetric.pressed(scene, law, edge, stops)
+    for fineness in meshes:
+        force, settled, _ = code.pressed(scene, law, fineness, stops)
         at = np.searchsorted(stops, judged_depths(scene) - 1e-12)
         found.append([force[at], settled[at]])
         curve = [[0.0, 0.0], *np.column_stack([stops, force])[np.isfinite(force)].tolist()]
     coarse, fine = np.array(found)
-    if not np.isfinite(fine - coarse).any():
-        return fine, [np.nan, np.nan], curve
-    return fine, np.nanmax(np.abs(fine - coarse), axis=1) / np.nanmax(np.abs(fine), axis=1), curve
+    difference, size = np.abs(fine - coarse), np.abs(fine)
+    errors = [row[ok].max() / of[ok].max() if (ok := np.isfinite(row)).any() else np.nan for row, of in zip(difference, size)]
+    return fine, errors, curve
 
 
 def by_palpate(scene, law, prony=False):
     """Force at the judged times and its estimated error, or none if `palpate solve` has no such problem."""
     import palpate
 
-    if law != "linear" or scene.body["shape"] != "box" or scene.second:
+    if law != "linear" or scene.body["shape"] != "box" or scene.second or not scene.axisymmetric:
         return None
     indenter = {"radius_m": scene.radius, "face": "slip"}
     indenter |= {"side": "none"} if scene.tool["shape"] == "flat" else {"shape": scene.tool["shape"]}
@@ -105,7 +111,7 @@ def answer(scene, law):
         "force_n": clean(force),
         "error": float(error),
         "settled_m": clean(settled),
-        "settled_error": float(settled_error),
+        "settled_error": None if np.isnan(settled_error) else float(settled_error),
         "curve_m_n": curve,
         "source": source,
     }
@@ -119,7 +125,8 @@ def main():
     ANSWERS.mkdir(exist_ok=True)
     for name in chosen.scene or names():
         scene = Scene(name)
-        laws = [law for law in chosen.law or LAWS if law == "linear" or not scene.prony]
+        laws = chosen.law or (LAWS if scene.axisymmetric else SOLID_LAWS)
+        laws = [law for law in laws if law == "linear" or not scene.prony]
         found = scene.answers if chosen.law else {}
         found |= {law: answer(scene, law) for law in laws}
         found = {law: value for law, value in found.items() if value}

@@ -1,7 +1,5 @@
 """Laws of the engines as first Piola-Kirchhoff stress of a deformation gradient (3, 3, ...); mu and lambda [Pa] are
 those of Hooke's law, to which each reduces at small strain.
-
-`in_plane` deformations alone: rotations about the third axis, as of a body that is axisymmetric.
 """
 
 import numpy as np
@@ -9,27 +7,23 @@ import numpy as np
 IDENTITY = np.eye(3)[:, :, None, None]
 
 
-def _determinant(f):
-    return f[2, 2] * (f[0, 0] * f[1, 1] - f[0, 1] * f[1, 0])
-
-
 def _cofactor(f):
-    """Of an in-plane deformation."""
-    zero = np.zeros_like(f[0, 0])
-    plane = f[0, 0] * f[1, 1] - f[0, 1] * f[1, 0]
-    return np.array([
-        [f[1, 1] * f[2, 2], -f[1, 0] * f[2, 2], zero],
-        [-f[0, 1] * f[2, 2], f[0, 0] * f[2, 2], zero],
-        [zero, zero, plane],
-    ])
+    return np.array([np.cross(f[1], f[2], axis=0), np.cross(f[2], f[0], axis=0), np.cross(f[0], f[1], axis=0)])
+
+
+def _determinant(f):
+    return (f[0] * np.cross(f[1], f[2], axis=0)).sum(axis=0)
 
 
 def _rotation(f):
-    """Of the polar decomposition of an in-plane deformation."""
-    along, across = f[0, 0] + f[1, 1], f[1, 0] - f[0, 1]
-    length = np.sqrt(along * along + across * across)
-    c, s, zero = along / length, across / length, np.zeros_like(along)
-    return np.array([[c, -s, zero], [s, c, zero], [zero, zero, zero + 1]])
+    """Of the polar decomposition, by Newton's iteration [Higham 1986], which the complex step passes through."""
+    turned = f
+    for _ in range(20):
+        last, turned = turned, 0.5 * (turned + _cofactor(turned) / _determinant(turned))
+        if np.abs(turned - last).max() < 1e-14:
+            break
+    # Once more for the derivative, whose error the last step squares as well.
+    return 0.5 * (turned + _cofactor(turned) / _determinant(turned))
 
 
 def _trace(a):
@@ -96,11 +90,16 @@ LAWS = {
 }
 
 
-class Material:
-    """A law as FElupe asks for it; its tangent is by the complex step. mu and lambda may be arrays of points."""
+PLANE = [(0, 0), (0, 1), (1, 0), (1, 1), (2, 2)]  # components that deform an axisymmetric body
+SPACE = list(np.ndindex(3, 3))
 
-    def __init__(self, law, mu, lam):
-        self.law, self.mu, self.lam = law, mu, lam
+
+class Material:
+    """A law as FElupe asks for it; its tangent by `components` is by the complex step. mu and lambda may be arrays of
+    points."""
+
+    def __init__(self, law, mu, lam, components):
+        self.law, self.mu, self.lam, self.components = law, mu, lam, components
         self.x = [np.eye(3), np.zeros(0)]
 
     def gradient(self, x, **_):
@@ -109,7 +108,7 @@ class Material:
     def hessian(self, x, **_):
         f = x[0]
         tangent = np.zeros((3, 3, *f.shape))
-        for k, l in [(0, 0), (0, 1), (1, 0), (1, 1), (2, 2)]:
+        for k, l in self.components:
             moved = f.astype(complex)
             moved[k, l] += 1e-30j
             tangent[:, :, k, l] = self.law(moved, self.mu, self.lam).imag / 1e-30

@@ -39,6 +39,8 @@ def version():
 def unfit(scene):
     if scene.second:
         return "a body has one material"
+    if scene.gripped:
+        return "no grip in this adapter"
     return "no relaxation" if scene.prony else None
 
 
@@ -66,8 +68,8 @@ def run(scene, mesh):
         instance.set_proximity_properties(properties)
         deformables = plant.mutable_deformable_model()
         body = deformables.RegisterDeformableBody(instance, config, 1.0)
-    floor = -scene.height * (1 - 1e-6)
-    deformables.SetWallBoundaryCondition(body, [0, 0, floor], [0, 0, 1])
+    for point, normal in scene.planes:
+        deformables.SetWallBoundaryCondition(body, point, normal)
 
     ball = scene.tool["shape"] == "sphere"
     above = scene.radius if ball else 0.5 * scene.radius
@@ -102,6 +104,5 @@ def run(scene, mesh):
         results = plant.get_contact_results_output_port().Eval(context)
         found = [results.deformable_contact_info(i).F_Ac_W() for i in range(results.num_deformable_contacts())]
         forces.append(abs(sum(force.translational()[2] for force in found)))
-        places = deformables.GetPositions(context, body)
-        settled.append(mesh.nodes[mesh.probe, 2] - places[2, mesh.probe])
+        settled.append(mesh.settling(deformables.GetPositions(context, body).T))
     return {"time": times, "force": np.array(forces), "settled": np.array(settled), "steps_s": durations, "first_s": first}

@@ -1,4 +1,5 @@
-"""FElupe: axisymmetric quadratic elements. A reference code; `answers.py` uses it with every engine's law."""
+"""FElupe: axisymmetric quadratic elements; other bodies are those of `felupe_solid`. A reference code; `answers.py` uses
+it with every engine's law."""
 
 import importlib.metadata
 import time
@@ -6,14 +7,15 @@ import time
 import felupe
 import numpy as np
 
-from laws import LAWS, Material
+from laws import LAWS, PLANE, Material
 from scene import lame
 
 LAW = "neo_hookean"
 MESHES = [None]
 SETTINGS = """Nine-noded quadrilaterals, 0.05 radii long under the tool; a box is a cylinder whose top has the same
 area. Sphere: `ContactRigidCylinder` on `FieldAxisymmetric`, 20 times the mean stiffness of its nodes. Flat punch:
-prescribed nodes."""
+prescribed nodes. Bodies that are not axisymmetric: tetrahedra of ten nodes by gmsh; sphere: augmented Lagrangian at seven
+points of each triangle under it, penalty of 100 moduli a radius, augmented once; grip: prescribed nodes."""
 EDGE = 0.05  # [radii]
 INCREMENT = 0.025  # of depth [radii]
 
@@ -93,7 +95,7 @@ def material(scene, law, region):
         inside = scene.in_second(points[1], points[0])
         stiff = lame(scene.second["youngs_modulus_pa"], scene.tissue["poissons_ratio"])
         mu, lam = [np.where(inside, hard, soft) for hard, soft in zip(stiff, (mu, lam))]
-    return Material(LAWS[law], mu, lam)
+    return Material(LAWS[law], mu, lam, PLANE)
 
 
 def pressed(scene, law, edge, depths):
@@ -138,6 +140,10 @@ def pressed(scene, law, edge, depths):
 
 
 def run(scene, _mesh):
+    if not scene.axisymmetric:
+        from engines import felupe_solid
+
+        return felupe_solid.run(scene, LAW)
     began = time.perf_counter()
     depths = np.linspace(0, scene.path.max(), round(scene.path.max() / (INCREMENT * scene.radius)) + 1)[1:]
     force, settled, nodes = pressed(scene, LAW, EDGE, depths)

@@ -20,6 +20,8 @@ def version():
 def unfit(scene):
     if scene.second:
         return "a flex has one material"
+    if scene.gripped:
+        return "no grip in this adapter"
     return "no relaxation" if scene.prony else None
 
 
@@ -65,5 +67,5 @@ def run(scene, mesh):
             mujoco.mj_contactForce(model, data, number, six)
             total += abs(six[0] * data.contact[number].frame[2])
         forces.append(total)
-        settled.append(mesh.nodes[mesh.probe, 2] - data.flexvert_xpos[mesh.probe, 2])
+        settled.append(mesh.settling(data.flexvert_xpos))
     return {"time": times, "force": np.array(forces), "settled": np.array(settled), "steps_s": durations, "first_s": first}

@@ -23,6 +23,8 @@ def version():
 
 
 def unfit(scene):
+    if scene.gripped:
+        return "its observables have no force on prescribed nodes"
     return "no relaxation" if scene.prony else None
 
 
@@ -89,5 +91,5 @@ def pressed(scene, mesh, began):
         first = first or after - began
         states.reverse()
         forces.append(abs(float(observed.contact_f.numpy()[:, :3].sum(axis=0)[2])))
-        settled.append(mesh.nodes[mesh.probe, 2] - float(states[0].particle_q.numpy()[mesh.probe, 2]))
+        settled.append(mesh.settling(states[0].particle_q.numpy()))
     return {"time": times, "force": np.array(forces), "settled": np.array(settled), "steps_s": durations, "first_s": first}

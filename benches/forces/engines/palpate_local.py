@@ -6,6 +6,8 @@ import time
 import numpy as np
 import palpate
 
+from scene import organ_surface
+
 LAW = "linear"
 MESHES = ["own"]
 SETTINGS = "The defaults of a scene, tip without friction (`contact = \"slip\"`); a step is 5 ms."
@@ -20,6 +22,35 @@ def unfit(_scene):
     return None
 
 
+def tube(scene):
+    """A closed surface of the tube: outside, end, inside, end."""
+    radius, length, edge = scene.body["radius_m"], scene.body["length_m"], 0.6 * scene.body["wall_m"]
+    along = np.linspace(-0.5 * length, 0.5 * length, round(length / edge) + 1)
+    inner = radius - scene.body["wall_m"]
+    middle = np.full(1, 0.5 * (radius + inner))
+    across = np.concatenate([np.full(len(along), radius), middle, np.full(len(along), inner), middle])
+    along = np.concatenate([along, along[-1:], along[::-1], along[:1]])
+    rows, columns = len(along), round(2 * np.pi * radius / edge)
+    angle = 2 * np.pi * np.arange(columns) / columns
+    grid = [np.repeat(along, columns), np.outer(across, np.sin(angle)).ravel(), np.outer(across, np.cos(angle)).ravel() - radius]
+    i, j = [index.ravel() for index in np.mgrid[:rows, :columns]]
+    here, aside = i * columns + j, i * columns + (j + 1) % columns
+    further, both = (i + 1) % rows * columns + j, (i + 1) % rows * columns + (j + 1) % columns
+    triangles = np.concatenate([np.column_stack([here, further, both]), np.column_stack([here, both, aside])])
+    return np.column_stack(grid), triangles
+
+
+def surface(scene):
+    """Vertices [m] and triangles of the body in the scene's frame."""
+    if scene.body["shape"] == "organ":
+        return organ_surface(scene)
+    if scene.body["shape"] == "tube":
+        return tube(scene)
+    cube = palpate.Mesh.builtin("cube", 12000 if scene.slit else None)
+    assert scene.body["side_m"] == 0.1
+    return (cube.vertices - [0.0, 0.0, 0.05]) * [1.0, 1.0, scene.height / 0.1], cube.triangles
+
+
 def organ(scene, folder):
     """The table `organ`, whose top is at the height that is returned [m]."""
     tissue = {"law": "linear"} | {key: scene.tissue[key] for key in ["youngs_modulus_pa", "poissons_ratio"]}
@@ -30,14 +61,10 @@ def organ(scene, folder):
         assert scene.body["radius_m"] == 0.05
         content, top = {"builtin": "hemisphere"}, 0.05
     else:
-        cube = palpate.Mesh.builtin("cube")
-        assert scene.body["side_m"] == 0.1
-        lifted = cube.vertices + [0.0, 0.0, 0.05]
-        mesh = palpate.Mesh(lifted * [1.0, 1.0, scene.height / 0.1], cube.triangles)
         path = f"{folder}/body.ply"
-        mesh.write(path)
-        plane = {"point_m": [0.0, 0.0, 1e-4], "normal": [0.0, 0.0, 1.0]}
-        content, top = {"mesh": path, "anchor": {"planes": [plane]}}, scene.height
+        palpate.Mesh(*surface(scene)).write(path)
+        planes = [{"point_m": point, "normal": normal} for point, normal in scene.planes]
+        content, top = {"mesh": path, "anchor": {"planes": planes}}, 0.0
     content["tissue"] = tissue
     if scene.inclusion:
         ball = {"center_m": [0.0, 0.0, top - scene.inclusion["depth_m"]], "radius_m": scene.inclusion["radius_m"]}
@@ -47,6 +74,32 @@ def organ(scene, folder):
         stiff = tissue | {"youngs_modulus_pa": scene.layer["youngs_modulus_pa"]}
         content["layer"] = [{"name": "layer", "thickness_m": scene.layer["thickness_m"], "tissue": stiff}]
     return content, top
+
+
+def tools(scene):
+    """The tool, and a hook that cuts the slit before."""
+    if scene.gripped:
+        # Square jaws of the same area, which hold whatever pulls.
+        side = float(np.sqrt(np.pi) * scene.radius)
+        jaws = {"length_m": side, "width_m": side, "force_n": 100.0, "friction": 10.0}
+        return [{"name": "right", "kind": "grasper", "jaws": jaws, "tip": {"shape": "flat", "radius_m": scene.radius}}]
+    right = {"name": "right", "tip": {"shape": scene.tool["shape"], "radius_m": scene.radius, "contact": "slip"}}
+    hook = {"name": "left", "kind": "hook", "tip": {"shape": "flat", "radius_m": 0.001}}
+    return [right, hook] if scene.slit else [right]
+
+
+def prepare(scene, simulation, at):
+    """Closes the jaws on the surface at `at` [m], or cuts the slit."""
+    nowhere = [np.nan] * 5
+    if scene.gripped:
+        for grip in np.concatenate([np.zeros(20), np.linspace(0.0, 1.0, 40)]):
+            simulation.step([*at, grip, 0.0])
+    if scene.slit:
+        half = 0.5 * scene.slit["length_m"]
+        for along in np.linspace(-half, half, 400):
+            simulation.step([nowhere, [scene.slit["aside_m"], along, at[2] - 0.001, 0.0, 1.0]])
+        for _ in range(20):
+            simulation.step([nowhere, nowhere])
 
 
 def probed(vertices, triangles, scene):
@@ -66,24 +119,37 @@ def run(scene, _mesh, kind=None):
     began = time.perf_counter()
     with tempfile.TemporaryDirectory() as folder:
         content, top = organ(scene, folder)
-        tip = {"shape": scene.tool["shape"], "radius_m": scene.radius, "contact": "slip"}
-        content = {"organ": content, "model": {"kind": kind or KIND}, "tool": [{"name": "right", "tip": tip}]}
+        content = {"organ": content, "model": {"kind": kind or KIND}, "tool": tools(scene)}
+        if scene.slit:
+            # Little toughness: the hook is not measured.
+            content["cutting"] = {"depth_m": scene.slit["depth_m"], "toughness_j_per_m2": 1.0}
         simulation = palpate.Simulation(palpate.Scene(content), progress=False, cache=False)
-    middle = top + (scene.radius if scene.tool["shape"] == "sphere" else 0.0)
     step = simulation.step_length
     times = scene.times(step)
     forces, durations, settled = [], [], []
-    rest = simulation.vertices
-    corners, weights = probed(rest, simulation.triangles, scene)
-    first = None
+    rest, first = simulation.vertices, None
+    if scene.probe is not None:
+        corners, weights = probed(rest, simulation.triangles, scene)
+    prepare(scene, simulation, [0.0, 0.0, top])
+    middle = top + (scene.radius if scene.tool["shape"] == "sphere" else 0.0)
     for now in times:
+        place = [0.0, 0.0, middle + scene.along * scene.depth(now)]
+        if scene.gripped:
+            pose = [*place, 1.0, 0.0]
+        else:
+            pose = [[*place, 0.0, 0.0], [np.nan] * 5] if scene.slit else place
         before = time.perf_counter()
-        force = simulation.step([0.0, 0.0, middle - scene.depth(now)])
+        force = simulation.step(pose)
         after = time.perf_counter()
         durations.append(after - before)
         first = first or after - began
-        forces.append(float(np.asarray(force).reshape(-1)[2]))
-        settled.append(weights @ (rest[corners] - simulation.vertices[corners])[:, 2])
+        forces.append(-scene.along * float(np.asarray(force).reshape(-1)[2]))
+        if scene.probe is None:
+            settled.append(np.nan)
+        elif simulation.vertices.shape == rest.shape:
+            settled.append(weights @ (rest[corners] - simulation.vertices[corners])[:, 2])
+        else:
+            settled.append(np.nan)
     return {
         "time": times,
         "force": np.array(forces),

@@ -28,6 +28,8 @@ def version():
 def unfit(scene):
     if scene.second:
         return "a body has one material"
+    if scene.gripped:
+        return "no grip in this adapter"
     return "no relaxation" if scene.prony else None
 
 
@@ -84,5 +86,5 @@ def pressed(scene, mesh, began):
         first = first or after - began
         forces.append(abs(bullet.getConstraintState(held)[2]) / SCALE**2)
         _, places = bullet.getMeshData(body, -1, flags=bullet.MESH_DATA_SIMULATION_MESH)
-        settled.append(mesh.nodes[mesh.probe, 2] - places[mesh.probe][2] / SCALE)
+        settled.append(mesh.settling(np.array(places) / SCALE))
     return {"time": times, "force": np.array(forces), "settled": np.array(settled), "steps_s": durations, "first_s": first}

@@ -1,0 +1,180 @@
+"""FElupe on bodies that are not axisymmetric: tetrahedra of ten nodes, with a contact of its own."""
+
+import time
+
+import felupe
+import numpy as np
+import scipy.sparse
+
+from laws import LAWS, SPACE, Material
+from meshes import Tetrahedra
+
+# Edges under the tool [radii] and far from it [extents], or triangles: a mesh, and a finer one.
+MESHES = {
+    "grip_esophagus": [2000, 3696],
+    "sphere_liver": [(0.35, 0.25), (0.25, 0.2)],
+    "sphere_slit": [(0.3, 0.25), (0.2, 0.2)],
+    "sphere_tube": [(0.25, 0.15), (0.18, 0.11)],
+}
+PENALTY = 100.0  # [Young's moduli a radius of the tool]
+AUGMENTED = 1  # times in each increment
+INCREMENTS = 10  # of a run
+TOLERANCE = 1e-6  # of the residual [force on the held nodes]
+
+
+def solver():
+    """A direct one: PARDISO where it is installed, which is ten times as fast."""
+    try:
+        import pypardiso
+
+        return pypardiso.spsolve
+    except ImportError:
+        import scipy.sparse.linalg
+
+        return scipy.sparse.linalg.spsolve
+
+
+# Points and weights of degree five in a triangle [Dunavant 1985].
+_A, _B = (6 - np.sqrt(15)) / 21, (6 + np.sqrt(15)) / 21
+_POINTS = np.array([[1 / 3, 1 / 3]] + [[x, y] for c in (_A, _B) for x, y in [(c, c), (1 - 2 * c, c), (c, 1 - 2 * c)]])
+_WEIGHTS = np.array([0.225] + [(155 - np.sqrt(15)) / 1200] * 3 + [(155 + np.sqrt(15)) / 1200] * 3)
+
+
+def _shapes(point):
+    """Functions of six nodes and their derivatives."""
+    l = np.array([1 - point.sum(), *point])
+    d = np.array([[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]])
+    pairs = [(0, 1), (1, 2), (2, 0)]
+    values = np.concatenate([l * (2 * l - 1), [4 * l[i] * l[j] for i, j in pairs]])
+    slopes = np.concatenate([(4 * l - 1)[:, None] * d, [4 * (l[i] * d[j] + l[j] * d[i]) for i, j in pairs]])
+    return values, slopes
+
+
+class Sphere:
+    """A rigid sphere without friction on the triangles within reach, by an augmented Lagrangian."""
+
+    def __init__(self, scene, mesh):
+        self.radius = scene.radius
+        self.stiffness = PENALTY * scene.tissue["youngs_modulus_pa"] / scene.radius
+        near = np.linalg.norm(mesh.nodes[mesh.faces].mean(axis=1), axis=1) < 1.6 * scene.radius
+        self.faces = mesh.faces[near]
+        corners = mesh.nodes[self.faces]
+        functions = [_shapes(point) for point in _POINTS]
+        self.values = np.array([values for values, _ in functions])
+        slopes = np.array([slopes for _, slopes in functions])
+        tangents = np.einsum("fni,qnk->fqki", corners, slopes)
+        normals = np.cross(tangents[:, :, 0], tangents[:, :, 1])
+        self.areas = 0.5 * _WEIGHTS * np.linalg.norm(normals, axis=2)
+        self.multiplier = np.zeros_like(self.areas)  # pressure [Pa]
+
+    def augment(self, places, depth):
+        """The pressure becomes the multiplier."""
+        at = np.einsum("qn,fni->fqi", self.values, places[self.faces])
+        distance = np.linalg.norm(at - [0.0, 0.0, self.radius - depth], axis=2)
+        self.multiplier = np.maximum(self.multiplier + self.stiffness * (self.radius - distance), 0.0)
+
+    def pressed(self, places, depth):
+        """Forces on the nodes, and the stiffness."""
+        at = np.einsum("qn,fni->fqi", self.values, places[self.faces])
+        away = at - [0.0, 0.0, self.radius - depth]
+        distance = np.linalg.norm(away, axis=2)
+        normal = away / distance[..., None]
+        pressure = self.areas * np.maximum(self.multiplier + self.stiffness * (self.radius - distance), 0.0)
+        forces = np.zeros_like(places)
+        np.add.at(forces, self.faces, np.einsum("fq,fqi,qn->fni", pressure, normal, self.values))
+        turned = np.eye(3) - normal[..., :, None] * normal[..., None, :]
+        local = (self.stiffness * self.areas * (pressure > 0))[..., None, None] * (np.eye(3) - turned)
+        local -= (pressure / distance)[..., None, None] * turned
+        blocks = np.einsum("fqij,qn,qm->fnimj", local, self.values, self.values)
+        rows = (3 * self.faces[:, :, None] + np.arange(3))[:, :, :, None, None] + np.zeros((1, 1, 1, 6, 3), dtype=int)
+        columns = (3 * self.faces[:, :, None] + np.arange(3))[:, None, None, :, :] + np.zeros((1, 6, 3, 1, 1), dtype=int)
+        size = places.size
+        stiffness = scipy.sparse.coo_matrix((blocks.ravel(), (rows.ravel(), columns.ravel())), shape=(size, size))
+        return forces, stiffness.tocsr()
+
+
+def solid_of(scene, law, mesh):
+    body = felupe.Mesh(mesh.nodes, mesh.elements, "tetra10")
+    region = felupe.RegionQuadraticTetra(body)
+    field = felupe.FieldContainer([felupe.Field(region, dim=3)])
+    return field, felupe.SolidBody(umat=Material(LAWS[law], *scene.lame, SPACE), field=field)
+
+
+def pressed(scene, law, fineness, depths):
+    """Force [N] and settlement of the probe [m] at each of rising depths [m], NaN from where it is not solved, and the
+    number of nodes."""
+    mesh = Tetrahedra(scene, fineness, order=2)
+    field, solid = solid_of(scene, law, mesh)
+    moved = field[0].values
+    sphere = None if scene.gripped else Sphere(scene, mesh)
+    free = np.ones(moved.shape, dtype=bool)
+    free[mesh.fixed] = free[mesh.gripped] = False
+    solve = solver()
+    forces, settled, last = [], [], 0.0
+    increment, length = np.zeros_like(moved), 1.0
+    for depth in depths:
+        before = moved.copy()
+        # The last increment once more is a better start than none.
+        moved += increment * ((depth - last) / length)
+        wanted = np.zeros_like(moved)
+        wanted[mesh.gripped, 2] = scene.along * depth - moved[mesh.gripped, 2]
+        contact = (sphere, depth, mesh.nodes)
+        solved = equilibrium(solid, field, contact, (free, wanted), solve)
+        for _ in range(AUGMENTED if sphere else 0):
+            sphere.augment(mesh.nodes + moved, depth)
+            solved = solved and equilibrium(solid, field, contact, (free, np.zeros_like(wanted)), solve)
+        if not solved:
+            moved[:] = before
+            print(f"{scene.name}, {law}: no equilibrium at {1e3 * depth:.2f} mm")
+            break
+        increment, length, last = moved - before, depth - last, depth
+        inner = solid.results.force.toarray().reshape(-1, 3)
+        forces.append(float(scene.along * -inner[mesh.fixed, 2].sum()))
+        settled.append(float("nan") if mesh.probe is None else float(scene.along * moved[mesh.probe, 2]))
+    missing = [np.nan] * (len(depths) - len(forces))
+    return np.array(forces + missing), np.array(settled + missing), len(mesh.nodes)
+
+
+def equilibrium(solid, field, contact, conditions, solve):
+    """Newton's method; whether it converged. The step that is wanted of held nodes is taken in its first iteration."""
+    sphere, depth, nodes = contact
+    free, wanted = conditions
+    open_ = free.ravel()
+    moved = field[0].values
+    with np.errstate(invalid="ignore", divide="ignore"):
+        for _ in range(25):
+            force = np.asarray(solid.assemble.vector(field).todense()).ravel()
+            stiffness = solid.assemble.matrix(field).tocsr()
+            if sphere:
+                pushed, stiff = sphere.pressed(nodes + moved, depth)
+                force = force - pushed.ravel()
+                stiffness = stiffness + stiff
+            step = wanted.ravel().copy()
+            residual = (force + stiffness @ step)[open_]
+            size = np.linalg.norm(residual)
+            if not np.isfinite(size):
+                return False
+            if size <= TOLERANCE * np.linalg.norm(force[~open_]) and not step.any():
+                return True
+            step[open_] = solve(stiffness[open_][:, open_].tocsr(), -residual)
+            moved += step.reshape(moved.shape)
+            wanted = np.zeros_like(wanted)
+    return False
+
+
+def run(scene, law):
+    """On the coarser mesh, the answers' error being known."""
+    began = time.perf_counter()
+    depths = np.linspace(0, scene.path.max(), INCREMENTS + 1)[1:]
+    force, settled, nodes = pressed(scene, law, MESHES[scene.name][0], depths)
+    seconds = time.perf_counter() - began
+    times = scene.times(0.005)
+    at = scene.depth(times)
+    return {
+        "time": times,
+        "force": np.interp(at, [0, *depths], [0, *force]),
+        "settled": np.interp(at, [0, *depths], [0, *settled]),
+        "steps_s": [seconds / len(depths)] * len(depths),
+        "first_s": seconds,
+        "nodes": nodes,
+    }
