@@ -229,7 +229,8 @@ def text_of(scenes, results, before):
             continue
         depths = " / ".join(f"{1e3 * scene.depth(now):g}" for now in scene.judged)
         at = " / ".join(f"{now:g}" for now in scene.judged)
-        where = f"{depths} mm deep" + (f", at {at} s" if scene.prony else "")
+        where = f"{'Pulled by ' if scene.gripped else ''}{depths} mm{'' if scene.gripped else ' deep'}"
+        where += f", at {at} s" if scene.prony else ""
         parts += [f"{where}. {converged(scene)}\n", HEADER]
         parts += [row(scene, e, m, results[e, scene.name, m]) for e in ENGINES for m in meshes_of(e, scene)]
     parts.append("\n### Settings\n")
@@ -291,6 +292,10 @@ def main():
     KEPT.mkdir(parents=True, exist_ok=True)
     pythons = dict(pair.split("=", 1) for pair in chosen.python)
     scenes = [Scene(name) for name in chosen.scene or names()]
+    for scene in scenes:
+        if not scene.answers:
+            print(f"{scene.name}: no converged answers yet; run answers.py {scene.name}", file=sys.stderr)
+    scenes = [scene for scene in scenes if scene.answers]
     results = {}
     for scene in scenes:
         for engine in ENGINES:
