@@ -23,6 +23,7 @@ __all__ = [
     "SimulationBatch",
     "Snapshot",
     "State",
+    "Teleoperation",
     "Tissue",
     "__version__",
     "_analyze",
