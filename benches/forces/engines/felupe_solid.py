@@ -1,7 +1,5 @@
 """FElupe on bodies that are not axisymmetric: tetrahedra of ten nodes, with a contact of its own."""
 
-import time
-
 import felupe
 import numpy as np
 import scipy.sparse
@@ -18,7 +16,6 @@ MESHES = {
 }
 PENALTY = 100.0  # [Young's moduli a radius of the tool]
 AUGMENTED = 1  # times in each increment
-INCREMENTS = 10  # of a run
 TOLERANCE = 1e-6  # of the residual [force on the held nodes]
 
 
@@ -67,19 +64,21 @@ class Sphere:
         self.areas = 0.5 * _WEIGHTS * np.linalg.norm(normals, axis=2)
         self.multiplier = np.zeros_like(self.areas)  # pressure [Pa]
 
+    def _contact(self, places, depth):
+        """Distance from the middle [m], normal and pressure [Pa] at each point."""
+        away = np.einsum("qn,fni->fqi", self.values, places[self.faces]) - [0.0, 0.0, self.radius - depth]
+        distance = np.linalg.norm(away, axis=2)
+        pressure = np.maximum(self.multiplier + self.stiffness * (self.radius - distance), 0.0)
+        return distance, away / distance[..., None], pressure
+
     def augment(self, places, depth):
         """The pressure becomes the multiplier."""
-        at = np.einsum("qn,fni->fqi", self.values, places[self.faces])
-        distance = np.linalg.norm(at - [0.0, 0.0, self.radius - depth], axis=2)
-        self.multiplier = np.maximum(self.multiplier + self.stiffness * (self.radius - distance), 0.0)
+        self.multiplier = self._contact(places, depth)[2]
 
     def pressed(self, places, depth):
         """Forces on the nodes, and the stiffness."""
-        at = np.einsum("qn,fni->fqi", self.values, places[self.faces])
-        away = at - [0.0, 0.0, self.radius - depth]
-        distance = np.linalg.norm(away, axis=2)
-        normal = away / distance[..., None]
-        pressure = self.areas * np.maximum(self.multiplier + self.stiffness * (self.radius - distance), 0.0)
+        distance, normal, pressure = self._contact(places, depth)
+        pressure = pressure * self.areas
         forces = np.zeros_like(places)
         np.add.at(forces, self.faces, np.einsum("fq,fqi,qn->fni", pressure, normal, self.values))
         turned = np.eye(3) - normal[..., :, None] * normal[..., None, :]
@@ -160,21 +159,3 @@ def equilibrium(solid, field, contact, conditions, solve):
             moved += step.reshape(moved.shape)
             wanted = np.zeros_like(wanted)
     return False
-
-
-def run(scene, law):
-    """On the coarser mesh, the answers' error being known."""
-    began = time.perf_counter()
-    depths = np.linspace(0, scene.path.max(), INCREMENTS + 1)[1:]
-    force, settled, nodes = pressed(scene, law, MESHES[scene.name][0], depths)
-    seconds = time.perf_counter() - began
-    times = scene.times(0.005)
-    at = scene.depth(times)
-    return {
-        "time": times,
-        "force": np.interp(at, [0, *depths], [0, *force]),
-        "settled": np.interp(at, [0, *depths], [0, *settled]),
-        "steps_s": [seconds / len(depths)] * len(depths),
-        "first_s": seconds,
-        "nodes": nodes,
-    }

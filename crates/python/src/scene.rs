@@ -16,7 +16,7 @@ use crate::failure::Failure;
 const NAME: &str = "scene";
 
 /// Scenes that come with the program.
-const BUILT_IN: [(&str, &str); 4] = [
+const BUILT_IN: [(&str, &str); 5] = [
     (
         "esophagus",
         include_str!("../../../assets/esophagus/scene.toml"),
@@ -28,6 +28,10 @@ const BUILT_IN: [(&str, &str); 4] = [
     (
         "traction",
         include_str!("../../../assets/tasks/traction.toml"),
+    ),
+    (
+        "retraction",
+        include_str!("../../../assets/tasks/retraction.toml"),
     ),
     (
         "myotomy",
@@ -63,9 +67,9 @@ impl Scene {
     ///
     /// Parameters
     /// ----------
-    /// name : {"esophagus", "palpation", "traction", "myotomy"}
-    ///     The esophagus without anything to do, or a task: find the stiff spot in a liver, hold an even pull, cut the
-    ///     muscle of the lower esophagus.
+    /// name : {"esophagus", "palpation", "traction", "retraction", "myotomy"}
+    ///     The esophagus without anything to do, or a task: find the stiff spot in a liver, hold an even pull, lift a
+    ///     lobe of a liver and touch what it covers, cut the muscle of the lower esophagus.
     /// seed : int, default 0
     ///     Which variant of the task.
     #[classmethod]

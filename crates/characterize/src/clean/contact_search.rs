@@ -8,11 +8,11 @@ pub(super) const CHI_SQUARED: f64 = 3.84;
 const MODEL: f64 = 0.02;
 /// Least noise, in parts of the range of force [-].
 const LEAST_NOISE: f64 = 1e-6;
-/// Blocks of samples from whose means the correlation of noise is told, at least.
+/// The fewest blocks of samples whose means estimate the correlation of noise.
 const LEAST_BLOCKS: usize = 8;
 /// Way that is none, in parts of the range of depth [-].
 const STILL: f64 = 1e-4;
-/// Samples before contact from which a drift is told at least.
+/// The fewest samples before contact that determine a drift.
 pub(super) const ENOUGH_FOR_DRIFT: usize = 100;
 
 /// What the force is before contact.

@@ -10,7 +10,7 @@
 //! *How we know*: `contact::contact_is_found_over_a_drift`, straight and curved drifts of a generator of its own, with white
 //! and with correlated noise; `real::…`.
 //!
-//! *Limits*: the drift is taken off as it is at contact; later it is only told. Where a drift hides the beginning of the
+//! *Limits*: the drift is taken off as it is at contact; later drift only gives a warning. Where a drift hides the beginning of the
 //! rise, the contact depends on how the force is assumed to rise: half the range between the three rises is in its error.
 
 use super::Oriented;

@@ -139,15 +139,17 @@ pub(super) const FIND: &[Key] = &[
     .optional("0.002", "a quarter of the diameter, with a `radius_m`"),
 ];
 
+const FORCE_TOLERANCE: Key = Key::number(
+    "tolerance_n",
+    Domain::FORCE,
+    "The largest distance from it that counts.",
+)
+.required("0.1");
+
 pub(super) const TRACTION: &[Key] = &[
     Key::text("tool", "The tool that pulls.").optional("\"left\"", "any"),
     Key::number("force_n", Domain::FORCE, "The force that is wanted.").required("0.4"),
-    Key::number(
-        "tolerance_n",
-        Domain::FORCE,
-        "The largest distance from it that counts.",
-    )
-    .required("0.1"),
+    FORCE_TOLERANCE,
     Key::number(
         "hold_s",
         Domain::DURATION,
@@ -203,12 +205,7 @@ pub(super) const TOUCH: &[Key] = &[
     )
     .required("0.004"),
     Key::number("force_n", Domain::FORCE, "The force that is wanted.").required("0.15"),
-    Key::number(
-        "tolerance_n",
-        Domain::FORCE,
-        "The largest distance from it that counts.",
-    )
-    .required("0.1"),
+    FORCE_TOLERANCE,
     Key::number(
         "hold_s",
         Domain::DURATION,

@@ -210,7 +210,7 @@ impl Teleoperation {
     /// tool : str
     ///     Its name; `device` of the tool is "mouse".
     /// position : array_like, shape (3,), or None
-    ///     Where its handle goes [m], where nobody held it without a way there; None leaves the tool.
+    ///     Where its handle goes [m]; a tool that was absent appears there. None takes the tool away.
     /// orientation : array_like, shape (4,), optional
     ///     Quaternion (qx, qy, qz, qw) that maps tool to scene [-]; without, the scene decides.
     /// grip : float
@@ -259,7 +259,7 @@ impl Teleoperation {
         Ok(())
     }
 
-    /// Says in the session: here, or done.
+    /// Adds a mark to the session: "here", or "done", as the task defines it.
     fn mark(&mut self) -> Result<(), Failure> {
         self.touch()?.send(ModelCommand::Mark);
         Ok(())
@@ -300,7 +300,7 @@ fn set_device(scene: &mut Scene, tool: &str, device: &str) -> Result<(), Failure
 
 impl Teleoperation {
     fn running(&mut self) -> &mut Option<Interaction> {
-        // Nobody panics while he holds it: it is never locked.
+        // Exclusive access: the mutex only makes the class `Sync`.
         self.touch
             .get_mut()
             .unwrap_or_else(|poisoned| poisoned.into_inner())

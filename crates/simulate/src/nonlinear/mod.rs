@@ -204,29 +204,30 @@ fn jaws_radius(tool: &Tool) -> Option<f64> {
     Some((face / std::f64::consts::PI).sqrt())
 }
 
-/// A filling of about `wanted` tetrahedra, or of more where walls are lost. One that has all of its walls but other holes
-/// than `surface`, as across a thin wall, is taken only if one finer filling does not do better.
+/// A filling of about `wanted` tetrahedra, or of more where walls are lost. Where it has other holes than `surface`, as
+/// across a thin wall, one finer filling is tried.
 fn filled(surface: &Surface, mut wanted: usize) -> Result<TetrahedronMesh, TetrahedronError> {
-    let mut filling = fill(surface, &FillSettings::with_about(surface, wanted));
+    let of = |wanted| fill(surface, &FillSettings::with_about(surface, wanted));
+    let mut filling = of(wanted);
     for _ in 1..FILLINGS {
-        let is_whole = filling.is_ok();
-        if filling.as_ref().is_ok_and(|mesh| is_alike(mesh, surface)) {
+        if filling.is_ok() {
             break;
         }
         wanted *= MORE;
-        let finer = fill(surface, &FillSettings::with_about(surface, wanted));
-        if !is_whole || finer.as_ref().is_ok_and(|mesh| is_alike(mesh, surface)) {
-            filling = finer;
-        }
-        if is_whole {
-            break;
+        filling = of(wanted);
+    }
+    let is_faithful = |mesh: &TetrahedronMesh| has_topology_of(surface, mesh);
+    if filling.as_ref().is_ok_and(|mesh| !is_faithful(mesh)) {
+        let finer = of(MORE * wanted);
+        if finer.as_ref().is_ok_and(is_faithful) {
+            return finer;
         }
     }
     filling
 }
 
-/// Whether the boundary of `filling` is a surface with as many pieces less holes as `surface`, by Euler's formula.
-fn is_alike(filling: &TetrahedronMesh, surface: &Surface) -> bool {
+/// Whether the boundary of `filling` is a closed surface with the Euler characteristic of `surface`.
+fn has_topology_of(surface: &Surface, filling: &TetrahedronMesh) -> bool {
     let euler = |of: &Surface| {
         let mesh = of.mesh();
         2 * mesh.vertices().len() as i64 - mesh.triangles().len() as i64
