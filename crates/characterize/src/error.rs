@@ -76,12 +76,23 @@ pub enum Error {
         "the recording is of an organ with a `mesh`, which was not read; characterize it by the command, which reads it"
     )]
     NoMesh,
-    /// An organ with a mesh under an indenter that is not flat.
+    /// An organ with a mesh that is a layer or a tube as well.
     #[error(
-        "an organ's `mesh` is fitted under a flat punch alone; leave `mesh` out and state the thickness under the indenter, \
-         `thickness_m`"
+        "an organ's `mesh` is fitted as one solid; leave `mesh` out, or `specimen`, which says that it is a layer or a tube"
     )]
-    OrganIndenter,
+    OrganBody,
+    /// An organ that bends inwards more than a round indenter does outwards.
+    #[error(
+        "where the indenter touches it, the organ is hollow with a radius of {:.3} mm, and this indenter is fitted in \
+         hollows of {:.3} mm and more; press where the organ is flat or bulges, or use a smaller indenter",
+        1e3 * radius, 1e3 * least
+    )]
+    OrganTooHollow {
+        /// The smaller radius of curvature there [m].
+        radius: f64,
+        /// The least that is fitted [m].
+        least: f64,
+    },
     /// An organ with a mesh under a punch without friction.
     #[error(
         "an organ's `mesh` is fitted under a punch that tissue sticks to alone; leave `indenter_friction` out, or leave `mesh` out \
@@ -96,7 +107,7 @@ pub enum Error {
     },
     /// The place of the indenter is not on the organ.
     #[error(
-        "`location_m` is {:.2} mm off the surface of the mesh, more than the radius of the contact; the nearest point of the \
+        "`location_m` is {:.2} mm off the surface of the mesh, more than the radius of the indenter; the nearest point of the \
          surface is {nearest:?}, in metres: check the unit of the mesh, or give that",
         1e3 * distance
     )]
@@ -293,8 +304,9 @@ impl Error {
             | Self::BadParameter { .. }
             | Self::HollowOrgan
             | Self::NoMesh
-            | Self::OrganIndenter
+            | Self::OrganBody
             | Self::OrganFriction
+            | Self::OrganTooHollow { .. }
             | Self::UnreadMesh { .. }
             | Self::OffMesh { .. }
             | Self::PressedWhereFixed

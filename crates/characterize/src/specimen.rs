@@ -12,8 +12,6 @@ use std::ops::Range;
 
 use palpate_files::recording::StimulusKind;
 use palpate_files::{Estimate, PronyTerm, Tissue};
-use palpate_mechanics::contact::FrictionLaw;
-use palpate_mechanics::finite_elements::indentation::IndenterShape;
 
 use crate::clean::SegmentKind;
 use crate::fit::{Draws, simplest};
@@ -108,7 +106,7 @@ pub fn characterize_organ(
     let is_organ = organ.is_some();
     let far = organ.filter(|_| deepest > 0.0).map(|organ| {
         at_step("finite elements of the organ");
-        far_field(&organ?, body.clone()?)
+        organ?.far_field(body.as_ref().map_err(Clone::clone)?, deepest)
     });
     let far = far.transpose();
     let mut curves = body.clone().and_then(|body| {
@@ -282,20 +280,6 @@ fn records(pressed: &[Pressed], curve: Option<&UnitCurve>) -> Vec<RelaxationReco
 fn body(recordings: &[CleanRecording], deepest: f64) -> Result<Body, Error> {
     let first = recordings.first().ok_or(Error::NothingFelt)?;
     Body::of(&first.header, deepest)
-}
-
-/// How much more an organ gives way than the large piece `body`.
-fn far_field(organ: &Organ, body: Body) -> Result<FarField, Error> {
-    match body {
-        Body::Block { block, indenter } => match indenter.shape {
-            IndenterShape::Flat { .. } if indenter.face == FrictionLaw::Frictionless => {
-                Err(Error::OrganFriction)
-            }
-            IndenterShape::Flat { .. } => organ.far_field(&block, indenter.radius),
-            _ => Err(Error::OrganIndenter),
-        },
-        Body::Layer { .. } | Body::Tube { .. } => Err(Error::OrganIndenter),
-    }
 }
 
 /// What the organ does to the depth, where that is a part worth a word.

@@ -115,8 +115,11 @@ impl Curves {
         } else {
             part
         };
+        let own = part * self.deepest;
         Self {
-            deepest: part * self.deepest,
+            deepest: far
+                .contact
+                .map_or(own, |contact| contact.depth_on_plane(own)),
             far: Some(far),
             ..self
         }
@@ -282,13 +285,23 @@ impl Curves {
         };
         let further = far.compliance / self.law.shear();
         let known: Vec<(f64, f64)> = curve.force.points().skip(1).collect();
-        let depths: Vec<f64> = known.iter().map(|(d, force)| d + further * force).collect();
+        let curved = |depth: f64| far.contact.map_or(depth, |contact| contact.depth(depth));
+        let slope = |depth: f64| {
+            far.contact
+                .map_or(1.0, |contact| contact.depth_slope(depth))
+        };
+        let each = known.iter();
+        let depths: Vec<f64> = each
+            .map(|(d, force)| curved(*d) + further * force)
+            .collect();
         let through = |of: &dyn Fn(&(f64, f64)) -> f64| {
             IndentationCurve::through(&depths, &known.iter().map(of).collect::<Vec<_>>())
         };
         let by_shape = curve.by_shape.iter().map(|by| {
             // At one depth of the organ, that of the body falls where the force rises.
-            through(&|(d, _)| by.force(*d) / (1.0 + further * curve.force.stiffness(*d)))
+            through(&|(d, _)| {
+                by.force(*d) / (1.0 + further * curve.force.stiffness(*d) / slope(*d))
+            })
         });
         UnitCurve {
             force: through(&|(_, force)| *force),
@@ -478,15 +491,21 @@ const LEAST_LEFT: f64 = tables::discretisation();
 impl MeshError {
     /// From forces on two meshes, the second with every element halved.
     fn of_two(coarse: &[(f64, Vec<f64>)], fine: &[(f64, Vec<f64>)]) -> Self {
-        let each = coarse.iter().zip(fine).map(|((coarse, _), (fine, _))| {
-            let limit = fine + (fine - coarse) / (2_f64.powf(ORDER) - 1.0);
-            limit / coarse
-        });
-        let correction: Vec<f64> = each.collect();
-        let largest = correction
+        let limit = |coarse: f64, fine: f64| fine + (fine - coarse) / (2_f64.powf(ORDER) - 1.0);
+        let each = coarse
             .iter()
-            .map(|right| (right - 1.0).abs())
+            .zip(fine)
+            .map(|((c, _), (f, _))| (*c, limit(*c, *f)));
+        let forces: Vec<(f64, f64)> = each.collect();
+        let correction = forces.iter().map(|(coarse, limit)| limit / coarse);
+        let correction: Vec<f64> = correction.collect();
+        // Shallow contacts of round indenters are smaller than elements, and their forces count as little in a fit.
+        let most = forces
+            .iter()
+            .map(|(_, limit)| limit.abs())
             .fold(0.0, f64::max);
+        let off = forces.iter().map(|(coarse, limit)| (limit - coarse).abs());
+        let largest = off.fold(0.0, f64::max) / most;
         // The order is not seen from two meshes, so half of what is corrected stays in warning.
         let left = (0.5 * largest).max(LEAST_LEFT);
         Self { correction, left }

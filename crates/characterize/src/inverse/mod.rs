@@ -15,6 +15,7 @@
 
 mod body;
 mod correlations;
+mod curved_contact;
 mod curves;
 mod description;
 mod expected;

@@ -8,23 +8,29 @@
 //! tetrahedra that fill its mesh, and that of the piece by axisymmetric elements. The tetrahedra are too stiff at the edge
 //! of the patch; the same patch on a cube, whose compliance is known, corrects that.
 //!
+//! Under a sphere or a cone the curvature of the organ moves the depths as well (`curved_contact.rs`), by the mean of what
+//! is fitted to patches of the surface a little wider than the contact.
+//!
 //! *How we know*: `organ::…`: a hemisphere by axisymmetric elements; runs of the whole organ at finite strain.
 //!
-//! *Limits*: flat punches, for the curvature of the organ under a sphere or a cone is not taken into account; where the
-//! organ is hardly thicker or wider than the contact, or bends as a whole by much more than the depth, what is far from the
+//! *Limits*: where the organ is hardly thicker or wider than the contact, or bends as a whole by much more than the depth, what is far from the
 //! indenter is strained too: [`FarField::share`] says how much of the depth it is.
 
 use std::sync::Arc;
 
 use palpate_files::scene::Region;
-use palpate_geometry::{Surface, TetrahedronMesh, TriangleId, closest_on_triangle};
+use palpate_geometry::{PatchField, Surface, TetrahedronMesh, TriangleId, closest_on_triangle};
 use palpate_mechanics::contact::{Friction, FrictionLaw};
 use palpate_mechanics::finite_elements::indentation::{
     Base, Block, IndentationProblem, Indenter, IndenterShape, Side, solve,
 };
-use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve_at};
+use palpate_mechanics::finite_elements::solid::{
+    Body as Solid, Loads, MovedPatch, SolidProblem, solve_at,
+};
 use palpate_mechanics::{LinearElastic, Vec3};
 
+use super::body::Body;
+use super::curved_contact::CurvedContact;
 use crate::Error;
 
 /// An organ, and where an indenter meets it.
@@ -47,6 +53,8 @@ pub struct FarField {
     pub share: f64,
     /// Part of the force that the elements may be off, and that what is far is strained by more than a little [-].
     pub error: f64,
+    /// What the organ's curvature does to the depth under a sphere or a cone.
+    pub(super) contact: Option<CurvedContact>,
 }
 
 /// Poisson's ratio of tissue at small strain [-], and Young's modulus for a shear modulus of one.
@@ -70,14 +78,27 @@ const LEAST: f64 = 0.005;
 /// Error of the force over the share of the depth, because what is far is taken for linear [-]: on a hemisphere, under
 /// punches of a tenth and a twentieth of its radius that go in by 1.5 and 2 radii, up to 2.2 % of 7.7 % and 0.9 % of 3.8 %.
 const FINITE: f64 = 0.25;
+/// Radii of the patches whose curvature is taken, over that of the contact [-]; the second shows how it changes.
+const PATCHES: [f64; 2] = [1.5, 2.5];
 
 impl Organ {
-    /// How much more it gives way under a contact of `radius` [m] than the piece `block`.
+    /// How much more it gives way than the large piece `body` where that is pressed to `deepest` [m].
     ///
     /// # Errors
-    /// When the place is not on the surface, nothing is fixed, or see [`solve_at`].
-    pub fn far_field(&self, block: &Block, radius: f64) -> Result<FarField, Error> {
-        let (center, inward) = self.place(radius)?;
+    /// When the body is a layer or a tube, or under a flat punch without friction; when the place is not on the surface,
+    /// or is fixed; when the organ is too hollow for the indenter; or see [`solve_at`].
+    pub fn far_field(&self, body: &Body, deepest: f64) -> Result<FarField, Error> {
+        let Body::Block { block, indenter } = body else {
+            return Err(Error::OrganBody);
+        };
+        let is_flat = matches!(indenter.shape, IndenterShape::Flat { .. });
+        if is_flat && indenter.face == FrictionLaw::Frictionless {
+            return Err(Error::OrganFriction);
+        }
+        let radius = indenter.contact_radius(deepest);
+        let place = self.place(indenter.radius, radius)?;
+        let (center, inward) = (place.center, place.inward);
+        let (contact, of_curvature) = self.contact(indenter, &place, (radius, deepest))?;
         let half = HALF * radius;
         let law = Arc::new(LinearElastic::new(YOUNG, RATIO)?);
         let under = |center: Vec3, inward: Vec3| MovedPatch {
@@ -87,7 +108,7 @@ impl Organ {
             friction: Friction::Bonded,
         };
         let organ = SolidProblem {
-            body: Body::Surface(self.surface.clone()),
+            body: Solid::Surface(self.surface.clone()),
             anchor: self.fixed.clone(),
             patch: Some(under(center, inward)),
             law: law.clone(),
@@ -99,7 +120,7 @@ impl Organ {
         let corner = Vec3::repeat(half);
         let mesh = TetrahedronMesh::block(-corner, corner, [CELLS; 3]);
         let cube = SolidProblem {
-            body: Body::Volume(mesh.expect("a cube has a volume")),
+            body: Solid::Volume(mesh.expect("a cube has a volume")),
             anchor: below(-0.999 * half),
             patch: Some(under(half * Vec3::z(), -Vec3::z())),
             ..organ.clone()
@@ -141,39 +162,79 @@ impl Organ {
         Ok(FarField {
             compliance: further,
             share,
-            error: elements + FINITE * share.abs(),
+            error: elements + FINITE * share.abs() + of_curvature,
+            contact,
         })
     }
 
-    /// The point of the surface that is nearest to the place, and the mean direction into the organ around it.
-    fn place(&self, radius: f64) -> Result<(Vec3, Vec3), Error> {
-        let mesh = self.surface.mesh();
-        let nearest = |triangle: TriangleId, to: &Vec3| {
-            closest_on_triangle(&mesh.positions(triangle), to).position
+    /// What the curvature does under a round indenter, and the part of the force that this may be off [-].
+    fn contact(
+        &self,
+        indenter: &Indenter,
+        place: &Place,
+        (radius, deepest): (f64, f64),
+    ) -> Result<(Option<CurvedContact>, f64), Error> {
+        let of_patch = |size: f64| {
+            let field = PatchField::new(&self.surface, size * radius);
+            let patch = field.at(&self.surface, place.triangle, &place.barycentric);
+            // The eigenvalue of the normal is zero.
+            let mean = 0.5 * patch.curvature.trace();
+            let away = (0.5 * patch.curvature.norm_squared() - mean * mean).max(0.0);
+            let away = away.sqrt();
+            CurvedContact::of(indenter, [mean + away, mean - away], radius)
         };
-        let all = || mesh.triangle_ids();
-        let points = all().map(|triangle| nearest(triangle, &self.location));
+        let [Some(near), Some(wide)] = [of_patch(PATCHES[0])?, of_patch(PATCHES[1])?] else {
+            return Ok((None, 0.0));
+        };
+        let moved = near.depth(deepest) / deepest - 1.0;
+        let changes = wide.depth(deepest) / deepest - 1.0 - moved;
+        let error = near.exponent() * (FINITE * moved.abs() + changes.abs());
+        Ok((Some(near), error))
+    }
+
+    /// The point of the surface that is nearest to the place, if within `reach` [m], and the mean direction into the organ
+    /// within `radius` [m] of it.
+    fn place(&self, reach: f64, radius: f64) -> Result<Place, Error> {
+        let mesh = self.surface.mesh();
+        let nearest =
+            |triangle: TriangleId, to: &Vec3| closest_on_triangle(&mesh.positions(triangle), to);
+        let all = mesh.triangle_ids();
+        let points = all.map(|triangle| (triangle, nearest(triangle, &self.location)));
         let from = |point: &Vec3| (point - self.location).norm();
-        let center = points.min_by(|a, b| from(a).total_cmp(&from(b)));
-        let center = center.ok_or(Error::NothingFelt)?;
-        if from(&center) > radius {
+        let (triangle, point) = points
+            .min_by(|a, b| from(&a.1.position).total_cmp(&from(&b.1.position)))
+            .ok_or(Error::NothingFelt)?;
+        let center = point.position;
+        if from(&center) > reach {
             return Err(Error::OffMesh {
                 distance: from(&center),
                 nearest: center.into(),
             });
         }
-        let under = all().filter(|triangle| (nearest(*triangle, &center) - center).norm() < radius);
-        let inward = under.map(|triangle| {
-            let [a, b, c] = mesh.positions(triangle);
-            (c - a).cross(&(b - a))
-        });
+        let touched =
+            |triangle: &TriangleId| (nearest(*triangle, &center).position - center).norm() < radius;
+        let under = mesh.triangle_ids().filter(touched);
+        let inward = under.map(|triangle| -mesh.area_vector(triangle));
         let inward: Vec3 = inward.sum();
         let inward = inward.try_normalize(0.0).ok_or(Error::NothingFelt)?;
         if self.fixed.holds(center.into()) {
             return Err(Error::PressedWhereFixed);
         }
-        Ok((center, inward))
+        Ok(Place {
+            triangle,
+            barycentric: point.barycentric,
+            center,
+            inward,
+        })
     }
+}
+
+/// Where an indenter touches an organ.
+struct Place {
+    triangle: TriangleId,
+    barycentric: [f64; 3],
+    center: Vec3,
+    inward: Vec3,
 }
 
 /// What lies below a height [m].

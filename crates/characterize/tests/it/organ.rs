@@ -40,10 +40,7 @@ fn hemisphere() -> Organ {
 }
 
 fn far_field(body: &Body) -> FarField {
-    let Body::Block { block, .. } = body else {
-        panic!("a punch is pressed into a block");
-    };
-    hemisphere().far_field(block, RADIUS).unwrap()
+    hemisphere().far_field(body, RADIUS).unwrap()
 }
 
 /// Judge: axisymmetric elements, 1.079 of the half-space for a patch of 5 mm on a hemisphere of 50 mm, and 1.000 on the
@@ -106,7 +103,7 @@ fn elastic(
 
 /// Of each parameter, how many of `seeds` recordings with noise of 1 % of the largest force hold it in the interval of
 /// 95 %.
-fn held(law: SoughtLaw, deepest: f64, seeds: u64) -> Vec<usize> {
+fn held(law: SoughtLaw, body: Body, deepest: f64, seeds: u64) -> Vec<usize> {
     let (modulus, shape) = (
         731.0,
         if law == SoughtLaw::NeoHookean {
@@ -115,9 +112,8 @@ fn held(law: SoughtLaw, deepest: f64, seeds: u64) -> Vec<usize> {
             vec![4.7]
         },
     );
-    let body = Body::under_punch(RADIUS);
     let curve = elastic(&body, law, modulus, &shape, deepest);
-    let far = far_field(&body);
+    let far = hemisphere().far_field(&body, deepest).unwrap();
     let mut curves = Curves::new(body, law, deepest).in_organ(far);
     let series = PronySeries::default();
     let time: Vec<f64> = (0..=200).map(|i| 0.01 * f64::from(i)).collect();
@@ -150,7 +146,15 @@ fn held(law: SoughtLaw, deepest: f64, seeds: u64) -> Vec<usize> {
 /// Judge: forces of axisymmetric elements at finite strain, to as deep as the punch is wide.
 #[test]
 fn a_modulus_on_a_hemisphere_is_within_its_interval() {
-    let held = held(SoughtLaw::NeoHookean, RADIUS, 1);
+    let held = held(SoughtLaw::NeoHookean, Body::under_punch(RADIUS), RADIUS, 1);
+    assert_eq!(held, [1]);
+}
+
+/// The same under a sphere, which is felt 5 % softer on a hemisphere of ten times its radius than on a plane.
+#[test]
+fn a_modulus_on_a_hemisphere_is_within_its_interval_under_a_sphere() {
+    let body = Body::under_sphere(RADIUS);
+    let held = held(SoughtLaw::NeoHookean, body, 0.4 * RADIUS, 1);
     assert_eq!(held, [1]);
 }
 
@@ -159,8 +163,17 @@ fn a_modulus_on_a_hemisphere_is_within_its_interval() {
 #[ignore = "slow: finite elements of a hemisphere on four meshes"]
 fn intervals_on_a_hemisphere_hold_the_truth() {
     for law in [SoughtLaw::NeoHookean, SoughtLaw::Ogden(Terms::One)] {
-        let held = held(law, RADIUS, 100);
-        assert!(held.iter().all(|held| *held >= 90), "{law:?} {held:?}");
+        for (body, deepest) in [
+            (Body::under_punch(RADIUS), RADIUS),
+            (Body::under_sphere(RADIUS), 0.4 * RADIUS),
+            (Body::under_cone(1.2, 0.4 * RADIUS), 0.4 * RADIUS),
+        ] {
+            let held = held(law, body, deepest, 100);
+            assert!(
+                held.iter().all(|held| *held >= 90),
+                "{law:?} {body:?} {held:?}"
+            );
+        }
     }
 }
 
@@ -219,15 +232,12 @@ fn real_kidney_returns_its_tissue() {
             .force_along
     });
     let body = Body::under_punch(RADIUS);
-    let Body::Block { block, .. } = body else {
-        panic!("a punch is pressed into a block");
-    };
     let organ = Organ {
         surface,
         fixed,
         location,
     };
-    let far = organ.far_field(&block, RADIUS).unwrap();
+    let far = organ.far_field(&body, RADIUS).unwrap();
     let mut curves = Curves::new(body, law, depths[2]).in_organ(far);
     let time = [1.0, 2.0, 3.0];
     let indentation = [Indentation::new(&time, &depths, &forces)];
@@ -242,18 +252,15 @@ fn real_kidney_returns_its_tissue() {
 #[test]
 fn a_place_off_the_mesh_is_refused() {
     let body = Body::under_punch(RADIUS);
-    let Body::Block { block, .. } = body else {
-        panic!("a punch is pressed into a block");
-    };
     let mut organ = hemisphere();
     organ.location = Vec3::new(0.0, 0.0, 50.0);
-    let refused = organ.far_field(&block, RADIUS).unwrap_err();
+    let refused = organ.far_field(&body, RADIUS).unwrap_err();
     assert!(
         refused.is_input() && refused.to_string().contains("check the unit"),
         "{refused}"
     );
     organ.location = Vec3::new(0.0, 0.0, 0.0);
-    let refused = organ.far_field(&block, RADIUS).unwrap_err();
+    let refused = organ.far_field(&body, RADIUS).unwrap_err();
     assert_eq!(refused, Error::PressedWhereFixed);
 }
 
@@ -278,7 +285,7 @@ fn a_recording_of_an_organ_needs_its_mesh() {
         fixed: Some(hemisphere().fixed),
         ..RecordingHeader::default()
     };
-    let mut recording = [clean(
+    let recording = [clean(
         &Recording::new(header, samples).unwrap(),
         &CleanSettings::default(),
     )
@@ -291,14 +298,11 @@ fn a_recording_of_an_organ_needs_its_mesh() {
     let found = characterize(&recording, &settings, &mut |_| ());
     assert_eq!(found.laws[0].1, Err(Error::NoMesh));
     let organ = Some(Ok(hemisphere()));
-    let found = characterize_organ(&recording, organ.clone(), &settings, &mut |_| ());
+    let found = characterize_organ(&recording, organ, &settings, &mut |_| ());
     assert!(found.laws[0].1.is_ok(), "{:?}", found.laws[0].1);
     assert!(
         !found.warnings.iter().any(|own| own.contains("thickness_m")),
         "{:?}",
         found.warnings
     );
-    recording[0].header.indenter_shape = Some(IndenterShape::Sphere);
-    let found = characterize_organ(&recording, organ, &settings, &mut |_| ());
-    assert_eq!(found.laws[0].1, Err(Error::OrganIndenter));
 }
