@@ -28,6 +28,8 @@ pub(crate) struct Neighbour {
     /// Its normals as each tool feels them.
     patches: Vec<PatchField>,
     radius: f64,
+    /// Coulomb's coefficient between it and the organ [-].
+    pub(crate) friction: f64,
     /// The force on a tip per depth [N/m].
     pub(crate) stiffness: f64,
 }
@@ -61,6 +63,7 @@ impl Neighbour {
                         .map(|tool| PatchField::new(&surface, tool.shaft_radius()))
                         .collect(),
                     radius: radius_of_hemisphere(&surface),
+                    friction: neighbour.friction,
                     stiffness: neighbour.stiffness_n_per_m,
                     surface,
                 });

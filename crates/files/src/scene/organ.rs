@@ -64,6 +64,8 @@ pub struct Neighbour {
     pub location: Location,
     /// Whether tools stop at it.
     pub collides: bool,
+    /// Coulomb's coefficient between it and an organ of the nonlinear model [-].
+    pub friction: f64,
     /// The force on a tip per depth in it [N/m].
     pub stiffness_n_per_m: f64,
 }
@@ -249,6 +251,12 @@ impl Neighbour {
             "Whether it stops the tips of tools and an organ of the nonlinear model.",
         )
         .default("false"),
+        Key::number(
+            "friction",
+            Domain::FRICTION,
+            "Coulomb's coefficient between it and an organ of the nonlinear model, if it collides.",
+        )
+        .default("0.0"),
         // What a loop at 1 kHz displays without trembling on the devices of `docs/devices.md`.
         Key::number(
             "stiffness_n_per_m",
@@ -267,6 +275,7 @@ impl Neighbour {
                 scale: keys.number("scale")?.unwrap_or(1.0),
             },
             collides: keys.truth("collides")?.unwrap_or(false),
+            friction: keys.number("friction")?.unwrap_or(0.0),
             stiffness_n_per_m: keys.number("stiffness_n_per_m")?.unwrap_or(RIGID_STIFFNESS),
         })
     }

@@ -1,7 +1,7 @@
 //! Forces of tools and of unilateral contacts that belong together.
 //!
 //! ```text
-//! w = S x + q,   w = 0 in the rows of tools,   x ≥ 0, w ≥ 0, x w = 0 in the rows of contacts
+//! w = S x + q,   w = 0 in bilateral rows,   x ≥ 0, w ≥ 0, x w = 0 in unilateral rows,   x = 0 in open rows
 //! ```
 //!
 //! with S symmetric and positive: the contacts that bear are found by block principal pivoting, which goes over to single
@@ -16,6 +16,17 @@ const MOST_SOLUTIONS: usize = 50;
 /// What is taken as zero, over the largest entry [-].
 const ZERO: f64 = 1e-9;
 
+/// What holds in a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// w = 0.
+    Bilateral,
+    /// x ≥ 0, w ≥ 0, x w = 0.
+    Unilateral,
+    /// x = 0.
+    Open,
+}
+
 /// The problem, its solution and the factors of its bearing part.
 #[derive(Debug, Clone)]
 pub(super) struct Complementarity {
@@ -23,6 +34,7 @@ pub(super) struct Complementarity {
     matrix: Vec<f64>,
     pub(super) q: Vec<f64>,
     pub(super) x: Vec<f64>,
+    pub(super) kinds: Vec<Kind>,
     pub(super) bears: Vec<bool>,
     is_infeasible: Vec<bool>,
     /// The rows that bear, and S of these = L Lᵀ.
@@ -38,6 +50,7 @@ impl Complementarity {
             matrix: vec![0.0; room * room],
             q: vec![0.0; room],
             x: vec![0.0; room],
+            kinds: vec![Kind::Unilateral; room],
             bears: vec![false; room],
             is_infeasible: vec![false; room],
             free: Vec::with_capacity(room),
@@ -55,10 +68,16 @@ impl Complementarity {
         self.matrix[row * self.room + column]
     }
 
-    /// Solves for the first `count` rows, of which the first `tools` are tools'; `bears` is where it begins. Whether it
-    /// was solved; if not, the last trial stands, without forces that pull, or nothing where S is not positive.
-    pub(super) fn solve(&mut self, tools: usize, count: usize) -> bool {
-        self.bears[..tools].fill(true);
+    /// Solves for the first `count` rows; `bears` is where the unilateral ones begin. Whether it was solved; if not, the
+    /// last trial stands, without forces that pull, or nothing where S is not positive.
+    pub(super) fn solve(&mut self, count: usize) -> bool {
+        for (bears, kind) in self.bears.iter_mut().zip(&self.kinds[..count]) {
+            match kind {
+                Kind::Bilateral => *bears = true,
+                Kind::Unilateral => {}
+                Kind::Open => *bears = false,
+            }
+        }
         let (mut fewest, mut patience) = (count + 1, PATIENCE);
         for _ in 0..MOST_SOLUTIONS {
             if !self.factor(count) {
@@ -73,7 +92,7 @@ impl Complementarity {
             for (k, &row) in self.free.iter().enumerate() {
                 self.x[row] = self.right[k];
             }
-            let (number, last) = self.infeasible(tools, count);
+            let (number, last) = self.infeasible(count);
             if number == 0 {
                 return true;
             }
@@ -85,19 +104,18 @@ impl Complementarity {
                 self.bears[last] = !self.bears[last];
                 continue;
             }
-            for row in tools..count {
+            for row in 0..count {
                 self.is_infeasible[row] = self.violates(row, count);
             }
-            for (bears, is_infeasible) in self.bears[tools..count]
-                .iter_mut()
-                .zip(&self.is_infeasible[tools..])
-            {
+            for (bears, is_infeasible) in self.bears[..count].iter_mut().zip(&self.is_infeasible) {
                 *bears ^= is_infeasible;
             }
         }
-        self.x[tools..count]
-            .iter_mut()
-            .for_each(|x| *x = x.max(0.0));
+        for (x, kind) in self.x.iter_mut().zip(&self.kinds[..count]) {
+            if *kind == Kind::Unilateral {
+                *x = x.max(0.0);
+            }
+        }
         false
     }
 
@@ -119,9 +137,9 @@ impl Complementarity {
     }
 
     /// How many rows are infeasible, and the last of them.
-    fn infeasible(&self, tools: usize, count: usize) -> (usize, usize) {
+    fn infeasible(&self, count: usize) -> (usize, usize) {
         let (mut number, mut last) = (0, 0);
-        for row in tools..count {
+        for row in 0..count {
             if self.violates(row, count) {
                 (number, last) = (number + 1, row);
             }
@@ -129,7 +147,32 @@ impl Complementarity {
         (number, last)
     }
 
+    /// w of a row of the first `count`.
+    pub(super) fn left(&self, row: usize, count: usize) -> f64 {
+        let entries = &self.matrix[row * self.room..][..count];
+        let sum: f64 = entries.iter().zip(&self.x).map(|(s, x)| s * x).sum();
+        sum + self.q[row]
+    }
+
+    /// Makes w of a row zero by its own x.
+    pub(super) fn relax(&mut self, row: usize, count: usize) {
+        self.x[row] -= self.left(row, count) / self.get(row, row);
+    }
+
+    /// Takes a step that makes w of two rows smaller by their own x, which begin at `first`.
+    pub(super) fn relax_pair(&mut self, first: usize, count: usize) {
+        let second = first + 1;
+        let own = self.get(first, first).max(self.get(second, second));
+        let size = own + self.get(first, second).abs();
+        let left = [first, second].map(|row| self.left(row, count));
+        self.x[first] -= left[0] / size;
+        self.x[second] -= left[1] / size;
+    }
+
     fn violates(&self, row: usize, count: usize) -> bool {
+        if self.kinds[row] != Kind::Unilateral {
+            return false;
+        }
         let zero = |values: &[f64]| {
             let largest = values[..count]
                 .iter()
@@ -139,9 +182,7 @@ impl Complementarity {
         if self.bears[row] {
             self.x[row] < zero(&self.x)
         } else {
-            let entries = &self.matrix[row * self.room..][..count];
-            let sum: f64 = entries.iter().zip(&self.x).map(|(s, x)| s * x).sum();
-            sum + self.q[row] < zero(&self.q)
+            self.left(row, count) < zero(&self.q)
         }
     }
 
@@ -187,7 +228,7 @@ impl Complementarity {
 
 #[cfg(test)]
 mod tests {
-    use super::Complementarity;
+    use super::{Complementarity, Kind};
 
     /// A number in [-1, 1) of a linear congruential sequence.
     fn draw(state: &mut u64) -> f64 {
@@ -205,6 +246,7 @@ mod tests {
             for trial in 0..20 {
                 let tools = count.min(trial % 7);
                 let mut problem = Complementarity::new(64);
+                problem.kinds[..tools].fill(Kind::Bilateral);
                 let root: Vec<f64> = (0..count * count).map(|_| draw(&mut random)).collect();
                 for i in 0..count {
                     for j in 0..count {
@@ -216,7 +258,7 @@ mod tests {
                     problem.q[i] = draw(&mut random);
                     problem.bears[i] = draw(&mut random) > 0.0;
                 }
-                assert!(problem.solve(tools, count));
+                assert!(problem.solve(count));
                 for i in 0..count {
                     let w: f64 = (0..count).map(|j| *problem.at(i, j) * problem.x[j]).sum();
                     let (w, x) = (w + problem.q[i], problem.x[i]);

@@ -1,4 +1,5 @@
-//! The conditions of a step and their forces: those of tools, which hold, and those of contacts, which bear or are open.
+//! The conditions of a step and their forces: those of tools, which hold, and those of contacts, which bear or are open,
+//! stick or slide (`friction`).
 //!
 //! What bears is found once in a step, with the forces of the tools, by the compliance of the body at rest, turned with
 //! the body ([`Complementarity`]); the conjugate gradients are projected onto these conditions. Forces, and what bears, are
@@ -7,7 +8,7 @@
 //! some ten columns.
 
 use super::complementarity::Complementarity;
-use super::contact::{Contacts, MOST_CONTACTS, UnilateralContact};
+use super::contact::{Contacts, MOST_CONTACTS, ROWS, Rubbed, UnilateralContact};
 use super::coupling::{Coupling, Rows, influence};
 use super::model::NonlinearModel;
 use super::state::NonlinearState;
@@ -45,15 +46,20 @@ impl<'a> Conditions<'a> {
 /// All conditions of a step: rows of tools, then of contacts.
 #[derive(Debug, Clone)]
 pub(super) struct Constraints {
-    tools: Rows,
-    contacts: Contacts,
-    problem: Complementarity,
+    pub(super) tools: Rows,
+    pub(super) contacts: Contacts,
+    pub(super) problem: Complementarity,
     /// Forces, the direction of the iterations, and a change of either [N].
-    force: Vec<f64>,
+    pub(super) force: Vec<f64>,
     direction: Vec<f64>,
-    t: Vec<f64>,
+    pub(super) t: Vec<f64>,
     /// How far conditions are violated [m].
-    violation: Vec<f64>,
+    pub(super) violation: Vec<f64>,
+    /// What they lack without any force of contacts [m].
+    pub(super) known: Vec<f64>,
+    /// Forces in the rows that slide [N]; zero in the others.
+    pub(super) slid: Vec<f64>,
+    pub(super) remembered: Vec<(u32, Rubbed)>,
     /// The contacts that have columns of Z, and these; three values a node [m/N].
     with_columns: Vec<usize>,
     columns: Vec<f32>,
@@ -65,7 +71,8 @@ pub(super) struct Constraints {
 
 impl Constraints {
     pub(super) fn new(model: &NonlinearModel, tools: usize) -> Self {
-        let (rows, size) = (3 * tools + MOST_CONTACTS, 3 * model.nodes().len());
+        let rows = 3 * tools + ROWS * MOST_CONTACTS;
+        let size = 3 * model.nodes().len();
         Self {
             tools: Rows::new(model, tools),
             contacts: Contacts::new(model.nodes().len()),
@@ -74,6 +81,9 @@ impl Constraints {
             direction: vec![0.0; rows],
             t: vec![0.0; rows],
             violation: vec![0.0; rows],
+            known: vec![0.0; rows],
+            slid: vec![0.0; rows],
+            remembered: Vec::with_capacity(MOST_CONTACTS),
             with_columns: Vec::with_capacity(MOST_COLUMNS),
             columns: vec![0.0; MOST_COLUMNS * size],
             load: vec![0.0; size],
@@ -82,7 +92,7 @@ impl Constraints {
         }
     }
 
-    fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         self.tools.rows.len() + self.contacts.listed.len()
     }
 
@@ -100,7 +110,7 @@ impl Constraints {
         } = conditions;
         self.tools.list(couplings);
         self.tools.prepare(body, couplings);
-        self.contacts.prepare(body.model, contacts, body.rotations);
+        self.contacts.prepare(body, contacts, state);
         let tools = self.tools.rows.len();
         for i in 0..tools {
             for j in 0..tools {
@@ -121,8 +131,15 @@ impl Constraints {
                 *self.problem.at(tools + other, row) = shared;
             }
             *self.problem.at(row, row) += contact.compliance;
-            self.force[row] = state.pressed[contact.point as usize];
+            self.force[row] = if number < self.contacts.normals() {
+                state.pressed[contact.point as usize]
+            } else {
+                contact
+                    .normal
+                    .dot(&state.rubbed[contact.point as usize].force)
+            };
         }
+        self.begin_kinds(state);
         for (force, row) in self.force.iter_mut().zip(&self.tools.rows) {
             *force = state.tools[row.tool].force.dot(&row.direction);
         }
@@ -232,7 +249,11 @@ impl Constraints {
     }
 
     /// Keeps the forces in `state`.
-    pub(super) fn remember(&self, couplings: &[Option<Coupling<'_>>], state: &mut NonlinearState) {
+    pub(super) fn remember(
+        &mut self,
+        couplings: &[Option<Coupling<'_>>],
+        state: &mut NonlinearState,
+    ) {
         for (coupling, memory) in couplings.iter().zip(&mut state.tools) {
             memory.force = Vec3::zeros();
             memory.is_coupled = coupling.is_some();
@@ -249,33 +270,7 @@ impl Constraints {
                 }
             }
         }
-        state.pressed.fill(0.0);
-        let forces = &self.force[self.tools.rows.len()..];
-        for (contact, force) in self.contacts.listed.iter().zip(forces) {
-            state.pressed[contact.point as usize] = *force;
-        }
-    }
-
-    /// Forces for what the conditions lack where these do not change; the changes into `t`.
-    fn solve_forces(&mut self) {
-        let (count, tools) = (self.count(), self.tools.rows.len());
-        for row in 0..count {
-            let carried =
-                (tools..count).map(|column| self.problem.get(row, column) * self.force[column]);
-            self.problem.q[row] = self.violation[row] - carried.sum::<f64>();
-        }
-        for (bears, force) in self.problem.bears[tools..count]
-            .iter_mut()
-            .zip(&self.force[tools..])
-        {
-            *bears = *force > 0.0;
-        }
-        self.problem.solve(tools, count);
-        for row in 0..count {
-            let before = if row < tools { 0.0 } else { self.force[row] };
-            self.t[row] = self.problem.x[row] - before;
-            self.force[row] += self.t[row];
-        }
+        self.remember_contacts(state);
     }
 
     /// Finds the columns of Z of the contacts that bear, or did before, if these are few enough.

@@ -1,4 +1,4 @@
-//! Rigid bodies that the boundary stays out of, without friction.
+//! Rigid bodies that the boundary stays out of, with Coulomb's friction.
 //!
 //! Three points of each face, those of a quadrature, stay out of half-spaces, through a small compliance c of their own:
 //!
@@ -6,13 +6,22 @@
 //! g = n · u + o + c λ,   λ ≥ 0, g ≥ 0, λ g = 0
 //! ```
 //!
-//! A contact that is smaller than a face is not resolved.
+//! A point that bears and sticks keeps its anchor a, through the same compliance; the force τ along the surface stays
+//! within the cone, and the anchor goes along where it slides:
+//!
+//! ```text
+//! e · (u − a) + c τ = 0,   |τ| ≤ μ λ
+//! ```
+//!
+//! A contact that is smaller than a face is not resolved. A point that begins to bear has friction from the next step on.
 
 use palpate_geometry::TetrahedronMesh;
 
 use super::boundary::shape_on_face;
+use super::constraints::Turned;
 use super::law::Moduli;
 use super::model::NonlinearModel;
+use super::state::NonlinearState;
 use crate::Vec3;
 use crate::finite_elements::solid::faces;
 
@@ -25,6 +34,9 @@ const FAR: f64 = 1.0 / 6.0;
 
 /// c times the area over 1/E, in lengths of an edge [-]: a point that bears a tenth of E is that part of a tenth of an edge deep.
 const SOFTNESS: f64 = 0.005;
+
+/// Directions of a contact with friction.
+pub(super) const ROWS: usize = 3;
 
 /// Nodes of a point.
 const NODES: usize = 6;
@@ -50,6 +62,18 @@ pub struct UnilateralContact {
     pub normal: Vec3,
     /// Distance of the point at rest from the half-space [m]; negative inside.
     pub offset: f64,
+    /// Coulomb's coefficient μ [-].
+    pub friction: f64,
+}
+
+/// What a point of the boundary remembers of the friction on it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Rubbed {
+    /// Force along the surface, on the body [N].
+    pub(super) force: Vec3,
+    /// The displacement of the point at which it would bear none [m].
+    pub(super) anchor: Vec3,
+    pub(super) slides: bool,
 }
 
 impl BoundaryPoint {
@@ -74,20 +98,25 @@ impl BoundaryPoint {
 
     /// Where it is displaced to [m] where the nodes have the `displacements` [m].
     pub fn displacement(&self, displacements: &[f64]) -> Vec3 {
-        let nodes = self.nodes.iter();
-        nodes
-            .map(|&(node, weight)| {
-                let u = &displacements[3 * node as usize..][..3];
-                weight * Vec3::new(u[0], u[1], u[2])
-            })
-            .sum()
+        mean(&self.nodes, displacements)
     }
+}
+
+/// The weighted sum of the `values` of some nodes.
+fn mean(nodes: &[(u32, f64)], values: &[f64]) -> Vec3 {
+    let each = nodes.iter().map(|&(node, weight)| {
+        let value = &values[3 * node as usize..][..3];
+        weight * Vec3::new(value[0], value[1], value[2])
+    });
+    each.sum()
 }
 
 /// The contacts of a step.
 #[derive(Debug, Clone)]
 pub(super) struct Contacts {
+    /// Those along the normals, then those along the surface, in pairs.
     pub(super) listed: Vec<Contact>,
+    pub(super) rubs: Vec<Rub>,
     /// The nodes of the points, and the place of each node among them.
     nodes: Vec<u32>,
     places: Vec<u32>,
@@ -95,8 +124,18 @@ pub(super) struct Contacts {
     columns: Vec<[f32; 3]>,
 }
 
-/// One of them, with the force λ along `normal`.
-#[derive(Debug, Clone)]
+/// A contact with friction, as its two directions along the surface.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rub {
+    /// Numbers in the list of the contact along the normal, and of the first of the two along the surface.
+    pub(super) normal: usize,
+    pub(super) along: usize,
+    /// μ [-].
+    pub(super) friction: f64,
+}
+
+/// One of them, with the force λ along `normal`: that of the half-space, or a direction along it.
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Contact {
     pub(super) point: u32,
     /// c [m/N].
@@ -119,12 +158,12 @@ impl Contact {
 
     /// n · u + o where the nodes have the `displacements` [m].
     pub(super) fn gap(&self, displacements: &[f64]) -> f64 {
-        let along = self.nodes.iter().map(|&(node, weight)| {
-            let u = &displacements[3 * node as usize..][..3];
-            let along = u.iter().zip(self.normal.iter());
-            weight * along.map(|(u, n)| u * n).sum::<f64>()
-        });
-        self.offset + along.sum::<f64>()
+        self.offset + self.normal.dot(&self.displacement(displacements))
+    }
+
+    /// Where the point is displaced to [m].
+    pub(super) fn displacement(&self, displacements: &[f64]) -> Vec3 {
+        mean(&self.nodes, displacements)
     }
 
     /// Adds a `force` [N] on the body to the forces on all nodes.
@@ -138,26 +177,42 @@ impl Contact {
     }
 }
 
+/// Two directions at right angles to a `normal` and to one another.
+fn tangents(normal: &Vec3) -> [Vec3; 2] {
+    let mut axis = Vec3::zeros();
+    axis[normal.iamin()] = 1.0;
+    let first = normal.cross(&axis).normalize();
+    [first, normal.cross(&first)]
+}
+
 impl Contacts {
     pub(super) fn new(nodes: usize) -> Self {
         Self {
-            listed: Vec::with_capacity(MOST_CONTACTS),
+            listed: Vec::with_capacity(ROWS * MOST_CONTACTS),
+            rubs: Vec::with_capacity(MOST_CONTACTS),
             nodes: Vec::with_capacity(NODES * MOST_CONTACTS),
             places: vec![NOWHERE; nodes],
-            columns: Vec::with_capacity(NODES * MOST_CONTACTS * MOST_CONTACTS),
+            columns: Vec::with_capacity(NODES * MOST_CONTACTS * ROWS * MOST_CONTACTS),
         }
+    }
+
+    /// How many of `listed` are along the normals.
+    pub(super) fn normals(&self) -> usize {
+        self.listed.len() - 2 * self.rubs.len()
     }
 
     /// Lists the `contacts`, the first [`MOST_CONTACTS`] of them, and finds what a force on each moves.
     pub(super) fn prepare(
         &mut self,
-        model: &NonlinearModel,
+        body: Turned<'_>,
         contacts: &[UnilateralContact],
-        rotations: &[[f32; 9]],
+        state: &NonlinearState,
     ) {
+        let Turned { model, rotations } = body;
         self.listed.clear();
-        let contacts = contacts.iter().take(MOST_CONTACTS);
-        self.listed.extend(contacts.map(|contact| {
+        self.rubs.clear();
+        let contacts = &contacts[..contacts.len().min(MOST_CONTACTS)];
+        self.listed.extend(contacts.iter().map(|contact| {
             let point = &model.boundary_points()[contact.point as usize];
             Contact {
                 point: contact.point,
@@ -167,6 +222,27 @@ impl Contacts {
                 offset: contact.offset,
             }
         }));
+        for (normal, contact) in contacts.iter().enumerate() {
+            let bears = state.pressed[contact.point as usize] > 0.0;
+            if bears && contact.friction > 0.0 {
+                let along = self.listed.len();
+                let rubbed = &state.rubbed[contact.point as usize];
+                let [first, second] = tangents(&contact.normal);
+                for direction in [first, second] {
+                    let own = self.listed[normal];
+                    self.listed.push(Contact {
+                        normal: direction,
+                        offset: -direction.dot(&rubbed.anchor),
+                        ..own
+                    });
+                }
+                self.rubs.push(Rub {
+                    normal,
+                    along,
+                    friction: contact.friction,
+                });
+            }
+        }
         for node in self.nodes.drain(..) {
             self.places[node as usize] = NOWHERE;
         }

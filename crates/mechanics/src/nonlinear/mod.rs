@@ -25,6 +25,7 @@ mod constraints;
 mod contact;
 mod coupling;
 mod elements;
+mod friction;
 mod gravity;
 mod kernel;
 mod lanes;

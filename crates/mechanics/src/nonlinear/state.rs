@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Rotation3};
 
+use super::contact::Rubbed;
 use super::coupling::Coupling;
 use super::model::NonlinearModel;
 use super::relaxation::{Relaxation, Remembered};
@@ -26,6 +27,7 @@ pub struct NonlinearState {
     pub(super) tools: Vec<ToolMemory>,
     /// Force of the contact at each point of the boundary [N].
     pub(super) pressed: Vec<f64>,
+    pub(super) rubbed: Vec<Rubbed>,
     /// Stress at the integration points in the past; none where nothing relaxes.
     pub(super) stress: Vec<Remembered<f32>>,
     /// Forces on the nodes by tools that have let go [N], and the steps in which they still act.
@@ -60,6 +62,7 @@ impl NonlinearState {
             rotations: vec![UNTURNED; nodes],
             tools: vec![tool; tools],
             pressed: vec![0.0; model.boundary_points().len()],
+            rubbed: vec![Rubbed::default(); model.boundary_points().len()],
             stress: model
                 .relaxation
                 .as_ref()
@@ -89,6 +92,7 @@ impl NonlinearState {
         }
         self.fading.fill(0.0);
         self.pressed.fill(0.0);
+        self.rubbed.fill(Rubbed::default());
         self.fades = 0;
         self.is_smooth = true;
         for tool in &mut self.tools {
@@ -163,6 +167,13 @@ impl NonlinearState {
         Rotation3::from_matrix_eps(&mean, 1e-9, 20, Rotation3::identity())
     }
 
+    /// Whether friction holds a point of the boundary.
+    pub fn bears_friction(&self) -> bool {
+        self.rubbed
+            .iter()
+            .any(|rubbed| rubbed.force != Vec3::zeros())
+    }
+
     /// Whether no node is displaced from rest by more than `most` [m] along any axis, and no force fades.
     pub fn is_within(&self, model: &NonlinearModel, most: f64) -> bool {
         self.fades == 0 && self.largest(model) <= most
@@ -174,6 +185,14 @@ impl NonlinearState {
     /// When there is no such point.
     pub fn contact_force(&self, point: u32) -> f64 {
         self.pressed[point as usize]
+    }
+
+    /// Force of friction at a point of the boundary [N], on the body.
+    ///
+    /// # Panics
+    /// When there is no such point.
+    pub fn friction_force(&self, point: u32) -> Vec3 {
+        self.rubbed[point as usize].force
     }
 
     /// Force of a tool on the body [N].

@@ -36,6 +36,7 @@ mod linear_system;
 mod no_allocation;
 mod nonlinear;
 mod nonlinear_contact;
+mod nonlinear_friction;
 mod nonlinear_judges;
 mod nonlinear_regions;
 mod nonlinear_relaxation;

@@ -80,6 +80,7 @@ impl Pressed {
                     point: number as u32,
                     normal,
                     offset: distance - normal.dot(&moved),
+                    friction: 0.0,
                 })
             })
             .collect()

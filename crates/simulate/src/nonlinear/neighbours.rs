@@ -1,4 +1,4 @@
-//! Neighbours that the organ stays out of: rigid bodies, without friction.
+//! Neighbours that the organ stays out of: rigid bodies, with Coulomb's friction.
 //!
 //! Each point of the boundary keeps the distance that it has from a neighbour at rest, as far as it lies within it there:
 //! where an organ grows through a neighbour, nothing pushes it out.
@@ -117,6 +117,7 @@ impl Candidates {
                         point: number as u32,
                         normal,
                         offset: gap - normal.dot(&moved),
+                        friction: neighbour.friction,
                     };
                     self.found.push((gap, contact));
                 }

@@ -168,7 +168,8 @@ impl NonlinearOrgan {
         // Rest is where an organ goes that nothing loads; elements that were turned inside out may not find there. What
         // relaxes takes its time.
         let is_late = body.state.largest(&self.model) > SLOWEST_RETURN * before;
-        if is_free && is_late && (ended.is_inverted || !self.model.relaxes()) {
+        let is_held = body.state.bears_friction();
+        if is_free && is_late && !is_held && (ended.is_inverted || !self.model.relaxes()) {
             body.state.shrink(&self.model, SLOWEST_RETURN);
         }
         for (number, (own, target)) in tools.iter_mut().zip(&workspace.targets).enumerate() {

@@ -40,7 +40,7 @@ fn a_sliding_step_allocates_nothing() {
         (
             "nonlinear",
             "slip",
-            "nodes = 400\n[[neighbour]]\nbuiltin = \"cube\"\ncollides = true",
+            "nodes = 400\n[[neighbour]]\nbuiltin = \"cube\"\ncollides = true\nfriction = 0.3",
         ),
         (
             "hybrid",

@@ -9,7 +9,9 @@ use crate::nonlinear::{LIVER, STRONG, displaced, holding};
 use crate::scenes::Setting;
 
 /// A grasper on the esophagus beside a half ball of 15 mm, 5 mm away from it and 15 mm above the place that is pulled.
-fn scene(collides: bool) -> Scene {
+fn scene(friction: Option<f64>) -> Scene {
+    let collides = friction.is_some();
+    let friction = friction.unwrap_or(0.0);
     let setting = Setting {
         organ: "builtin = \"esophagus\"",
         contact: "stick",
@@ -17,7 +19,8 @@ fn scene(collides: bool) -> Scene {
     };
     let text = format!(
         "format = 1\n[organ]\nbuiltin = \"hemisphere\"\nbuiltin_tissue = \"pig-liver\"\n[[neighbour]]\n\
-         builtin = \"hemisphere\"\nscale = 0.3\nturn_deg = [-90, 0, 0]\nat_m = [0.0, -0.0275, 0.015]\ncollides = {collides}\n"
+         builtin = \"hemisphere\"\nscale = 0.3\nturn_deg = [-90, 0, 0]\nat_m = [0.0, -0.0275, 0.015]\ncollides = {collides}\n\
+         friction = {friction:?}\n"
     );
     let beside = Scene::parse(&text, "scene.toml").unwrap();
     Scene {
@@ -34,9 +37,9 @@ struct Pulled {
     moved: f64,
 }
 
-/// The esophagus is pulled aside by 20 mm, past the ball, held for a moment, and let go.
-fn pull(collides: bool) -> Pulled {
-    let scene = scene(collides);
+/// The esophagus is pulled aside by 20 mm, past the ball if it has a `friction`, held for a moment, and let go.
+fn pull(friction: Option<f64>) -> Pulled {
+    let scene = scene(friction);
     let simulation = Simulation::new(&scene).unwrap();
     let (ball, _) = read_neighbour(&scene.neighbours[0]).unwrap();
     let boxes = AabbTree::new(ball.mesh());
@@ -69,11 +72,12 @@ fn deepest(hands: &Hands<'_>, (ball, boxes): (&Surface, &AabbTree)) -> f64 {
 }
 
 /// Judge: the neighbour itself. Without contact the tube goes into it; with contact what is seen lies in it no deeper than
-/// the half ball bulges between two points of the tube's boundary, which are up to 6 mm apart: 0.3 mm. The hand feels it.
+/// the half ball bulges between two points of the tube's boundary, which are up to 6 mm apart: 0.3 mm. The hand feels it, and
+/// with friction more, as the tube slides along the ball; let go, it slides back.
 #[test]
 fn a_pulled_tube_stays_out_of_a_neighbour() {
-    let [free, stopped] = [false, true].map(pull);
-    for pulled in [&free, &stopped] {
+    let [free, stopped, rubbed] = [None, Some(0.0), Some(0.3)].map(pull);
+    for pulled in [&free, &stopped, &rubbed] {
         println!(
             "{:.2} mm deep, {:.3} N, moved {:.1} mm, {:.1e} m left",
             1e3 * pulled.deepest,
@@ -86,4 +90,11 @@ fn a_pulled_tube_stays_out_of_a_neighbour() {
     assert!(stopped.deepest < 0.3e-3, "{}", stopped.deepest);
     assert!(stopped.force.y > 1.05 * free.force.y, "{}", stopped.force);
     assert!(stopped.left < 1e-6, "{}", stopped.left);
+    assert!(rubbed.deepest < 0.3e-3, "{}", rubbed.deepest);
+    assert!(
+        rubbed.force.norm() > 1.02 * stopped.force.norm(),
+        "{}",
+        rubbed.force
+    );
+    assert!(rubbed.left < 1e-4, "{}", rubbed.left);
 }
