@@ -93,12 +93,6 @@ pub enum Error {
         /// The least that is fitted [m].
         least: f64,
     },
-    /// An organ with a mesh under a punch without friction.
-    #[error(
-        "an organ's `mesh` is fitted under a punch that tissue sticks to alone; leave `indenter_friction` out, or leave `mesh` out \
-         and state the thickness under the indenter, `thickness_m`"
-    )]
-    OrganFriction,
     /// The mesh of an organ is none.
     #[error("{why}")]
     UnreadMesh {
@@ -305,7 +299,6 @@ impl Error {
             | Self::HollowOrgan
             | Self::NoMesh
             | Self::OrganBody
-            | Self::OrganFriction
             | Self::OrganTooHollow { .. }
             | Self::UnreadMesh { .. }
             | Self::OffMesh { .. }

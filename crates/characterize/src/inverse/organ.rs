@@ -5,7 +5,8 @@
 //!   d = d_piece + γ F/G,
 //! and the curve of the piece becomes that of the organ when its depths are moved, of every law and every shape. γ [1/m] is
 //! the difference of two compliances at small strain: that of the organ under a patch of the contact's size, by
-//! tetrahedra that fill its mesh, and that of the piece by axisymmetric elements. The tetrahedra are too stiff at the edge
+//! tetrahedra that fill its mesh, and that of the piece by axisymmetric elements. Both patches are bonded under any indenter:
+//! without friction incompressible tissue is as stiff. The tetrahedra are too stiff at the edge
 //! of the patch; the same patch on a cube, whose compliance is known, corrects that.
 //!
 //! Under a sphere or a cone the curvature of the organ moves the depths as well (`curved_contact.rs`), by the mean of what
@@ -85,16 +86,11 @@ impl Organ {
     /// How much more it gives way than the large piece `body` where that is pressed to `deepest` [m].
     ///
     /// # Errors
-    /// When the body is a layer or a tube, or under a flat punch without friction; when the place is not on the surface,
-    /// or is fixed; when the organ is too hollow for the indenter; or see [`solve_at`].
+    /// When the body is a layer or a tube; when the place is not on the surface, or is fixed; when the organ is too hollow for the indenter; or see [`solve_at`].
     pub fn far_field(&self, body: &Body, deepest: f64) -> Result<FarField, Error> {
         let Body::Block { block, indenter } = body else {
             return Err(Error::OrganBody);
         };
-        let is_flat = matches!(indenter.shape, IndenterShape::Flat { .. });
-        if is_flat && indenter.face == FrictionLaw::Frictionless {
-            return Err(Error::OrganFriction);
-        }
         let radius = indenter.contact_radius(deepest);
         let place = self.place(indenter.radius, radius)?;
         let (center, inward) = (place.center, place.inward);

@@ -9,9 +9,11 @@ use palpate_files::Recording;
 use palpate_files::recording::{IndenterShape, RecordingHeader, Samples};
 use palpate_files::scene::{Region, RegionPlane};
 use palpate_geometry::{Organ as Builtin, Surface, read_mesh};
-use palpate_mechanics::contact::Friction;
+use palpate_mechanics::contact::{Friction, FrictionLaw};
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
-use palpate_mechanics::finite_elements::indentation::{IndentationRun, IndentationSettings};
+use palpate_mechanics::finite_elements::indentation::{
+    IndentationRun, IndentationSettings, Indenter, IndenterShape as Shape, Side,
+};
 use palpate_mechanics::finite_elements::solid::{
     Body as Solid, Loads, MovedPatch, SolidProblem, solve,
 };
@@ -147,6 +149,35 @@ fn held(law: SoughtLaw, body: Body, deepest: f64, seeds: u64) -> Vec<usize> {
 #[test]
 fn a_modulus_on_a_hemisphere_is_within_its_interval() {
     let held = held(SoughtLaw::NeoHookean, Body::under_punch(RADIUS), RADIUS, 1);
+    assert_eq!(held, [1]);
+}
+
+/// A large piece under a punch that tissue slides along.
+fn under_sliding_punch() -> Body {
+    let Body::Block { block, .. } = Body::under_punch(RADIUS) else {
+        panic!("a punch is pressed into a block");
+    };
+    let face = FrictionLaw::Frictionless;
+    let side = Side::Touches(face);
+    Body::Block {
+        block,
+        indenter: Indenter {
+            shape: Shape::Flat { side },
+            radius: RADIUS,
+            face,
+        },
+    }
+}
+
+/// The same under a punch without friction, as deep as the judge finds equilibria.
+#[test]
+fn a_modulus_on_a_hemisphere_is_within_its_interval_without_friction() {
+    let held = held(
+        SoughtLaw::NeoHookean,
+        under_sliding_punch(),
+        0.2 * RADIUS,
+        1,
+    );
     assert_eq!(held, [1]);
 }
 
