@@ -8,7 +8,8 @@
 //! the tissue too, by 2 % of the range. The most likely sample is the contact. Samples whose −2 log likelihood is larger
 //! by less than 3.84 (the 95 % point of χ² with one degree of freedom), times the factor by which correlation of the noise
 //! widens it, give its standard error, together with the way to the next sample. Where the zero drifts before contact, a line
-//! takes the place of the constant (`drift`).
+//! takes the place of the constant (`drift`). On a layer, where the force under a sphere or a cone is no power of the depth,
+//! half the range between the contacts of the three p is part of the error.
 //!
 //! *How we know*: `contact::…`, on synthetic recordings with known truth at 10 Hz to 1 kHz, linear and
 //! Hertzian.
@@ -18,9 +19,9 @@
 
 use std::ops::Range;
 
-use palpate_files::recording::IndenterShape;
+use palpate_files::recording::{IndenterShape, RecordingHeader, Specimen};
 
-use super::contact_search::{Approach, Baseline, ENOUGH_FOR_DRIFT, Search};
+use super::contact_search::{Approach, Baseline, ENOUGH_FOR_DRIFT, Search, range};
 use super::regression::{Regression, regress};
 use super::{CleanRecording, Oriented, drift, noise};
 use crate::Error;
@@ -122,8 +123,19 @@ pub(crate) fn rising_contact(approach: &Approach, shape: Option<IndenterShape>) 
     best.map_or((0, 0.0), |best| (best.place, best.error))
 }
 
+/// Whether the force rises with another power of the depth than on a half-space: on a layer the growing contact of a
+/// round indenter feels more and more of the base.
+fn is_any_power(header: &RecordingHeader) -> bool {
+    let is_round = matches!(
+        header.indenter_shape,
+        Some(IndenterShape::Sphere | IndenterShape::Cone)
+    );
+    is_round && header.specimen == Some(Specimen::Layer)
+}
+
 /// The contact where the force begins to rise.
-pub(super) fn by_force(samples: &Oriented, shape: Option<IndenterShape>) -> Result<Contact, Error> {
+pub(super) fn by_force(samples: &Oriented, header: &RecordingHeader) -> Result<Contact, Error> {
+    let shape = header.indenter_shape;
     if !noise::stands_out(&samples.force) || rise(&noise::without_spikes(&samples.force)) <= 0.0 {
         return Err(Error::NoContact {
             cause: "the force never rises above its noise",
@@ -134,7 +146,17 @@ pub(super) fn by_force(samples: &Oriented, shape: Option<IndenterShape>) -> Resu
     }
     let (approach, every) = thinned(samples, 0..early_end(&samples.force, EARLY));
     let (place, error) = rising_contact(&approach, shape);
-    Ok(at_sample(samples, place * every, Some(error)))
+    let of_rise = if is_any_power(header) {
+        let any = Search::new(&approach, &RISES, Baseline::Constant).best(1.0);
+        any.map_or(0.0, |any| 0.5 * range(&any.of_rises))
+    } else {
+        0.0
+    };
+    Ok(at_sample(
+        samples,
+        place * every,
+        Some(error.hypot(of_rise)),
+    ))
 }
 
 /// The samples of a range, of many every second, third and so on, and which.

@@ -182,9 +182,7 @@ fn find_contact(
 ) -> Result<Contact, Error> {
     match settings.contact_time_s {
         Some(time) => contact::at(samples, time),
-        None if !recording.begins_at_contact() => {
-            contact::by_force(samples, recording.header.indenter_shape)
-        }
+        None if !recording.begins_at_contact() => contact::by_force(samples, &recording.header),
         None => {
             let stimulus = recording.header.stimulus;
             contact::by_depth(samples, stimulus.is_some_and(StimulusKind::is_of_piece))
