@@ -32,7 +32,8 @@ pub(super) fn parse(
     match header.stimulus {
         Some(StimulusKind::PlanarTension | StimulusKind::UniaxialTension) => {}
         Some(StimulusKind::SimpleShear) => {
-            let expected = "no `simple_shear` of a table of stretches; give displacements and forces";
+            let expected =
+                "no `simple_shear` of a table of stretches; give displacements and forces";
             return Err(keys.bad("stimulus", expected));
         }
         _ => header.stimulus = Some(StimulusKind::Uniaxial),

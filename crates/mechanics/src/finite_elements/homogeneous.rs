@@ -71,12 +71,7 @@ pub fn deformed(
     found.filter(is_number).ok_or(refused)
 }
 
-fn find(
-    law: &dyn Law,
-    how: Homogeneous,
-    amount: f64,
-    free: Option<[f64; 2]>,
-) -> Option<Deformed> {
+fn find(law: &dyn Law, how: Homogeneous, amount: f64, free: Option<[f64; 2]>) -> Option<Deformed> {
     let isotropic = || [0.0, -0.5 * amount.ln()];
     let mut free = match how {
         Homogeneous::Uniaxial => free.unwrap_or_else(isotropic),
@@ -154,13 +149,13 @@ impl State {
         let diagonal = |x: f64, y: f64, z: f64| Matrix3::from_diagonal(&[x, y, z].into());
         let [s, log] = free;
         let wide = log.exp();
-        let thick = 1.0 / (amount * wide);
-        let (f, along) = match how {
-            Homogeneous::SimpleShear => (Matrix3::identity() + amount * shear, shear),
-            _ => (
-                diagonal(amount, wide, thick) + s * shear,
-                diagonal(1.0, 0.0, -thick / amount),
-            ),
+        let (thick, f, along) = match how {
+            Homogeneous::SimpleShear => (1.0, Matrix3::identity() + amount * shear, shear),
+            _ => {
+                let thick = 1.0 / (amount * wide);
+                let f = diagonal(amount, wide, thick) + s * shear;
+                (thick, f, diagonal(1.0, 0.0, -thick / amount))
+            }
         };
         let directions = [shear, diagonal(0.0, wide, -thick)];
         let found = law.distortion(&f);
@@ -171,17 +166,22 @@ impl State {
         let cross = second(first, last);
         // F bends as b does.
         let bent = p.dot(&diagonal(0.0, wide, thick));
-        let bent_along = p[(2, 2)] * thick / amount;
+        let bent_along = match how {
+            Homogeneous::Uniaxial => p[(2, 2)] * thick / amount,
+            _ => 0.0,
+        };
         Self {
             energy: found.energy,
             size: tangent[(0, 0)].abs(),
             stress: p.dot(&along),
             gradient: Vector2::new(p.dot(first), p.dot(last)),
-            hessian: Matrix2::new(second(first, first), cross, cross, second(last, last) + bent),
-            mixed: Vector2::new(
-                second(first, &along),
-                second(last, &along) + bent_along,
+            hessian: Matrix2::new(
+                second(first, first),
+                cross,
+                cross,
+                second(last, last) + bent,
             ),
+            mixed: Vector2::new(second(first, &along), second(last, &along) + bent_along),
             f,
             along,
             directions,

@@ -37,6 +37,8 @@ Examples:
       Young's modulus at each place of a map, with a picture
   palpate characterize liver.csv --law neo_hookean --abaqus liver.inp --febio liver.feb
       material cards for finite element packages
+  palpate characterize along.csv across.csv --out esophagus.toml --abaqus esophagus.inp
+      strips that state `fibre_axis_angle_deg`: the law with fibres, fitted to both
   palpate characterize liver.csv --law neo_hookean --in-loop
       with full viscoelastic finite elements inside the fit, for deep and fast presses
 
@@ -68,7 +70,8 @@ pub(crate) struct Arguments {
     /// Write an HTML report with plots of all results.
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
-    /// Fit this law only; default: the first three, of which the simplest that no other beats is preferred.
+    /// Fit this law only; default: the first three, and of pieces that state how their fibres lie also the last, of which
+    /// the simplest that no other beats is preferred.
     #[arg(long, value_enum)]
     law: Option<Law>,
     /// Number of terms of `ogden` (default 1: mu and alpha) or `reduced_polynomial` (default 2: C10 and C20; 3 is Yeoh's
@@ -104,6 +107,8 @@ enum Law {
     Exponential,
     Ogden,
     ReducedPolynomial,
+    /// With fibres: pieces alone, each with `fibre_axis_angle_deg`
+    HolzapfelGasserOgden,
 }
 
 impl From<Law> for LawName {
@@ -114,6 +119,7 @@ impl From<Law> for LawName {
             Law::Exponential => Self::Exponential,
             Law::Ogden => Self::Ogden,
             Law::ReducedPolynomial => Self::ReducedPolynomial,
+            Law::HolzapfelGasserOgden => Self::HolzapfelGasserOgden,
         }
     }
 }
