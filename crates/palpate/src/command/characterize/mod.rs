@@ -37,8 +37,8 @@ Examples:
       Young's modulus at each place of a map, with a picture
   palpate characterize liver.csv --law neo_hookean --abaqus liver.inp --febio liver.feb
       material cards for finite element packages
-  palpate characterize along.csv across.csv --out esophagus.toml --abaqus esophagus.inp
-      strips that state `fibre_axis_angle_deg`: the law with fibres, fitted to both
+  palpate characterize strip-0.csv strip-45.csv strip-90.csv --out muscle.toml --febio muscle.feb
+      one law with fibres for strips that are cut at several angles to them
   palpate characterize liver.csv --law neo_hookean --in-loop
       with full viscoelastic finite elements inside the fit, for deep and fast presses
 

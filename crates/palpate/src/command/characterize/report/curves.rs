@@ -103,7 +103,14 @@ impl<'a> Shown<'a> {
                 None => Self::named("measured", place),
             };
             let points = scaled(&x, &fit.measured, self.scale.factor);
-            series.push(measured(name, points));
+            // The angles of several pieces are told apart by their colors.
+            series.push(match fit.fibre_axis_angle_deg {
+                Some(_) => Series {
+                    color: place,
+                    ..measured(name, points)
+                },
+                None => measured(name, points),
+            });
             for (color, law) in laws.iter().enumerate() {
                 let Some(curve) = fit.laws.iter().find(|curve| curve.law == **law) else {
                     continue;
