@@ -37,6 +37,17 @@ impl KnownFibres {
     }
 }
 
+/// A fit whose errors are those of all parameters together, also of what ended on a bound: k₁ and k₂ follow the dispersion, and
+/// would look better known than they are. The stress does not change with the angle where that is on its bound.
+pub(super) fn with_all_free(fit: &Fit) -> Fit {
+    let mut free = fit.clone();
+    let each = free.parameters.iter_mut();
+    for own in each.filter(|own| !own.fixed && own.name != "fibre_angle_deg") {
+        (own.lower, own.upper) = (f64::NEG_INFINITY, f64::INFINITY);
+    }
+    free
+}
+
 /// A law with fibres that was found.
 pub(super) struct FibreFit {
     pub(super) fit: Fit,
@@ -72,17 +83,15 @@ pub(super) fn fitted(pieces: &[Measured], known: KnownFibres) -> Result<FibreFit
     let minima = distinct_minima(starts.iter().map(|start| least(start, &some)))?;
     let (best, others) = minima.split_first().ok_or(Error::NothingFelt)?;
     let fit = least(&best.fit.parameters, pieces)?;
-    let undetermined = match directions(pieces) {
-        1 => known.sought(),
-        _ => Vec::new(),
-    };
-    let mut warnings = Vec::new();
-    if !undetermined.is_empty() {
+    let sought = known.sought();
+    let (mut undetermined, mut warnings) = (Vec::new(), Vec::new());
+    if directions(pieces) == 1 && !sought.is_empty() {
+        undetermined = [&["k1_pa", "k2"], &sought[..]].concat();
         warnings.push(format!(
-            "all pieces are loaded in one direction to their fibres, which does not determine {}: they follow from the shape of \
-             one curve alone, and k1_pa and k2 with them; add a piece that is cut in another direction, or state `{}`",
-            undetermined.join(" and "),
-            undetermined.join("` and `")
+            "all pieces are loaded in one direction to their fibres, which does not determine {}, as these replace one another in \
+             the shape of one curve; add a piece that is cut in another direction, or state `{}`",
+            undetermined.join(", "),
+            sought.join("` and `")
         ));
     }
     warnings.extend(others.first().and_then(|other| {

@@ -130,7 +130,12 @@ fn fitted(law: SoughtLaw, pieces: &[Measured], known: KnownFibres) -> Result<Uni
         ));
     }
     let lengths: Vec<usize> = pieces.iter().map(|own| own.stresses.len()).collect();
-    let uncertainty = correlated_uncertainty(&fit, &lengths);
+    let uncertainty = match law {
+        SoughtLaw::HolzapfelGasserOgden => {
+            correlated_uncertainty(&fibres::with_all_free(&fit), &lengths)
+        }
+        _ => correlated_uncertainty(&fit, &lengths),
+    };
     let stresses = pieces.iter().flat_map(|own| &own.stresses);
     let largest = stresses.fold(0.0, |most: f64, s| most.max(s.abs()));
     let misfit = misfit(&fit, largest);
@@ -143,7 +148,7 @@ fn fitted(law: SoughtLaw, pieces: &[Measured], known: KnownFibres) -> Result<Uni
             value: parameter.value,
             standard_error: uncertainty
                 .standard_error(place)
-                .filter(|_| !undetermined.contains(&name)),
+                .filter(|_| !parameter.at_bound() && !undetermined.contains(&name)),
         })
         .collect();
     Ok(UniaxialFit {

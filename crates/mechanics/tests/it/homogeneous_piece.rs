@@ -87,8 +87,9 @@ fn a_strip_that_is_askew_has_the_least_energy() {
                 let again = deformed(&law, Homogeneous::Uniaxial, along, Some(near.free)).unwrap();
                 let apart = (again.nominal_stress - found.nominal_stress).abs();
                 assert!(apart < 1e-9 * (p[0] + stress.abs()), "{apart}");
-                let askew = axis_deg % 90.0 != 0.0 && along != 1.0;
-                assert!(!askew || free[0].abs() > 1e-4);
+                // One family of fibres that is pulled askew turns, and the strip with it.
+                let turns = p[4] == 0.0 && axis_deg == 45.0 && along > 1.0;
+                assert!(!turns || free[0].abs() > 1e-2, "{p:?} {along}: {free:?}");
             }
         }
     }
@@ -130,7 +131,11 @@ fn sheets_and_sheared_pieces_follow_their_energies() {
                     (Homogeneous::PlanarTension, 1.0 + amount, &pull),
                 ];
                 for (how, at, energy) in cases {
-                    let exact = (energy(amount + 1e-5) - energy(amount - 1e-5)) / 2e-5;
+                    // At rest fibres begin to resist, which differences do not see.
+                    let exact = match amount {
+                        0.0 => 0.0,
+                        _ => (energy(amount + 1e-5) - energy(amount - 1e-5)) / 2e-5,
+                    };
                     let found = deformed(&law, how, at, None).unwrap().nominal_stress;
                     let allowed = 1e-7 * (p[0] + exact.abs());
                     assert!((found - exact).abs() < allowed, "{p:?} {how:?} {amount}");
