@@ -3,7 +3,7 @@
 
 Needs: Python 3 with NumPy and SciPy from PyPI, a built `palpate` (PALPATE, else target/release/palpate).
 Run from anywhere: benches/peers/fibres/compare.py [--write FOLDER]
-Minutes. Not run in CI. Results: docs/comparisons/recordings.md.
+Minutes. Not run in CI. Results: docs/comparisons/least_squares.md.
 
 Stresses are written from the law's formula in Cauchy stresses, the sides of a strip made free by root finding; palpate
 takes the least energy. With --write the strips of the tutorial are made again (assets/first/strip-*.csv).

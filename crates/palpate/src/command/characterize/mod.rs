@@ -70,8 +70,8 @@ pub(crate) struct Arguments {
     /// Write an HTML report with plots of all results.
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
-    /// Fit this law only; default: the first three, and of pieces that state how their fibres lie also the last, of which
-    /// the simplest that no other beats is preferred.
+    /// Fit this law only; default: the first three, and of pieces that state `fibre_axis_angle_deg` also the last, which has
+    /// fibres, of which the simplest that no other beats is preferred.
     #[arg(long, value_enum)]
     law: Option<Law>,
     /// Number of terms of `ogden` (default 1: mu and alpha) or `reduced_polynomial` (default 2: C10 and C20; 3 is Yeoh's
@@ -107,7 +107,6 @@ enum Law {
     Exponential,
     Ogden,
     ReducedPolynomial,
-    /// With fibres: pieces alone, each with `fibre_axis_angle_deg`
     HolzapfelGasserOgden,
 }
 
