@@ -270,8 +270,11 @@ fn strips_of_a_testing_machine_are_read_in_either_sign() {
     }
 }
 
+/// What the headers state of a truth.
+type Stated = fn(&Truth) -> String;
+
 /// How many of so many specimens have an interval of each parameter, and in how many it holds the truth.
-fn coverage(specimens: u64, pieces: &[Piece], known: fn(&Truth) -> String) -> [[usize; 2]; 5] {
+fn coverage(specimens: u64, pieces: &[Piece], known: Stated) -> [[usize; 2]; 5] {
     let mut counts = [[0; 2]; 5];
     for seed in 0..specimens {
         let mut random = Random::new(seed);
@@ -325,7 +328,7 @@ fn intervals_of_a_few_strips_hold_the_truth() {
 #[ignore = "slow: a hundred specimens of three strips, three times"]
 fn intervals_of_strips_hold_the_truth() {
     let both = |p: &Truth| format!("# fibre_angle_deg = {}\n# dispersion = {}\n", p[4], p[3]);
-    let cases: [(&[Piece], fn(&Truth) -> String); 3] = [
+    let cases: [(&[Piece], Stated); 3] = [
         (&STRIPS, |_| String::new()),
         (&STRIPS, |p| format!("# fibre_angle_deg = {}\n", p[4])),
         (&[STRIPS[0], STRIPS[2]], both),

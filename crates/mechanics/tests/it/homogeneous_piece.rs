@@ -117,6 +117,9 @@ fn straight_strips_are_those_of_the_bisection() {
     assert!((found.nominal_stress / exact - 1.0).abs() < 1e-12);
 }
 
+/// Energy [Pa] by how far a piece is from rest.
+type Energy<'a> = &'a dyn Fn(f64) -> f64;
+
 /// Judge: derivatives of the energy of the invariants along the path, which leaves nothing free.
 #[test]
 fn sheets_and_sheared_pieces_follow_their_energies() {
@@ -126,7 +129,7 @@ fn sheets_and_sheared_pieces_follow_their_energies() {
             for amount in [-0.2, 0.0, 0.1, 0.3] {
                 let shear = |g: f64| energy(p, axis_deg, [1.0, g, 1.0]);
                 let pull = |g: f64| energy(p, axis_deg, [1.0 + g, 0.0, 1.0]);
-                let cases: [(Homogeneous, f64, &dyn Fn(f64) -> f64); 2] = [
+                let cases: [(Homogeneous, f64, Energy<'_>); 2] = [
                     (Homogeneous::SimpleShear, amount, &shear),
                     (Homogeneous::PlanarTension, 1.0 + amount, &pull),
                 ];
