@@ -11,7 +11,7 @@ mod tissue;
 
 use std::ops::Range;
 
-use palpate_files::recording::StimulusKind;
+use palpate_files::recording::{RecordingHeader, StimulusKind};
 use palpate_mechanics::contact::FrictionLaw;
 use palpate_mechanics::finite_elements::indentation::IndenterShape;
 
@@ -34,7 +34,7 @@ pub use fitted::{FittedLaw, FittedRecording, FittedRelaxation};
 pub struct CharacterizeSettings {
     /// How relaxation is sought.
     pub relaxation: RelaxationSettings,
-    /// The laws that are sought.
+    /// The laws that are sought; with [`SoughtLaw::USUAL`] also the law with fibres, of pieces that state how they lie.
     pub laws: Vec<SoughtLaw>,
     /// How often their fits are made again to see how well they are known.
     pub draws: Option<Draws>,
@@ -205,21 +205,35 @@ fn sought(
 fn laws_of(asked: &[SoughtLaw], recordings: &[CleanRecording]) -> (Vec<SoughtLaw>, Option<String>) {
     let mut laws = asked.to_vec();
     let states = |own: &CleanRecording| own.header.fibre_axis_angle_deg.is_some();
+    let key = recordings.iter().find_map(|own| fibre_key(&own.header));
     let mut pieces = recordings.iter().filter(|own| is_piece(own)).peekable();
     let are_pieces = pieces.peek().is_some();
     if are_pieces && asked == SoughtLaw::USUAL && pieces.all(states) {
         laws.push(SoughtLaw::HolzapfelGasserOgden);
     }
     let is_used = laws.iter().any(|law| law.name().has_fibres()) && are_pieces;
-    let said = (recordings.iter().any(states) && !is_used).then(|| match are_pieces {
-        true => "`fibre_axis_angle_deg` is stated and no law here has fibres, so that the fits take the tissue as the same in \
-                 all directions; state it of all pieces, and leave --law out or give --law holzapfel_gasser_ogden"
-            .to_owned(),
-        false => "`fibre_axis_angle_deg` is stated of an indentation, whose fits take the tissue as the same in all directions; \
-                  pull strips in two directions to fit its fibres"
-            .to_owned(),
+    let said = key.filter(|_| !is_used).map(|key| match are_pieces {
+        true => format!(
+            "`{key}` is stated and no law here has fibres, so that the fits take the tissue as the same in all directions; state \
+             `fibre_axis_angle_deg` of all pieces, and leave --law out or give --law holzapfel_gasser_ogden"
+        ),
+        false => format!(
+            "`{key}` is stated of an indentation, whose fits take the tissue as the same in all directions; pull strips in two \
+             directions to fit its fibres"
+        ),
     });
     (laws, said)
+}
+
+/// The first key on fibres that a header states.
+fn fibre_key(header: &RecordingHeader) -> Option<&'static str> {
+    let each = [
+        ("fibre_axis_angle_deg", header.fibre_axis_angle_deg),
+        ("fibre_angle_deg", header.fibre_angle_deg),
+        ("dispersion", header.dispersion),
+    ];
+    let mut stated = each.into_iter().filter(|(_, value)| value.is_some());
+    stated.next().map(|(key, _)| key)
 }
 
 /// Whether a whole piece was pressed or pulled.

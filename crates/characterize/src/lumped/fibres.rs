@@ -1,3 +1,9 @@
+//! The law with fibres, fitted to pieces that are cut at several angles to them.
+//!
+//! The stress of two families at ±γ is even in γ, so that its slope with γ is zero at 0 and at 90°; a fit in γ creeps towards
+//! them and knows nothing there. In sin² γ it is smooth, and that is what is fitted; near the ends slopes are those at
+//! [`LEAST_ANGLE`].
+
 use nalgebra::DMatrix;
 use palpate_files::recording::RecordingHeader;
 use palpate_files::tissue::LawName;
@@ -37,12 +43,12 @@ impl KnownFibres {
     }
 }
 
-/// A fit whose errors are those of all parameters together, also of what ended on a bound: k₁ and k₂ follow the dispersion, and
-/// would look better known than they are. The stress does not change with the angle where that is on its bound.
+/// A fit whose errors are those of all parameters together, also of what ended on a bound: k₁ and k₂ follow the dispersion and
+/// the angle, and would look better known than they are.
 pub(super) fn with_all_free(fit: &Fit) -> Fit {
     let mut free = fit.clone();
     let each = free.parameters.iter_mut();
-    for own in each.filter(|own| !own.fixed && own.name != "fibre_angle_deg") {
+    for own in each.filter(|own| !own.fixed) {
         (own.lower, own.upper) = (f64::NEG_INFINITY, f64::INFINITY);
     }
     free
@@ -67,6 +73,9 @@ const STIFFNESSES: [f64; 6] = [0.1, 1.0, 10.0, 100.0, 1e3, 1e4];
 const EXPONENTS: [f64; 3] = [0.1, 1.0, 3.0];
 const DISPERSIONS: [f64; 3] = [0.03, 0.15, 0.28];
 const ANGLES: [f64; 4] = [10.0, 30.0, 50.0, 75.0];
+/// From the ends of its range, an angle at which slopes are taken [degrees]: it changes the stress of fibres by its square, 3e-8,
+/// and rounding leaves twelve digits of its slope.
+const LEAST_ANGLE: f64 = 0.01;
 /// The least C₁₀ over the largest stress [-]: without a matrix the sides of a strip are not determined.
 const LEAST: f64 = 1e-6;
 
@@ -80,9 +89,9 @@ pub(super) fn fitted(pieces: &[Measured], known: KnownFibres) -> Result<FibreFit
         .try_for_each(|own| own.loading.frame().map(drop))?;
     let some = thinned(pieces, SOME);
     let starts = starts(&thinned(pieces, FEW), known);
-    let minima = distinct_minima(starts.iter().map(|start| least(start, &some)))?;
+    let minima = distinct_minima(starts.iter().map(|start| least(start, &some, known)))?;
     let (best, others) = minima.split_first().ok_or(Error::NothingFelt)?;
-    let fit = least(&best.fit.parameters, pieces)?;
+    let fit = in_degrees(least(&best.fit.parameters, pieces, known)?, known);
     let sought = known.sought();
     let (mut undetermined, mut warnings) = (Vec::new(), Vec::new());
     if directions(pieces) == 1 && !sought.is_empty() {
@@ -96,7 +105,8 @@ pub(super) fn fitted(pieces: &[Measured], known: KnownFibres) -> Result<FibreFit
     }
     warnings.extend(others.first().and_then(|other| {
         let times = other.fit.sum_of_squares() / best.fit.sum_of_squares();
-        let each = other.fit.parameters.iter();
+        let other = in_degrees(other.fit.clone(), known);
+        let each = other.parameters.iter();
         let each = each.map(|own| (own.name.as_str(), own.value));
         another_minimum(LawName::HolzapfelGasserOgden.word(), times, each)
     }));
@@ -168,7 +178,7 @@ fn starts(pieces: &[Measured], known: KnownFibres) -> Vec<Vec<Parameter>> {
                     let shape = [stiffness, exponent / strain.powi(2), dispersion, angle];
                     let own = law.parameters(1.0, &shape);
                     let unit: Vec<f64> = own.iter().map(|own| own.value).collect();
-                    let Some((modulus, gained)) = modulus(&unit, pieces) else {
+                    let Some((modulus, gained)) = modulus(&unit, pieces, known) else {
                         continue;
                     };
                     let own = law.parameters(modulus, &shape);
@@ -180,14 +190,10 @@ fn starts(pieces: &[Measured], known: KnownFibres) -> Vec<Vec<Parameter>> {
     }
     all.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut taken = vec![0; cell];
+    let most = if cell == 1 { STARTS } else { OF_CELL };
     let best = all.into_iter().filter(|(cell, ..)| {
         taken[*cell] += 1;
-        taken[*cell]
-            <= if known.sought().is_empty() {
-                STARTS
-            } else {
-                OF_CELL
-            }
+        taken[*cell] <= most
     });
     best.take(STARTS)
         .map(|(_, _, values)| bounded(&values, LEAST * largest, known))
@@ -196,10 +202,12 @@ fn starts(pieces: &[Measured], known: KnownFibres) -> Vec<Vec<Parameter>> {
 
 /// The C₁₀ [Pa] that comes nearest to what was measured with the shapes of these parameters, and the square of the stress
 /// that it explains; none where that is none.
-fn modulus(unit: &[f64], pieces: &[Measured]) -> Option<(f64, f64)> {
+fn modulus(unit: &[f64], pieces: &[Measured], known: KnownFibres) -> Option<(f64, f64)> {
     let count = pieces.iter().map(|own| own.stresses.len()).sum();
     let (mut stresses, mut changes) = (vec![0.0; count], DMatrix::zeros(count, unit.len()));
-    write(unit, pieces, (&mut stresses, &mut changes))?;
+    let mut values = unit.to_vec();
+    values[ANGLE] = squared_sine(unit[ANGLE]);
+    write(&values, (pieces, known), (&mut stresses, &mut changes))?;
     let (mut products, mut squares) = (0.0, 0.0);
     let known = pieces.iter().flat_map(|own| &own.stresses);
     for (residual, known) in stresses.iter().zip(known) {
@@ -211,7 +219,37 @@ fn modulus(unit: &[f64], pieces: &[Measured]) -> Option<(f64, f64)> {
     (modulus > 0.0 && modulus.is_finite()).then_some((modulus, products * modulus))
 }
 
-/// Parameters that start at these values, with what is known of them fixed.
+/// The place of the angle among the parameters.
+const ANGLE: usize = 4;
+
+fn squared_sine(angle_deg: f64) -> f64 {
+    angle_deg.to_radians().sin().powi(2).clamp(0.0, 1.0)
+}
+
+fn angle_deg(squared_sine: f64) -> f64 {
+    squared_sine.clamp(0.0, 1.0).sqrt().asin().to_degrees()
+}
+
+/// Change of sin² γ with γ [1/degree], at the least distance from where it is none.
+fn slope(angle_deg: f64) -> f64 {
+    let angle = angle_deg.clamp(LEAST_ANGLE, 90.0 - LEAST_ANGLE);
+    1_f64.to_radians() * (2.0 * angle.to_radians()).sin()
+}
+
+/// A fit in sin² γ as one in γ.
+fn in_degrees(mut fit: Fit, known: KnownFibres) -> Fit {
+    let own = &mut fit.parameters[ANGLE];
+    own.value = known.angle_deg.unwrap_or(angle_deg(own.value));
+    own.upper = 90.0;
+    own.scale = 10.0;
+    fit.jacobian.column_mut(ANGLE).scale_mut(slope(own.value));
+    for step in &mut fit.iterations {
+        step.values[ANGLE] = angle_deg(step.values[ANGLE]);
+    }
+    fit
+}
+
+/// Parameters that start at these values, with sin² γ for γ and what is known of them fixed.
 fn bounded(values: &[f64], least: f64, known: KnownFibres) -> Vec<Parameter> {
     let names = SoughtLaw::HolzapfelGasserOgden.names();
     let each = names.into_iter().zip(values).map(|(name, &value)| {
@@ -226,7 +264,10 @@ fn bounded(values: &[f64], least: f64, known: KnownFibres) -> Vec<Parameter> {
                 Parameter::new(name, value).within(least, f64::INFINITY)
             }
             "dispersion" => held(known.dispersion, free.within(0.0, 1.0 / 3.0).scaled(0.1)),
-            "fibre_angle_deg" => held(known.angle_deg, free.within(0.0, 90.0).scaled(10.0)),
+            "fibre_angle_deg" => {
+                let own = Parameter::new(name, squared_sine(value)).within(0.0, 1.0);
+                held(known.angle_deg, own.scaled(0.3))
+            }
             _ => free.within(0.0, f64::INFINITY),
         }
     });
@@ -234,26 +275,29 @@ fn bounded(values: &[f64], least: f64, known: KnownFibres) -> Vec<Parameter> {
 }
 
 /// The fit that `start` leads to.
-fn least(start: &[Parameter], pieces: &[Measured]) -> Result<Fit, Error> {
+fn least(start: &[Parameter], pieces: &[Measured], known: KnownFibres) -> Result<Fit, Error> {
     let samples = pieces.iter().map(|own| own.stresses.len()).sum();
     let evaluate = |values: &[f64], residuals: &mut [f64], jacobian: &mut DMatrix<f64>| {
-        write(values, pieces, (residuals, jacobian))
+        write(values, (pieces, known), (residuals, jacobian))
     };
     least_squares_with_jacobian(start, samples, &Settings::default(), evaluate)
 }
 
-/// Residuals [Pa] of the law with these parameters, and their derivatives; none where it has no stress.
+/// Residuals [Pa] of the law with these parameters, sin² γ among them, and their derivatives; none where it has no stress.
 fn write(
     values: &[f64],
-    pieces: &[Measured],
+    (pieces, known): (&[Measured], KnownFibres),
     (residuals, jacobian): (&mut [f64], &mut DMatrix<f64>),
 ) -> Option<()> {
     let fibres = Fibres {
         k1: values[1],
         k2: values[2],
         dispersion: values[3],
-        angle_deg: values[4],
+        angle_deg: known
+            .angle_deg
+            .unwrap_or_else(|| angle_deg(values[ANGLE]).clamp(LEAST_ANGLE, 90.0 - LEAST_ANGLE)),
     };
+    let of_angle = slope(fibres.angle_deg).recip();
     let law = HolzapfelGasserOgden::incompressible(values[0], fibres).ok()?;
     let mut row = 0;
     for piece in pieces {
@@ -266,6 +310,7 @@ fn write(
             for (column, change) in found.by_parameter.iter().enumerate() {
                 jacobian[(row, column)] = *change;
             }
+            jacobian[(row, ANGLE)] *= of_angle;
             free = Some(found.free);
             row += 1;
         }

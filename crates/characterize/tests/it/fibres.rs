@@ -213,6 +213,27 @@ fn one_direction_does_not_determine_the_fibres() {
     assert!(own.misfit < 1e-3, "the curve itself is followed");
 }
 
+/// One family without dispersion, of which nothing is stated: both end on their bounds, and the errors of the rest hold the
+/// truth.
+#[test]
+fn aligned_fibres_are_found_where_nothing_is_stated() {
+    let truth = [1500.0, 8000.0, 2.0, 0.0, 0.0];
+    let mut random = Random::new(3);
+    let mut noise = || 100.0 * random.normal();
+    let strips = STRIPS.map(|own| own.recording((&truth, 200), "", &mut noise));
+    let all = found(&strips, &[LAW]);
+    let own = fit(&all);
+    println!("{:?} {:?}", own.parameters, all.identifiability);
+    for ((name, known), truth) in own.parameters.iter().zip(truth).take(3) {
+        let error = known.standard_error.unwrap();
+        let off = (known.value - truth).abs();
+        assert!(off < 4.0 * error, "{name}: {known:?}");
+        assert!(error < 0.25 * truth, "{name}: {known:?}");
+    }
+    let said = all.identifiability.concat();
+    assert!(!said.contains("another minimum"), "{said}");
+}
+
 #[test]
 fn what_does_not_fit_the_law_is_said() {
     let truth = [2000.0, 15_000.0, 4.0, 0.12, 35.0];
@@ -232,6 +253,13 @@ fn what_does_not_fit_the_law_is_said() {
     let refused = Error::FibresUnderIndenter { law: LAW.name() };
     assert_eq!(all.laws[0].1, Err(refused));
     assert!(all.warnings.concat().contains("stated of an indentation"));
+    let mut stated = strips;
+    stated
+        .iter_mut()
+        .for_each(|own| own.header.fibre_axis_angle_deg = None);
+    stated[0].header.dispersion = Some(0.1);
+    let said = found(&stated, &[SoughtLaw::NeoHookean]).warnings.concat();
+    assert!(said.contains("`dispersion` is stated"), "{said}");
     // Beyond what there is.
     let text =
         "# stimulus = \"uniaxial_tension\"\n# dispersion = 0.4\nstretch,stress (Pa)\n1,0\n1.1,9\n";

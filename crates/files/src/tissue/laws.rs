@@ -21,8 +21,8 @@ words! {
         Ogden = "ogden",
         /// The reduced polynomial of order 1 to 3 (Yeoh's law), incompressible.
         ReducedPolynomial = "reduced_polynomial",
-        /// The fibre-reinforced law of Holzapfel, Gasser and Ogden with dispersion, incompressible; `solve` knows the
-        /// direction of its fibres.
+        /// The fibre-reinforced law of Holzapfel, Gasser and Ogden with dispersion, incompressible; `solve` and fits
+        /// of pieces know the direction of its fibres.
         HolzapfelGasserOgden = "holzapfel_gasser_ogden",
     }
 }
