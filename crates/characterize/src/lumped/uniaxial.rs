@@ -132,7 +132,8 @@ fn fitted(law: SoughtLaw, pieces: &[Measured], known: KnownFibres) -> Result<Uni
     let lengths: Vec<usize> = pieces.iter().map(|own| own.stresses.len()).collect();
     let uncertainty = match law {
         SoughtLaw::HolzapfelGasserOgden => {
-            correlated_uncertainty(&fibres::with_all_free(&fit), &lengths)
+            let all = correlated_uncertainty(&fibres::with_all_free(&fit), &lengths);
+            all.among(|place| !fit.parameters[place].at_bound())
         }
         _ => correlated_uncertainty(&fit, &lengths),
     };
@@ -148,7 +149,7 @@ fn fitted(law: SoughtLaw, pieces: &[Measured], known: KnownFibres) -> Result<Uni
             value: parameter.value,
             standard_error: uncertainty
                 .standard_error(place)
-                .filter(|_| !parameter.at_bound() && !undetermined.contains(&name)),
+                .filter(|_| !undetermined.contains(&name)),
         })
         .collect();
     Ok(UniaxialFit {

@@ -331,9 +331,7 @@ fn coverage(specimens: u64, pieces: &[Piece], known: Stated) -> [[usize; 2]; 5] 
         let all = found(&recordings, &[LAW]);
         let own = fit(&all);
         for (place, truth) in truth.iter().enumerate() {
-            let interval = own.uncertainty.interval(&own.fit, place, 0.95);
-            let is_stated = own.parameters[place].1.standard_error.is_some();
-            if let Some([low, high]) = interval.filter(|_| is_stated) {
+            if let Some([low, high]) = own.uncertainty.interval(&own.fit, place, 0.95) {
                 counts[place][0] += 1;
                 counts[place][1] += usize::from((low..=high).contains(truth));
             }
