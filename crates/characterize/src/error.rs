@@ -181,6 +181,16 @@ pub enum Error {
         /// The law.
         law: LawName,
     },
+    /// A law with fibres under an indenter.
+    #[error(
+        "`{}` is fitted to pieces that are pulled, pressed or sheared and not to indentations, as a tissue with fibres is not \
+         symmetric about an indenter; cut strips in two directions to the fibres (`stimulus = \"uniaxial_tension\"`), or use an \
+         isotropic law such as neo_hookean", .law.word()
+    )]
+    FibresUnderIndenter {
+        /// The law.
+        law: LawName,
+    },
     /// Finite elements in the loop of a hollow organ.
     #[error(
         "finite elements in the loop need a solid specimen under an indenter; leave them out for a tube, a layer on a base, an organ's mesh or a piece along one axis"
@@ -309,6 +319,7 @@ impl Error {
             | Self::Unknown { .. }
             | Self::ColumnUnknown
             | Self::TubeLaw { .. }
+            | Self::FibresUnderIndenter { .. }
             | Self::NoLoop
             | Self::LoopMovesTooLong { .. }
             | Self::CostlyToRepeat { .. }

@@ -2,7 +2,7 @@ use palpate_files::recording::{RecordingHeader, StimulusKind};
 
 /// Which recordings are of one specimen: the same organ, subject, site and state under the same indenter, in
 /// the order of their first recordings. A recording that names neither organ, subject nor site is one for
-/// itself.
+/// itself. Pieces that state the angle of their fibres are of one tissue also where they differ in size, angle and test.
 pub fn specimens(headers: &[&RecordingHeader]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (place, header) in headers.iter().enumerate() {
@@ -53,13 +53,23 @@ fn is_same(a: &RecordingHeader, b: &RecordingHeader) -> bool {
             (shape, piece, base, h.support),
             (h.mesh.clone(), h.location_m, h.fixed.clone()),
             indenter,
-            h.stimulus == Some(StimulusKind::PlanarTension),
+            of_piece(h),
+            [h.fibre_angle_deg, h.dispersion],
             h.condition,
             h.post_mortem_s,
-            [h.area_m2, h.height_m],
         )
     };
     is_named && of(a) == of(b)
+}
+
+/// What pieces of one specimen have alike: all of their test, or that they state how their fibres lie.
+fn of_piece(h: &RecordingHeader) -> Option<(Option<StimulusKind>, [Option<f64>; 2])> {
+    let is_piece = h.stimulus.is_some_and(StimulusKind::is_of_piece);
+    if is_piece && h.fibre_axis_angle_deg.is_some() {
+        return None;
+    }
+    let test = h.stimulus.filter(|own| own.is_clamped());
+    Some((test, [h.area_m2, h.height_m]))
 }
 
 #[cfg(test)]
@@ -86,5 +96,33 @@ mod tests {
             &nameless,
         ];
         assert_eq!(specimens(&all), [vec![0, 3], vec![1], vec![2], vec![4]]);
+    }
+
+    #[test]
+    fn strips_of_one_tissue_are_one_specimen() {
+        let strip = |angle: Option<f64>, height: f64| RecordingHeader {
+            organ: Some("esophagus".into()),
+            stimulus: Some(StimulusKind::UniaxialTension),
+            fibre_axis_angle_deg: angle,
+            height_m: Some(height),
+            ..RecordingHeader::default()
+        };
+        let sheared = RecordingHeader {
+            stimulus: Some(StimulusKind::SimpleShear),
+            ..strip(Some(0.0), 0.004)
+        };
+        let aligned = RecordingHeader {
+            fibre_angle_deg: Some(0.0),
+            ..strip(Some(0.0), 0.02)
+        };
+        let all = [
+            &strip(Some(0.0), 0.02),
+            &strip(Some(90.0), 0.03),
+            &sheared,
+            &aligned,
+            &strip(None, 0.02),
+            &strip(None, 0.03),
+        ];
+        assert_eq!(specimens(&all), [vec![0, 1, 2], vec![3], vec![4], vec![5]]);
     }
 }

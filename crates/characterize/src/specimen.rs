@@ -7,11 +7,11 @@
 mod criteria;
 mod fitted;
 mod in_loop;
+mod tissue;
 
 use std::ops::Range;
 
-use palpate_files::recording::StimulusKind;
-use palpate_files::{Estimate, PronyTerm, Tissue};
+use palpate_files::recording::{RecordingHeader, StimulusKind};
 
 use crate::clean::SegmentKind;
 use crate::fit::{Draws, simplest};
@@ -32,7 +32,7 @@ pub use fitted::{FittedLaw, FittedRecording, FittedRelaxation};
 pub struct CharacterizeSettings {
     /// How relaxation is sought.
     pub relaxation: RelaxationSettings,
-    /// The laws that are sought.
+    /// The laws that are sought; with [`SoughtLaw::USUAL`] also the law with fibres, of pieces that state how they lie.
     pub laws: Vec<SoughtLaw>,
     /// How often their fits are made again to see how well they are known.
     pub draws: Option<Draws>,
@@ -150,7 +150,9 @@ pub fn characterize_organ(
         .collect();
     // The loop makes the fits again.
     let quick_draws = settings.draws.filter(|_| !settings.in_loop);
-    for &law in &settings.laws {
+    let (laws, angles) = laws_of(&settings.laws, recordings);
+    found.warnings.extend(angles);
+    for law in laws {
         at_step(law.name().word());
         if !pieces.is_empty() {
             let answer = match settings.in_loop {
@@ -161,6 +163,9 @@ pub fn characterize_organ(
             continue;
         }
         let answer = curves.clone().and_then(|curves| {
+            if law.name().has_fibres() {
+                return Err(Error::FibresUnderIndenter { law: law.name() });
+            }
             if settings.in_loop && (is_organ || !matches!(curves.body(), Body::Block { .. })) {
                 return Err(Error::NoLoop);
             }
@@ -191,6 +196,42 @@ fn sought(
     let mut description = LawDescription::of(fit, &indentations);
     description.repeated = draws.map(|draws| repeated(&description, curves, &indentations, draws));
     Ok(description)
+}
+
+/// The laws that are sought of these recordings: with those that are sought unless others are asked for also the law with
+/// fibres, where pieces state how they lie; and the sentence on an angle that none of the laws uses.
+fn laws_of(asked: &[SoughtLaw], recordings: &[CleanRecording]) -> (Vec<SoughtLaw>, Option<String>) {
+    let mut laws = asked.to_vec();
+    let states = |own: &CleanRecording| own.header.fibre_axis_angle_deg.is_some();
+    let key = recordings.iter().find_map(|own| fibre_key(&own.header));
+    let mut pieces = recordings.iter().filter(|own| is_piece(own)).peekable();
+    let are_pieces = pieces.peek().is_some();
+    if are_pieces && asked == SoughtLaw::USUAL && pieces.all(states) {
+        laws.push(SoughtLaw::HolzapfelGasserOgden);
+    }
+    let is_used = laws.iter().any(|law| law.name().has_fibres()) && are_pieces;
+    let said = key.filter(|_| !is_used).map(|key| match are_pieces {
+        true => format!(
+            "`{key}` is stated and no law here has fibres, so that the fits take the tissue as the same in all directions; state \
+             `fibre_axis_angle_deg` of all pieces, and leave --law out or give --law holzapfel_gasser_ogden"
+        ),
+        false => format!(
+            "`{key}` is stated of an indentation, whose fits take the tissue as the same in all directions; pull strips in two \
+             directions to fit its fibres"
+        ),
+    });
+    (laws, said)
+}
+
+/// The first key on fibres that a header states.
+fn fibre_key(header: &RecordingHeader) -> Option<&'static str> {
+    let each = [
+        ("fibre_axis_angle_deg", header.fibre_axis_angle_deg),
+        ("fibre_angle_deg", header.fibre_angle_deg),
+        ("dispersion", header.dispersion),
+    ];
+    let mut stated = each.into_iter().filter(|(_, value)| value.is_some());
+    stated.next().map(|(key, _)| key)
 }
 
 /// Whether a whole piece was pressed or pulled.
@@ -380,69 +421,6 @@ impl Characterization {
         pressed.or_else(|| self.preferred_uniaxial().map(|law| law.law))
     }
 
-    /// The tissue of `law`, or else of the one to be preferred: without a name and the files it came from.
-    ///
-    /// # Errors
-    /// When no law was found.
-    pub fn tissue(&self, law: Option<SoughtLaw>) -> Result<Tissue, Error> {
-        let law = law
-            .or_else(|| self.preferred_law())
-            .ok_or_else(|| self.why_no_law())?;
-        let mut tissue = if self.uniaxial.is_empty() {
-            self.indented_tissue(law)?
-        } else {
-            self.uniaxial_tissue(law)?
-        };
-        tissue.source.warnings.extend(self.warnings.iter().cloned());
-        Ok(tissue)
-    }
-
-    fn indented_tissue(&self, law: SoughtLaw) -> Result<Tissue, Error> {
-        let relaxation = self.relaxation.as_ref().map_err(Clone::clone)?;
-        let found = self.laws.iter().find(|(of, _)| *of == law);
-        let (_, found) = found.ok_or(Error::NothingFelt)?;
-        let found = found.as_ref().map_err(Clone::clone)?;
-        let parameters: Vec<_> = found
-            .parameters
-            .iter()
-            .map(|(_, estimate)| *estimate)
-            .collect();
-        let mut tissue = Tissue::new(law.elasticity(&parameters));
-        let term = |[g, tau_s]: &[Estimate; 2]| PronyTerm {
-            g: *g,
-            tau_s: *tau_s,
-        };
-        tissue.lumped = self.without_geometry.lumped();
-        tissue.prony = relaxation.terms.iter().map(term).collect();
-        tissue.source.method = Some(METHOD.to_owned());
-        tissue.source.warnings = [&self.relaxation_warnings[..], &found.warnings].concat();
-        Ok(tissue)
-    }
-
-    fn uniaxial_tissue(&self, law: SoughtLaw) -> Result<Tissue, Error> {
-        let found = self.uniaxial.iter().find(|(of, _)| *of == law);
-        let (_, found) = found.ok_or(Error::NothingFelt)?;
-        let found = found.as_ref().map_err(Clone::clone)?;
-        let mut tissue = Tissue::new(found.elasticity);
-        tissue.source.method = Some(UNIAXIAL.to_owned());
-        tissue.source.warnings.clone_from(&found.warnings);
-        Ok(tissue)
-    }
-
-    /// Why there is no law, when there is none.
-    fn why_no_law(&self) -> Error {
-        let pressed = self.laws.iter().filter_map(|(_, law)| law.as_ref().err());
-        let pulled = self
-            .uniaxial
-            .iter()
-            .filter_map(|(_, law)| law.as_ref().err());
-        pressed
-            .chain(pulled)
-            .next()
-            .cloned()
-            .unwrap_or(Error::NotSought)
-    }
-
     fn speak(&mut self, pressed: &[Pressed]) {
         let longest = pressed.iter().filter_map(|each| each.time.last().copied());
         let duration = longest.fold(0.0, f64::max);
@@ -473,8 +451,3 @@ impl Characterization {
 const LARGE: f64 = 0.2;
 /// A part of a modulus that is worth a word [-].
 const TELLING: f64 = 0.02;
-
-/// How a tissue is found, for its file.
-const METHOD: &str = "relaxation from the normalised force with the recorded course of depth, then the law by inverse finite elements";
-/// The same for a piece along one axis.
-const UNIAXIAL: &str = "nominal stress over stretch in closed form";

@@ -21,6 +21,10 @@ pub(crate) fn samples<'py>(
     let own = PyDict::new(py);
     own.set_item("file", file)?;
     own.set_item("is_piece", fit.is_piece)?;
+    let test = fit.test.map(serde_json::to_value).transpose();
+    let test = test.map_err(Failure::input)?;
+    own.set_item("test", test.as_ref().and_then(|own| own.as_str()))?;
+    own.set_item("fibre_axis_angle_deg", fit.fibre_axis_angle_deg)?;
     own.set_item("time", fit.time.into_pyarray(py))?;
     own.set_item("course", fit.course.into_pyarray(py))?;
     own.set_item("measured", fit.measured.into_pyarray(py))?;

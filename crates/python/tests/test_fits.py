@@ -194,3 +194,39 @@ def test_what_cannot_be_evaluated_is_refused(found: palpate.Characterization, pi
         piece.evaluate(depth=[0.001])
     with pytest.raises(palpate.InputError):
         piece.evaluate(stretch=[-1.0])
+
+
+def strips(folder: Path) -> list[Path]:
+    """Strips of one family of fibres, along and across them, whose stresses have a closed form without dispersion."""
+    stretch = np.linspace(1.0, 1.3, 100)
+    strain = stretch**2 - 1.0
+    matrix = 2.0 * 1500.0 * (stretch - stretch**-2)
+    fibres = 4.0 * 8000.0 * stretch * strain * np.exp(2.0 * strain**2)
+    paths = []
+    # Across the load fibres are slack.
+    for angle, stress in ((0, matrix + fibres), (90, matrix)):
+        path = folder / f"strip-{angle}.csv"
+        header = "# organ = 'muscle'\n# stimulus = 'uniaxial_tension'\n# fibre_angle_deg = 0\n# dispersion = 0\n"
+        rows = "\n".join(f"{x:.9g},{s:.9g}" for x, s in zip(stretch, stress, strict=True))
+        path.write_text(f"{header}# fibre_axis_angle_deg = {angle}\nstretch,stress (Pa)\n{rows}\n")
+        paths.append(path)
+    return paths
+
+
+def test_strips_along_and_across_their_fibres_are_fitted_together(tmp_path: Path) -> None:
+    found = palpate.characterize(strips(tmp_path), draws=0, progress=False)
+    assert len(found.specimens) == 1
+    law = found.specimens[0].laws["holzapfel_gasser_ogden"]
+    for name, truth in (("c10_pa", 1500.0), ("k1_pa", 8000.0), ("k2", 2.0)):
+        assert law[name].value == pytest.approx(truth, rel=1e-4)
+    assert law["dispersion"].verdict == "stated"
+    assert [own.fibre_axis_angle_deg for own in law.recordings] == [0.0, 90.0]
+    assert {own.test for own in law.recordings} == {"uniaxial"}
+    along, across = (law.evaluate(stretch=[1.2], fibre_axis_angle_deg=angle)[0] for angle in (0.0, 90.0))
+    assert across == pytest.approx(3000.0 * (1.2 - 1.2**-2), rel=1e-4)
+    assert along > 3.0 * across
+    # F = 1 + γ e₁ ⊗ e₂ leaves fibres along e₁ as long as they are.
+    sheared = law.evaluate(stretch=[0.3], test="simple_shear", fibre_axis_angle_deg=0.0)[0]
+    assert sheared == pytest.approx(3000.0 * 0.3, rel=1e-4)
+    with pytest.raises(palpate.InputError, match="torsion"):
+        law.evaluate(stretch=[1.2], test="torsion")

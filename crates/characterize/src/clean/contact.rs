@@ -60,6 +60,15 @@ pub struct Contact {
     pub drift_n_per_s: Option<f64>,
 }
 
+/// That of a piece that is held from the first sample: it has no contact to be found.
+pub(super) fn at_first(samples: &Oriented) -> Contact {
+    Contact {
+        time_s: samples.time[0],
+        depth_m: samples.depth[0],
+        ..Contact::default()
+    }
+}
+
 /// The contact where the depth, which counts from it, leaves zero.
 pub(super) fn by_depth(samples: &Oriented, is_piece: bool) -> Result<Contact, Error> {
     let (time, depth) = (&samples.time, &samples.depth);

@@ -180,13 +180,13 @@ fn find_contact(
     samples: &Oriented,
     settings: &CleanSettings,
 ) -> Result<Contact, Error> {
+    let stimulus = recording.header.stimulus;
+    let is_clamped = stimulus.is_some_and(StimulusKind::is_clamped);
     match settings.contact_time_s {
         Some(time) => contact::at(samples, time),
+        None if !recording.begins_at_contact() && is_clamped => Ok(contact::at_first(samples)),
         None if !recording.begins_at_contact() => contact::by_force(samples, &recording.header),
-        None => {
-            let stimulus = recording.header.stimulus;
-            contact::by_depth(samples, stimulus.is_some_and(StimulusKind::is_of_piece))
-        }
+        None => contact::by_depth(samples, stimulus.is_some_and(StimulusKind::is_of_piece)),
     }
 }
 

@@ -45,6 +45,7 @@ pub(crate) use expected::Expected;
 pub use least_squares::{Settings, least_squares, least_squares_with_jacobian};
 pub(crate) use misfit::{misfit, missed};
 pub use multi_start::{Minimum, multi_start};
+pub(crate) use multi_start::{another_minimum, distinct_minima};
 pub use parameter::Parameter;
 pub use pooled::{PooledMean, pooled_mean};
 pub use profile::{Profile, profile};

@@ -31,12 +31,28 @@ pub fn multi_start(
     seed: u64,
     mut fit: impl FnMut(&[Parameter]) -> Result<Fit, Error>,
 ) -> Result<Vec<Minimum>, Error> {
-    let mut minima: Vec<Minimum> = Vec::new();
-    let first = fit(parameters);
-    let refused = first.as_ref().err().cloned();
     let places = hypercube(parameters, starts, &mut Random::new(seed));
-    let others = places.iter().map(|place| fit(place));
-    for found in std::iter::once(first).chain(others).flatten() {
+    let starts = std::iter::once(parameters).chain(places.iter().map(Vec::as_slice));
+    distinct_minima(starts.map(&mut fit))
+}
+
+/// The minima in which fits of the same data ended, the best first.
+///
+/// # Errors
+/// That of the first fit, when none could start.
+pub(crate) fn distinct_minima(
+    fits: impl Iterator<Item = Result<Fit, Error>>,
+) -> Result<Vec<Minimum>, Error> {
+    let mut minima: Vec<Minimum> = Vec::new();
+    let mut refused = None;
+    for found in fits {
+        let found = match found {
+            Ok(found) => found,
+            Err(error) => {
+                refused.get_or_insert(error);
+                continue;
+            }
+        };
         match minima.iter_mut().find(|minimum| same(&minimum.fit, &found)) {
             Some(minimum) => {
                 minimum.starts += 1;
@@ -75,6 +91,26 @@ fn same(a: &Fit, b: &Fit) -> bool {
         free(a, &|place| value(a, place)).max(free(b, &|place| value(b, place))),
     ];
     changed <= SAME * whole
+}
+
+/// Sums of squares of two minima of which the second is about as good as the first [-].
+const AS_GOOD: f64 = 1.5;
+
+/// The sentence on another minimum of the fit of a `law` whose sum of squares is so many `times` that of the best, with its
+/// parameters by their names; none where it is much worse.
+pub(crate) fn another_minimum<'a>(
+    law: &str,
+    times: f64,
+    parameters: impl Iterator<Item = (&'a str, f64)>,
+) -> Option<String> {
+    (times < AS_GOOD).then(|| {
+        let each = parameters.map(|(name, value)| format!("{name} = {value:.4}"));
+        format!(
+            "{law}: another minimum is about as good, with a sum of squares {times:.2} times as large, at {}; \
+             these recordings do not decide which of them is the tissue's",
+            each.collect::<Vec<_>>().join(", ")
+        )
+    })
 }
 
 fn hypercube(parameters: &[Parameter], starts: usize, random: &mut Random) -> Vec<Vec<Parameter>> {

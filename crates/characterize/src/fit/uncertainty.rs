@@ -179,6 +179,21 @@ impl Uncertainty {
         Some(student_quantile(self.degrees_of_freedom(all, noise), level))
     }
 
+    /// The same of the parameters alone that `is_kept` keeps by their places; what the others leave open stays in their errors.
+    pub(crate) fn among(&self, is_kept: impl Fn(usize) -> bool) -> Self {
+        let kept: Vec<usize> = (0..self.chosen.len())
+            .filter(|&k| is_kept(self.chosen[k]))
+            .collect();
+        let of = |matrix: &DMatrix<f64>| matrix.select_rows(&kept).select_columns(&kept);
+        Self {
+            chosen: kept.iter().map(|&k| self.chosen[k]).collect(),
+            covariance: of(&self.covariance),
+            of_noise: of(&self.of_noise),
+            unit_covariance: of(&self.unit_covariance),
+            ..*self
+        }
+    }
+
     /// Where a parameter stands among those that the fit chose.
     fn place(&self, parameter: usize) -> Option<usize> {
         self.chosen.iter().position(|&i| i == parameter)

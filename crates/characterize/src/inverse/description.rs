@@ -65,7 +65,7 @@ impl LawDescription {
             .fold(0.0, f64::max);
         let sum_of_squares = own.sum_of_squares();
         let misfit = misfit(&own, largest);
-        let of_law = among(&uncertainty, each.len());
+        let of_law = uncertainty.among(|place| place < each.len());
         let mut said = match found.at_edge(&of_law) {
             Some(edge) => vec![edge],
             None => warnings(&own, &of_law, None),
@@ -127,24 +127,6 @@ pub(super) fn in_its_parameters(found: &LawFit) -> Fit {
     let columns = found.fit.jacobian.columns(0, own.len()) * to_shape(&own);
     fit.jacobian.columns_mut(0, own.len()).copy_from(&columns);
     fit
-}
-
-/// What is known of the first `count` parameters.
-fn among(all: &Uncertainty, count: usize) -> Uncertainty {
-    let chosen: Vec<usize> = all.chosen.iter().copied().filter(|&i| i < count).collect();
-    let of = |matrix: &DMatrix<f64>| {
-        matrix
-            .view((0, 0), (chosen.len(), chosen.len()))
-            .into_owned()
-    };
-    Uncertainty {
-        covariance: of(&all.covariance),
-        of_noise: of(&all.of_noise),
-        unit_covariance: of(&all.unit_covariance),
-        effective_samples: all.effective_samples,
-        freedom: all.freedom,
-        chosen,
-    }
 }
 
 fn correlation(covariance: &DMatrix<f64>, count: usize) -> Option<f64> {

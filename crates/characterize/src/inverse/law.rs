@@ -20,6 +20,9 @@ pub enum SoughtLaw {
     Ogden(Terms),
     /// The reduced polynomial: the modulus is C₁₀, the shapes are C₂₀ and C₃₀ over it.
     ReducedPolynomial(Terms),
+    /// The law of Holzapfel, Gasser and Ogden, of pieces alone: the modulus is C₁₀, the shapes are k₁ over it, k₂, the
+    /// dispersion and the angle of the fibres [degrees].
+    HolzapfelGasserOgden,
 }
 
 /// Terms of a law that may have several.
@@ -81,18 +84,26 @@ const ALPHAS: [&[ShapeRange]; 3] = [
 const PART: ShapeRange = range(0.0, 0.3, 0.9);
 /// C₂₀ and C₃₀ over C₁₀: with both above zero the law is stable at every stretch.
 const COEFFICIENTS: [ShapeRange; 2] = [range(0.0, 0.1, 20.0), range(0.0, 0.05, 20.0)];
+/// k₁ over C₁₀, k₂, the dispersion and the angle of fibres [degrees].
+const FIBRES: [ShapeRange; 4] = [
+    range(0.0, 5.0, 1e9),
+    range(0.0, 1.0, 1e5),
+    range(0.0, 0.1, 1.0 / 3.0),
+    range(0.0, 30.0, 90.0),
+];
 
 impl SoughtLaw {
     /// Those that are sought unless others are asked for, the simplest first.
     pub const USUAL: [Self; 3] = [Self::NeoHookean, Self::MooneyRivlin, Self::Exponential];
 
     /// The names of all that can be sought, the simplest first.
-    pub const NAMES: [LawName; 5] = [
+    pub const NAMES: [LawName; 6] = [
         LawName::NeoHookean,
         LawName::MooneyRivlin,
         LawName::Exponential,
         LawName::Ogden,
         LawName::ReducedPolynomial,
+        LawName::HolzapfelGasserOgden,
     ];
 
     /// Its name in files.
@@ -103,6 +114,7 @@ impl SoughtLaw {
             Self::Exponential => LawName::Exponential,
             Self::Ogden(_) => LawName::Ogden,
             Self::ReducedPolynomial(_) => LawName::ReducedPolynomial,
+            Self::HolzapfelGasserOgden => LawName::HolzapfelGasserOgden,
         }
     }
 
@@ -111,6 +123,7 @@ impl SoughtLaw {
         match name {
             LawName::Ogden => Some(Self::Ogden(Terms::One)),
             LawName::ReducedPolynomial => Some(Self::ReducedPolynomial(Terms::Two)),
+            LawName::HolzapfelGasserOgden => Some(Self::HolzapfelGasserOgden),
             _ => Self::USUAL.into_iter().find(|law| law.name() == name),
         }
     }
@@ -118,7 +131,10 @@ impl SoughtLaw {
     /// The same with other terms; none of a law that has no terms.
     pub fn with_terms(self, terms: Terms) -> Option<Self> {
         match self {
-            Self::NeoHookean | Self::MooneyRivlin | Self::Exponential => None,
+            Self::NeoHookean
+            | Self::MooneyRivlin
+            | Self::Exponential
+            | Self::HolzapfelGasserOgden => None,
             Self::Ogden(_) => Some(Self::Ogden(terms)),
             Self::ReducedPolynomial(_) => Some(Self::ReducedPolynomial(terms)),
         }
@@ -148,6 +164,7 @@ impl SoughtLaw {
                 each.flatten().collect()
             }
             Self::ReducedPolynomial(terms) => COEFFICIENTS[..terms.count() - 1].to_vec(),
+            Self::HolzapfelGasserOgden => FIBRES.to_vec(),
         }
     }
 
@@ -159,7 +176,10 @@ impl SoughtLaw {
     /// The shear modulus at rest over the modulus [-].
     pub(super) fn shear(self) -> f64 {
         match self {
-            Self::NeoHookean | Self::MooneyRivlin | Self::ReducedPolynomial(_) => 2.0,
+            Self::NeoHookean
+            | Self::MooneyRivlin
+            | Self::ReducedPolynomial(_)
+            | Self::HolzapfelGasserOgden => 2.0,
             Self::Exponential | Self::Ogden(_) => 1.0,
         }
     }
@@ -213,6 +233,17 @@ impl SoughtLaw {
                 of("alpha", alpha, &[0.0, 1.0]),
             ],
             (Self::Ogden(_), shape) => of_ogden(modulus, shape),
+            (Self::HolzapfelGasserOgden, &[stiffness, k2, dispersion, angle]) => vec![
+                of("c10_pa", modulus, &[1.0, 0.0, 0.0, 0.0, 0.0]),
+                of(
+                    "k1_pa",
+                    modulus * stiffness,
+                    &[stiffness, modulus, 0.0, 0.0, 0.0],
+                ),
+                of("k2", k2, &[0.0, 0.0, 1.0, 0.0, 0.0]),
+                of("dispersion", dispersion, &[0.0, 0.0, 0.0, 1.0, 0.0]),
+                of("fibre_angle_deg", angle, &[0.0, 0.0, 0.0, 0.0, 1.0]),
+            ],
             (law, shape) => {
                 // C₁₀, alone or with further coefficients.
                 let names = law.name().row().keys();
@@ -248,6 +279,9 @@ impl SoughtLaw {
                     shape.extend([mu / modulus, *alpha]);
                 }
                 (modulus, shape)
+            }
+            (Self::HolzapfelGasserOgden, &[c10, k1, k2, dispersion, angle]) => {
+                (c10, vec![k1 / c10, k2, dispersion, angle])
             }
             (_, own) => (own[0], own[1..].iter().map(|each| each / own[0]).collect()),
         };
@@ -340,7 +374,7 @@ pub(super) struct SeenAsShape {
 mod tests {
     use super::*;
 
-    const LAWS: [SoughtLaw; 8] = [
+    const LAWS: [SoughtLaw; 9] = [
         SoughtLaw::NeoHookean,
         SoughtLaw::MooneyRivlin,
         SoughtLaw::Exponential,
@@ -349,6 +383,7 @@ mod tests {
         SoughtLaw::Ogden(Terms::Three),
         SoughtLaw::ReducedPolynomial(Terms::Two),
         SoughtLaw::ReducedPolynomial(Terms::Three),
+        SoughtLaw::HolzapfelGasserOgden,
     ];
 
     /// Judge: central differences, right to the square of a step of 1e-5.

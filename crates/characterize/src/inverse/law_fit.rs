@@ -5,7 +5,10 @@ use super::curves::{Curves, UnitCurve};
 use super::forces::{self, Bounds, EARLIER, Indentation};
 use super::law::SoughtLaw;
 use crate::Error;
-use crate::fit::{Differences, Fit, Parameter, Settings, least_squares_with_jacobian, multi_start};
+use crate::fit::{
+    Differences, Fit, Parameter, Settings, another_minimum, least_squares_with_jacobian,
+    multi_start,
+};
 use crate::viscoelastic::QUASI_LINEAR;
 
 /// A law that was found.
@@ -67,22 +70,11 @@ impl LawFit {
     pub(super) fn not_alone(&self) -> Option<String> {
         let other = self.others.first()?;
         let times = other.sum_of_squares / self.fit.sum_of_squares();
-        let name = self.law.name().word();
-        (times < AS_GOOD).then(|| {
-            let each = self.law.parameters(other.modulus, &other.shape);
-            let of_shapes = each.iter().skip(1);
-            let of_shapes = of_shapes.map(|own| format!("{} = {:.4}", own.name, own.value));
-            format!(
-                "{name}: another minimum is about as good, with a sum of squares {times:.2} times as large, at {}; \
-                 these recordings do not decide which of them is the tissue's",
-                of_shapes.collect::<Vec<_>>().join(", ")
-            )
-        })
+        let each = self.law.parameters(other.modulus, &other.shape);
+        let of_shapes = each.iter().skip(1).map(|own| (own.name, own.value));
+        another_minimum(self.law.name().word(), times, of_shapes)
     }
 }
-
-/// Sums of squares of two minima of which the second is about as good as the first [-].
-const AS_GOOD: f64 = 1.5;
 
 /// Relative change of the parameters below which a fit has arrived [-]: less than the elements are off.
 pub(super) const SETTINGS: Settings = Settings {

@@ -14,8 +14,9 @@
 //! with x in mm, by the method of Runge and Kutta in steps of a twentieth of the fastest time; the changes
 //! with the parameters go along.
 //!
-//! *A piece that is pressed or pulled* between faces that it slips on: the nominal stress of the neo-Hookean,
-//! Mooney-Rivlin and exponential laws at λ = 1 − d/H, −F/A, in closed form.
+//! *A piece* that is pressed or pulled between faces that it slips on, pulled between clamps, or sheared: the nominal stress
+//! −F/A of isotropic laws at λ = 1 − d/H in closed form; of the law with fibres, whose strip contracts unequally and shears,
+//! by Newton's method. Pieces that are cut at several angles to their fibres are fitted together.
 //!
 //! *How we know*: `lumped…::…`: closed forms, recordings made from known parameters; the printed springs
 //! against the steady forces of table 5-1; silicone against its authors' parameters.
@@ -25,8 +26,10 @@
 
 mod column;
 mod elastic_contact;
+mod fibres;
 mod kelvin;
 mod mean_modulus;
+mod piece;
 mod springs;
 mod springs_fit;
 mod uniaxial;
@@ -35,8 +38,7 @@ pub use column::{ColumnFit, column_force, column_size, fit_column};
 pub use elastic_contact::{Adhesion, ElasticContact, adhesive_force, fit_adhesion, fit_approach};
 pub use kelvin::{DepthHistory, KelvinFit, fit_kelvin};
 pub use mean_modulus::{Contact, MeanModulus, fit_modulus, mean_elastic_modulus, mean_modulus};
+pub use piece::{PieceLoading, PieceTest, Pulled, piece_stress};
 pub use springs::springs_force;
 pub use springs_fit::{SpringsFit, fit_springs};
-pub use uniaxial::{
-    PieceTest, Pulled, UniaxialFit, fit_uniaxial, fit_uniaxial_recordings, piece_stress,
-};
+pub use uniaxial::{UniaxialFit, fit_uniaxial, fit_uniaxial_recordings};

@@ -1,13 +1,9 @@
-use std::ops::Range;
-
-use nalgebra::Matrix3;
 use palpate_files::Estimate;
-use palpate_files::recording::StimulusKind;
 use palpate_files::tissue::Elasticity;
-use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
-use palpate_mechanics::{Exponential, Law, MooneyRivlin, NeoHookean, Ogden};
 
 use super::column::ALPHAS;
+use super::fibres::{self, KnownFibres};
+use super::piece::{Measured, PieceLoading, PieceTest, piece_stress};
 use crate::fit::{
     Fit, Parameter, Settings, Uncertainty, correlated_uncertainty, least_squares, warnings,
 };
@@ -15,24 +11,13 @@ use crate::fit::{misfit, missed};
 use crate::inverse::SoughtLaw;
 use crate::{CleanRecording, Error};
 
-/// How a piece is deformed, evenly.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum PieceTest {
-    /// Along one axis, its sides free.
-    #[default]
-    Uniaxial,
-    /// Along one axis, one of its sides free and the other held as wide as it is: pure shear.
-    PlanarTension,
-}
-
 /// A law that was found from a piece that is pressed or pulled.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UniaxialFit {
     /// Which.
     pub law: SoughtLaw,
-    /// How the piece was deformed.
-    pub test: PieceTest,
+    /// How each piece was loaded.
+    pub loadings: Vec<PieceLoading>,
     /// The law as files hold it.
     pub elasticity: Elasticity,
     /// Its parameters in the order of its keys, each with its name and its standard error.
@@ -41,84 +26,12 @@ pub struct UniaxialFit {
     pub fit: Fit,
     /// How well they are known.
     pub uncertainty: Uncertainty,
+    /// Parameters that have no error, because these tests do not determine them, whatever the fit says.
+    pub undetermined: Vec<&'static str>,
     /// The part of the stress that the law does not follow: its root mean square over the largest [-].
     pub misfit: f64,
     /// Warnings, in plain sentences.
     pub warnings: Vec<String>,
-}
-
-/// What of a recording of a piece is fitted: from first contact to its largest strain.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Pulled {
-    /// The samples.
-    pub samples: Range<usize>,
-    /// Their stretches [-], deformed over undeformed length.
-    pub stretches: Vec<f64>,
-    /// Their nominal stresses [Pa], above zero in tension.
-    pub stresses: Vec<f64>,
-}
-
-impl Pulled {
-    /// # Errors
-    /// When the recording does not say area or height.
-    pub fn of(recording: &CleanRecording) -> Result<Self, Error> {
-        let known = |value: Option<f64>, key| value.ok_or(Error::Unknown { key });
-        let area = known(recording.header.area_m2, "area_m2")?;
-        let height = known(recording.header.height_m, "height_m")?;
-        let first = recording.time.partition_point(|t| *t < 0.0);
-        let depths = &recording.depth;
-        let largest =
-            (first..depths.len()).max_by(|&a, &b| depths[a].abs().total_cmp(&depths[b].abs()));
-        let samples = first..largest.map_or(first, |last| last + 1);
-        let forces = &recording.force[samples.clone()];
-        // A sheet is pulled, whichever sign its table gives that.
-        let farthest = largest.map_or(0.0, |last| depths[last]);
-        let is_turned = PieceTest::of(recording) == PieceTest::PlanarTension && farthest > 0.0;
-        let sign = if is_turned { 1.0 } else { -1.0 };
-        Ok(Self {
-            stretches: depths[samples.clone()]
-                .iter()
-                .map(|d| 1.0 + sign * d / height)
-                .collect(),
-            stresses: forces.iter().map(|f| sign * f / area).collect(),
-            samples,
-        })
-    }
-}
-
-impl PieceTest {
-    /// That of a recording of a piece.
-    pub fn of(recording: &CleanRecording) -> Self {
-        match recording.header.stimulus {
-            Some(StimulusKind::PlanarTension) => Self::PlanarTension,
-            _ => Self::Uniaxial,
-        }
-    }
-
-    /// Nominal stress [Pa] of an incompressible law at the `stretch` [-].
-    fn stress(self, law: &dyn Law, stretch: f64) -> Result<f64, palpate_mechanics::Error> {
-        if self == Self::Uniaxial {
-            return nominal_stress(law, stretch);
-        }
-        let refused = palpate_mechanics::Error::StretchOutOfRange { stretch };
-        if !(stretch > 0.0 && stretch.is_finite()) {
-            return Err(refused);
-        }
-        // The pressure makes P₃₃ = 0: P₁₁ = (∂W/∂F)₁₁ − (∂W/∂F)₃₃/λ².
-        let f = Matrix3::from_diagonal(&[stretch, 1.0, stretch.recip()].into());
-        let stress = law.distortion_stress(&f);
-        let found = stress[(0, 0)] - stress[(2, 2)] / (stretch * stretch);
-        found.is_finite().then_some(found).ok_or(refused)
-    }
-
-    /// I₁ − 3 of the left Cauchy-Green tensor at the `stretch` [-].
-    fn invariant(self, stretch: f64) -> f64 {
-        let squared = stretch * stretch;
-        match self {
-            Self::Uniaxial => squared + 2.0 / stretch - 3.0,
-            Self::PlanarTension => squared + 1.0 / squared - 2.0,
-        }
-    }
 }
 
 /// Where the exponent α is first looked for [-].
@@ -128,13 +41,14 @@ const OGDEN_STARTS: [f64; 6] = [1.5, 4.0, 10.0, -1.5, -4.0, -10.0];
 const OGDEN_ALPHA: f64 = 50.0;
 
 impl UniaxialFit {
-    /// Nominal stress [Pa] of the law at a `stretch` [-], deformed over undeformed length.
+    /// Nominal stress [Pa] of the law at a `stretch` or amount of shear [-] of the first piece.
     ///
     /// # Errors
     /// Where the law has no stress: at no stretch above zero, or where an exponential overflows.
     pub fn nominal_stress(&self, stretch: f64) -> Result<f64, Error> {
         let values: Vec<f64> = self.fit.parameters.iter().map(|p| p.value).collect();
-        Ok(piece_stress(self.law, self.test, &values, stretch)?)
+        let loading = self.loadings.first().copied().unwrap_or_default();
+        piece_stress(self.law, loading, &values, stretch)
     }
 }
 
@@ -148,54 +62,44 @@ pub fn fit_uniaxial(
     nominal_stresses: &[f64],
 ) -> Result<UniaxialFit, Error> {
     let samples = stretches.len().min(nominal_stresses.len());
-    let measured = Measured {
-        test: PieceTest::Uniaxial,
-        stretches,
-        stresses: nominal_stresses,
+    let piece = Measured {
+        loading: PieceTest::Uniaxial.into(),
+        stretches: stretches[..samples].to_vec(),
+        stresses: nominal_stresses[..samples].to_vec(),
     };
-    fitted(law, measured, &[samples])
+    fitted(law, &[piece], KnownFibres::default())
 }
 
-/// The same from all `recordings` of pieces whose area and height are known, all in the test of the first, each from first
-/// contact to its largest strain.
+/// The same from all `recordings` of pieces whose area and height are known, each in its own test, from first contact to its
+/// largest strain.
 ///
 /// # Errors
-/// As [`fit_uniaxial`], and when a recording does not say area or height.
+/// As [`fit_uniaxial`], when a recording does not say area or height, or for a law with fibres not how they lie.
 pub fn fit_uniaxial_recordings(
     law: SoughtLaw,
     recordings: &[CleanRecording],
 ) -> Result<UniaxialFit, Error> {
-    let (mut stretches, mut stresses, mut lengths) = (Vec::new(), Vec::new(), Vec::new());
-    for recording in recordings {
-        let own = Pulled::of(recording)?;
-        lengths.push(own.samples.len());
-        stretches.extend(own.stretches);
-        stresses.extend(own.stresses);
-    }
-    let measured = Measured {
-        test: recordings.first().map(PieceTest::of).unwrap_or_default(),
-        stretches: &stretches,
-        stresses: &stresses,
-    };
-    fitted(law, measured, &lengths)
+    let pieces: Result<Vec<_>, Error> = recordings.iter().map(Measured::of).collect();
+    let first = recordings.first().map(|own| KnownFibres::of(&own.header));
+    fitted(law, &pieces?, first.unwrap_or_default())
 }
 
-/// What was measured of a piece.
-#[derive(Debug, Clone, Copy)]
-struct Measured<'a> {
-    test: PieceTest,
-    stretches: &'a [f64],
-    /// [Pa]
-    stresses: &'a [f64],
-}
-
-fn fitted(law: SoughtLaw, measured: Measured<'_>, lengths: &[usize]) -> Result<UniaxialFit, Error> {
+fn fitted(law: SoughtLaw, pieces: &[Measured], known: KnownFibres) -> Result<UniaxialFit, Error> {
     let mut said = Vec::new();
-    let mut fit = nearest(law, measured, f64::NEG_INFINITY)?;
+    let mut undetermined = Vec::new();
+    let mut fit = match law {
+        SoughtLaw::HolzapfelGasserOgden => {
+            let found = fibres::fitted(pieces, known)?;
+            said.extend(found.warnings);
+            undetermined = found.undetermined;
+            found.fit
+        }
+        _ => nearest(law, pieces, f64::NEG_INFINITY)?,
+    };
     if law == SoughtLaw::MooneyRivlin {
         let [c10, c01] = [0, 1].map(|place: usize| fit.parameters[place].value);
         if c10 + c01 <= 0.0 {
-            fit = nearest(law, measured, 0.0)?;
+            fit = nearest(law, pieces, 0.0)?;
             said.push(format!(
                 "the nearest c10_pa and c01_pa, {c10:.4e} and {c01:.4e}, have no stiffness at rest; both were held above zero"
             ));
@@ -205,15 +109,15 @@ fn fitted(law: SoughtLaw, measured: Measured<'_>, lengths: &[usize]) -> Result<U
         let moduli = fit.parameters.iter().step_by(2).map(|own| own.value);
         let shear: f64 = moduli.sum();
         if shear <= 0.0 {
-            fit = nearest(law, measured, 0.0)?;
+            fit = nearest(law, pieces, 0.0)?;
             said.push(format!(
                 "the nearest mu have the sum {shear:.4e}, which is no stiffness at rest; all were held above zero"
             ));
         }
     }
-    if measured.test == PieceTest::PlanarTension && matches!(law, SoughtLaw::Ogden(_)) {
+    if is_plane(pieces) && matches!(law, SoughtLaw::Ogden(_)) {
         said.push(
-            "planar tension does not tell the sign of alpha, which is taken as above zero; a uniaxial test does"
+            "planar tension and simple shear do not tell the sign of alpha, which is taken as above zero; a uniaxial test does"
                 .to_owned(),
         );
     }
@@ -225,52 +129,62 @@ fn fitted(law: SoughtLaw, measured: Measured<'_>, lengths: &[usize]) -> Result<U
             own.name
         ));
     }
-    let uncertainty = correlated_uncertainty(&fit, lengths);
-    let largest = measured
-        .stresses
-        .iter()
-        .fold(0.0, |most: f64, s| most.max(s.abs()));
+    let lengths: Vec<usize> = pieces.iter().map(|own| own.stresses.len()).collect();
+    let uncertainty = match law {
+        SoughtLaw::HolzapfelGasserOgden => {
+            let all = correlated_uncertainty(&fibres::with_all_free(&fit), &lengths);
+            all.among(|place| !fit.parameters[place].at_bound())
+        }
+        _ => correlated_uncertainty(&fit, &lengths),
+    };
+    let stresses = pieces.iter().flat_map(|own| &own.stresses);
+    let largest = stresses.fold(0.0, |most: f64, s| most.max(s.abs()));
     let misfit = misfit(&fit, largest);
     said.extend(warnings(&fit, &uncertainty, None));
     said.extend(missed(law.name().word(), "stress", misfit));
-    let estimates: Vec<Estimate> = (0..fit.parameters.len())
-        .map(|place| Estimate {
-            value: fit.parameters[place].value,
-            standard_error: uncertainty.standard_error(place),
+    let names = law.names().into_iter();
+    let each = names.clone().zip(&fit.parameters).enumerate();
+    let estimates: Vec<Estimate> = each
+        .map(|(place, (name, parameter))| Estimate {
+            value: parameter.value,
+            standard_error: uncertainty
+                .standard_error(place)
+                .filter(|_| !undetermined.contains(&name)),
         })
         .collect();
-    let names = law.names().into_iter();
     Ok(UniaxialFit {
         law,
-        test: measured.test,
+        loadings: pieces.iter().map(|own| own.loading).collect(),
         elasticity: law.elasticity(&estimates),
         parameters: names.zip(estimates).collect(),
         uncertainty,
+        undetermined,
         misfit,
         warnings: said,
         fit,
     })
 }
 
-/// The fit with the least Σ ε² and no modulus below `least` [Pa], of all that the starts lead to.
-fn nearest(law: SoughtLaw, measured: Measured<'_>, least: f64) -> Result<Fit, Error> {
-    let Measured {
-        test,
-        stretches,
-        stresses,
-    } = measured;
-    let samples = stretches.len().min(stresses.len());
+/// Whether all pieces are in plane strain, where an exponent does as much as its opposite.
+fn is_plane(pieces: &[Measured]) -> bool {
+    let mut each = pieces.iter();
+    each.all(|own| own.loading.test != PieceTest::Uniaxial)
+}
+
+/// The fit of an isotropic law with the least Σ ε² and no modulus below `least` [Pa], of all that the starts lead to.
+fn nearest(law: SoughtLaw, pieces: &[Measured], least: f64) -> Result<Fit, Error> {
+    let samples = pieces.iter().map(|own| own.stresses.len()).sum();
     let mut best: Option<Fit> = None;
-    for parameters in starts(law, measured, least)? {
+    for parameters in starts(law, pieces, least)? {
         let fit = least_squares(
             &parameters,
             samples,
             &Settings::default(),
             |p, residuals| {
-                for (residual, (&stretch, known)) in
-                    residuals.iter_mut().zip(stretches.iter().zip(stresses))
+                for (residual, (loading, stretch, known)) in
+                    residuals.iter_mut().zip(each_sample(pieces))
                 {
-                    *residual = piece_stress(law, test, p, stretch).ok()? - known;
+                    *residual = piece_stress(law, loading, p, stretch).ok()? - known;
                 }
                 Some(())
             },
@@ -283,20 +197,16 @@ fn nearest(law: SoughtLaw, measured: Measured<'_>, least: f64) -> Result<Fit, Er
     best.ok_or(Error::NothingFelt)
 }
 
+fn each_sample(pieces: &[Measured]) -> impl Iterator<Item = (PieceLoading, f64, f64)> + '_ {
+    let each = pieces.iter();
+    each.flat_map(|own| own.samples().map(|(x, stress)| (own.loading, x, stress)))
+}
+
 /// Where fits start: stress is linear in the moduli, which are found for each of a few exponents, and the best of each
 /// sign of the exponents is taken.
-fn starts(
-    law: SoughtLaw,
-    measured: Measured<'_>,
-    least: f64,
-) -> Result<Vec<Vec<Parameter>>, Error> {
-    let test = measured.test;
+fn starts(law: SoughtLaw, pieces: &[Measured], least: f64) -> Result<Vec<Vec<Parameter>>, Error> {
     let mut best: Vec<([bool; 3], f64, Vec<f64>)> = Vec::new();
-    // In planar tension an exponent does as much as its opposite.
-    let least_alpha = match test {
-        PieceTest::Uniaxial => -OGDEN_ALPHA,
-        PieceTest::PlanarTension => 0.0,
-    };
+    let least_alpha = if is_plane(pieces) { 0.0 } else { -OGDEN_ALPHA };
     let is_sought = |shape: &Vec<f64>| {
         let mut exponents = shape.iter().step_by(2);
         !matches!(law, SoughtLaw::Ogden(_)) || exponents.all(|alpha| *alpha >= least_alpha)
@@ -308,8 +218,8 @@ fn starts(
             .map(|p| p.value)
             .collect();
         let (mut products, mut squares) = (0.0, 0.0);
-        for (&stretch, known) in measured.stretches.iter().zip(measured.stresses) {
-            let own = piece_stress(law, test, &unit, stretch).unwrap_or(f64::INFINITY);
+        for (loading, stretch, known) in each_sample(pieces) {
+            let own = piece_stress(law, loading, &unit, stretch).unwrap_or(f64::INFINITY);
             products += own * known;
             squares += own * own;
         }
@@ -359,6 +269,7 @@ fn shapes(law: SoughtLaw) -> Vec<Vec<f64>> {
         SoughtLaw::MooneyRivlin => vec![vec![0.5]],
         SoughtLaw::Exponential => STARTS.map(|alpha| vec![alpha]).to_vec(),
         SoughtLaw::ReducedPolynomial(_) => vec![vec![0.0; law.count() - 1]],
+        SoughtLaw::HolzapfelGasserOgden => vec![law.start()],
         SoughtLaw::Ogden(terms) => {
             // Exponents in the order of the starts, so that terms do not change places.
             let mut all: Vec<Vec<f64>> = OGDEN_STARTS.map(|alpha| vec![alpha]).to_vec();
@@ -374,43 +285,6 @@ fn shapes(law: SoughtLaw) -> Vec<Vec<f64>> {
                 all = more.collect();
             }
             all
-        }
-    }
-}
-
-/// Nominal stress [Pa] of a law with the parameters `p` in a `test`, also where they are none of a tissue: it is linear in
-/// all but exponents.
-///
-/// # Errors
-/// At a stretch where the law has no stress.
-pub fn piece_stress(
-    law: SoughtLaw,
-    test: PieceTest,
-    p: &[f64],
-    stretch: f64,
-) -> Result<f64, palpate_mechanics::Error> {
-    let of = |law: &dyn Law| test.stress(law, stretch);
-    match law {
-        SoughtLaw::NeoHookean => Ok(p[0] * of(&NeoHookean::incompressible(1.0)?)?),
-        SoughtLaw::MooneyRivlin => {
-            let first = of(&MooneyRivlin::incompressible(1.0, 0.0)?)?;
-            let second = of(&MooneyRivlin::incompressible(0.0, 1.0)?)?;
-            Ok(p[0] * first + p[1] * second)
-        }
-        SoughtLaw::Exponential => Ok(p[0] * of(&Exponential::incompressible(1.0, p[1])?)?),
-        SoughtLaw::Ogden(_) => {
-            let terms = p.as_chunks().0.iter();
-            let each =
-                terms.map(|&[mu, alpha]| Ok(mu * of(&Ogden::incompressible(&[[1.0, alpha]])?)?));
-            each.sum()
-        }
-        SoughtLaw::ReducedPolynomial(_) => {
-            // The stress of neo-Hookean tissue times Σ k C_k0 (I₁ − 3)^(k−1).
-            let first = of(&NeoHookean::incompressible(1.0)?)?;
-            let invariant = test.invariant(stretch);
-            let each = (1..).zip(p);
-            let slope = each.map(|(k, c)| f64::from(k) * c * invariant.powi(k - 1));
-            Ok(first * slope.sum::<f64>())
         }
     }
 }

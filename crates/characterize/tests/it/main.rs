@@ -12,6 +12,7 @@ mod design;
 mod elastic_contact;
 mod errors;
 mod family;
+mod fibres;
 mod filter;
 mod fit;
 mod fitted;

@@ -192,6 +192,18 @@ impl Domain {
         .with_remark("in degrees")
         .usually(5.0, 89.0);
 
+    /// An angle between a direction and an axis [degrees].
+    pub const AXIS_ANGLE: Self =
+        Self::number("an angle", [Included(-180.0), Included(180.0)]).with_remark("in degrees");
+
+    /// The angle of a family of fibres to their reference axis [degrees].
+    pub const FIBRE_ANGLE: Self =
+        Self::number("an angle", [Included(0.0), Included(90.0)]).with_remark("in degrees");
+
+    /// The dispersion of fibres around their direction [-].
+    pub const DISPERSION: Self = Self::number("a dispersion", [Included(0.0), Included(1.0 / 3.0)])
+        .with_remark("0 is no dispersion, 1/3 an isotropic one");
+
     /// An angle of a turn [rad].
     pub const TURN: Self =
         Self::quantity("an angle", "rad", [Included(-1e3), Included(1e3)]).usually(-6.3, 6.3);

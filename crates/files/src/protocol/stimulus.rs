@@ -125,9 +125,11 @@ impl StimulusPlan {
             StimulusKind::Sine => sines(keys)?,
             StimulusKind::ChirpLinear => chirp(keys, Sweep::Linear)?,
             StimulusKind::ChirpExponential => chirp(keys, Sweep::Exponential)?,
-            StimulusKind::Uniaxial | StimulusKind::PlanarTension | StimulusKind::Other => {
-                return Err(keys.bad("kind", EXPECTED));
-            }
+            StimulusKind::Uniaxial
+            | StimulusKind::UniaxialTension
+            | StimulusKind::PlanarTension
+            | StimulusKind::SimpleShear
+            | StimulusKind::Other => return Err(keys.bad("kind", EXPECTED)),
         };
         let repeats = keys.integer("repeats")?.unwrap_or(1);
         let plan = |stimulus| Self { stimulus, repeats };

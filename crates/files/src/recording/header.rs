@@ -29,8 +29,12 @@ words! {
         ChirpExponential = "chirp_exponential",
         /// It pressed or pulled a whole piece along one axis.
         Uniaxial = "uniaxial",
+        /// It pulled a strip between clamps along one axis, its sides free.
+        UniaxialTension = "uniaxial_tension",
         /// It pulled a wide sheet whose clamps keep its width.
         PlanarTension = "planar_tension",
+        /// It moved one face of a piece along itself, parallel to the opposite face.
+        SimpleShear = "simple_shear",
         /// Something else.
         Other = "other",
     }
@@ -39,7 +43,15 @@ words! {
 impl StimulusKind {
     /// Whether a whole piece was deformed evenly, and not indented.
     pub fn is_of_piece(self) -> bool {
-        matches!(self, Self::Uniaxial | Self::PlanarTension)
+        matches!(self, Self::Uniaxial) || self.is_clamped()
+    }
+
+    /// Whether such a piece was held from the first sample, so that its displacement counts from there, with either sign.
+    pub fn is_clamped(self) -> bool {
+        matches!(
+            self,
+            Self::UniaxialTension | Self::PlanarTension | Self::SimpleShear
+        )
     }
 }
 
@@ -151,10 +163,19 @@ header_keys! {
         support: Support = Holds::Word(Support::MEANINGS),
         /// Density of the specimen [kg/m³].
         density_kg_per_m3: f64 = Holds::Number(Domain::DENSITY),
-        /// Cross-section of a piece that is pressed or pulled along one axis; of a sheet, its width times its thickness [m²].
+        /// Cross-section of a piece that is pressed or pulled along one axis; of a sheet, its width times its thickness; in
+        /// simple shear, the face that moves [m²].
         area_m2: f64 = Holds::Number(Domain::AREA),
-        /// Height of a piece that is pressed or pulled along one axis; of a sheet, between its clamps [m].
+        /// Height of a piece that is pressed or pulled along one axis; of a strip or a sheet, between its clamps; in simple
+        /// shear, between its faces [m].
         height_m: f64 = Holds::Number(Domain::LENGTH),
+        /// Angle from the direction in which a piece is pulled, pressed or sheared to the reference axis of its fibres, in the
+        /// plane of the fibres; in simple shear positive towards the face that moves [degrees].
+        fibre_axis_angle_deg: f64 = Holds::Number(Domain::AXIS_ANGLE),
+        /// Angle of the two families of fibres to that axis, where it is known; fitted if not stated [degrees].
+        fibre_angle_deg: f64 = Holds::Number(Domain::FIBRE_ANGLE),
+        /// Dispersion of the fibres of a family around its direction, where it is known; fitted if not stated [-].
+        dispersion: f64 = Holds::Number(Domain::DISPERSION),
         /// The shape of the specimen.
         specimen: Specimen = Holds::Word(Specimen::MEANINGS),
         /// Young's modulus of the base under a layer, at the speed of the press [Pa].
@@ -322,7 +343,7 @@ impl RecordingHeader {
             indenter_shape indenter_radius_m indenter_half_angle_deg indenter_friction
             force_sensor spring_constant_n_per_m sensitivity_m_per_v position_m approach_normal indenter_axis tip_distance_m
             thickness_m specimen_radius_m specimen_width_m support density_kg_per_m3
-            area_m2 height_m
+            area_m2 height_m fibre_axis_angle_deg fibre_angle_deg dispersion
             specimen base_modulus_pa base_modulus_ratio base_modulus_error base_thickness_m
             inner_radius_m outer_radius_m length_m pressure_pa
             mesh mesh_unit location_m fixed

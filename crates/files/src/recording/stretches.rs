@@ -12,8 +12,8 @@ const STRETCH: &[&str] = &["stretch", "lambda"];
 const STRESS: &[&str] = &["stress"];
 
 /// A table without times of a piece that is deformed: of stretches and nominal stresses, as a recording of a cube of one
-/// metre that is pulled in a step a second, or of displacements and forces of a sheet in planar tension; none when `text`
-/// holds no such table.
+/// metre that is pulled in a step a second, or of displacements and forces of a piece between clamps; none when `text` holds
+/// no such table.
 pub(super) fn parse(
     text: &str,
     path: &Path,
@@ -25,12 +25,18 @@ pub(super) fn parse(
     ];
     let (table, has_all) = foreign_table::find(text, path, &wanted)?;
     if !has_all {
-        return sheet(text, path, columns);
+        return clamped(text, path, columns);
     }
     let keys = table.header.keys(path, RecordingHeader::KEYS);
     let mut header = RecordingHeader::from_keys(&keys)?;
-    if header.stimulus != Some(StimulusKind::PlanarTension) {
-        header.stimulus = Some(StimulusKind::Uniaxial);
+    match header.stimulus {
+        Some(StimulusKind::PlanarTension | StimulusKind::UniaxialTension) => {}
+        Some(StimulusKind::SimpleShear) => {
+            let expected =
+                "no `simple_shear` of a table of stretches; give displacements and forces";
+            return Err(keys.bad("stimulus", expected));
+        }
+        _ => header.stimulus = Some(StimulusKind::Uniaxial),
     }
     header.area_m2 = Some(1.0);
     header.height_m = Some(1.0);
@@ -65,8 +71,8 @@ const HEIGHT: Domain = Domain::number("a stretch", [Excluded(0.0), Included(1e3)
 const DISPLACEMENT: Domain =
     Domain::quantity("a displacement", "m", [Included(-10.0), Included(10.0)]);
 
-/// Displacements and forces of a sheet in planar tension; none of another table.
-fn sheet(text: &str, path: &Path, columns: &ForeignColumns) -> Result<Option<Recording>, Error> {
+/// Displacements and forces of a piece between clamps; none of another table.
+fn clamped(text: &str, path: &Path, columns: &ForeignColumns) -> Result<Option<Recording>, Error> {
     let [_, depth, force] = columns.wanted();
     let (table, has_all) = foreign_table::find(text, path, &[depth, force])?;
     if !has_all {
@@ -74,13 +80,16 @@ fn sheet(text: &str, path: &Path, columns: &ForeignColumns) -> Result<Option<Rec
     }
     let keys = table.header.keys(path, RecordingHeader::KEYS);
     let header = RecordingHeader::from_keys(&keys)?;
-    if header.stimulus != Some(StimulusKind::PlanarTension) {
-        return Ok(None);
-    }
+    let deformed = match header.stimulus {
+        Some(StimulusKind::PlanarTension) => "pull of a sheet",
+        Some(StimulusKind::UniaxialTension) => "pull of a strip",
+        Some(StimulusKind::SimpleShear) => "shear of a piece",
+        _ => return Ok(None),
+    };
     let [depth, force] = [depth.choose(&table)?, force.choose(&table)?];
     let ([length, load], _) = foreign_units::sheet(&table, [depth, force], columns)?;
     let remark = format!(
-        "`{depth}` in {} and `{force}` in {} were read as the pull of a sheet, a row a second",
+        "`{depth}` in {} and `{force}` in {} were read as the {deformed}, a row a second",
         length.spelling, load.spelling
     );
     Ok(Some(Recording {

@@ -21,8 +21,8 @@ words! {
         Ogden = "ogden",
         /// The reduced polynomial of order 1 to 3 (Yeoh's law), incompressible.
         ReducedPolynomial = "reduced_polynomial",
-        /// The fibre-reinforced law of Holzapfel, Gasser and Ogden with dispersion, incompressible; `solve` knows the
-        /// direction of its fibres.
+        /// The fibre-reinforced law of Holzapfel, Gasser and Ogden with dispersion, incompressible; `solve` and fits
+        /// of pieces know the direction of its fibres.
         HolzapfelGasserOgden = "holzapfel_gasser_ogden",
     }
 }
@@ -91,12 +91,6 @@ const FIBRE_STIFFNESS: Domain = Domain::quantity(
 
 const FIBRE_EXPONENT: Domain =
     Domain::number("an exponent", [Included(0.0), Included(1e5)]).usually(0.0, 2000.0);
-
-const DISPERSION: Domain = Domain::number("a dispersion", [Included(0.0), Included(1.0 / 3.0)])
-    .with_remark("0 is no dispersion, 1/3 an isotropic one");
-
-const FIBRE_ANGLE: Domain =
-    Domain::number("an angle", [Included(0.0), Included(90.0)]).with_remark("in degrees");
 
 const SIGNED_EXPONENT: Domain =
     Domain::number("an exponent", [Included(-1e4), Included(1e4)]).usually(-100.0, 100.0);
@@ -308,13 +302,13 @@ pub(super) const HOLZAPFEL_GASSER_OGDEN: LawRow = LawRow {
         .optional("524.6", OTHER),
         Key::estimate(
             "dispersion",
-            DISPERSION,
+            Domain::DISPERSION,
             "`holzapfel_gasser_ogden`: kappa, the dispersion of the fibres of a family around its direction.",
         )
         .optional("0.226", OTHER),
         Key::estimate(
             "fibre_angle_deg",
-            FIBRE_ANGLE,
+            Domain::FIBRE_ANGLE,
             "`holzapfel_gasser_ogden`: the angle gamma of the two families to the reference axis, on either side of it; at 0 \
              and at 90 they are one, of twice k1. The problem says where the axis is.",
         )

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::DMatrix;
 use palpate_characterize::inverse::{ElasticForce, SoughtLaw, standard_errors};
-use palpate_characterize::lumped::{PieceTest, piece_stress};
+use palpate_characterize::lumped::{PieceLoading, PieceTest, piece_stress};
 use palpate_mechanics::{IndentationCurve, PronySeries};
 use serde::Deserialize;
 
@@ -28,6 +28,9 @@ pub struct FoundLaw {
     /// How the piece was deformed, of a piece.
     #[serde(default)]
     pub test: Option<PieceTest>,
+    /// The angle of its loading to the axis of its fibres [degrees], of a law with fibres.
+    #[serde(default)]
+    pub fibre_axis_angle_deg: Option<f64>,
 }
 
 /// A step of a derivative of a stress, over the parameter [-]: half the digits.
@@ -35,7 +38,7 @@ const STEP: f64 = 1e-6;
 
 impl FoundLaw {
     /// Forces [N] at `course`, depths [m], over `time` [s] or at once without it; of a piece nominal stresses [Pa] at
-    /// stretches [-]. Each with its standard error.
+    /// stretches or amounts of shear [-]. Each with its standard error.
     ///
     /// # Errors
     /// When times and depths are not as many, times do not ascend, or a stretch is none.
@@ -94,13 +97,16 @@ impl FoundLaw {
                 self.values.len()
             ))
         })?;
-        let test = self.test.unwrap_or_default();
+        let loading = PieceLoading {
+            test: self.test.unwrap_or_default(),
+            fibre_axis_angle_deg: self.fibre_axis_angle_deg,
+        };
         let names = law.names();
         let known = |name: &&str| self.values.get(*name).copied().unwrap_or(0.0);
         let values: Vec<f64> = names.iter().map(known).collect();
         let at = |values: &[f64]| -> Result<Vec<f64>, Error> {
             let each = stretches.iter();
-            let each = each.map(|stretch| piece_stress(law, test, values, *stretch));
+            let each = each.map(|stretch| piece_stress(law, loading, values, *stretch));
             Ok(each.collect::<Result<_, _>>()?)
         };
         let known = self.covariance.correlations();

@@ -178,11 +178,13 @@ fn guess(tissue: &Tissue) -> Result<Guess, Error> {
     let elasticity = &tissue.elasticity;
     let name = elasticity.law();
     let values = elasticity.values();
-    let law = SoughtLaw::with_parameters(name, values.len()).ok_or_else(|| {
+    let law = SoughtLaw::with_parameters(name, values.len());
+    let law = law.filter(|law| !law.name().has_fibres()).ok_or_else(|| {
+        let names = SoughtLaw::NAMES.into_iter().filter(|own| !own.has_fibres());
         Error::input(format!(
-            "the law `{}` is not one that recordings are fitted with; guess one of {}",
+            "the law `{}` is not one that indentations are fitted with; guess one of {}",
             name.word(),
-            SoughtLaw::NAMES.map(LawName::word).join(", ")
+            names.map(LawName::word).collect::<Vec<_>>().join(", ")
         ))
     })?;
     let (modulus, shape) = law.as_shape(&values).ok_or_else(|| {

@@ -1,8 +1,11 @@
 use std::fs;
 
 use palpate_characterize::inverse::{SoughtLaw, Terms};
-use palpate_jobs::characterize::{Choice, characterize, specimens};
+use palpate_files::Tissue;
+use palpate_jobs::characterize::{Choice, FoundLaw, Identified, characterize, specimens};
 use palpate_jobs::{Nobody, Recordings, json_text};
+use palpate_mechanics::finite_elements::uniaxial::stretched;
+use palpate_mechanics::{FibreFrame, Material, Vec3};
 
 use crate::measured;
 
@@ -109,4 +112,104 @@ fn an_order_is_one_of_a_law_that_has_some() {
             "{refused}"
         );
     }
+}
+
+/// Strips of the tutorial, as `benches/peers/fibres/compare.py` made them.
+const STRIPS: [(&str, &str); 3] = [
+    (
+        "strip-0.csv",
+        include_str!("../../../../assets/first/strip-0.csv"),
+    ),
+    (
+        "strip-45.csv",
+        include_str!("../../../../assets/first/strip-45.csv"),
+    ),
+    (
+        "strip-90.csv",
+        include_str!("../../../../assets/first/strip-90.csv"),
+    ),
+];
+
+/// Judge: the parameters that the script made the strips of, within four standard errors; the tissue that is written gives the
+/// stress of its fit where `solve` pulls a bar along and across the fibres.
+#[test]
+fn strips_become_a_tissue_with_fibres() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in STRIPS {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
+    let recordings = Recordings {
+        paths: vec![folder.path().to_owned()],
+        ..Recordings::default()
+    };
+    let choice = Choice {
+        draws: 0,
+        ..Choice::default()
+    };
+    let found = characterize(&recordings, choice, None, &Nobody).unwrap();
+    let [specimen] = found.answer.specimens.as_slice() else {
+        panic!("the strips are one specimen");
+    };
+    let name = "holzapfel_gasser_ogden";
+    assert_eq!(specimen.preferred.as_deref(), Some(name));
+    let law = &specimen.laws[name];
+    let truth = [
+        ("c10_pa", 1500.0),
+        ("k1_pa", 9000.0),
+        ("k2", 2.5),
+        ("dispersion", 0.08),
+    ];
+    for (key, truth) in truth {
+        let known = &law.parameters[key];
+        let error = known.standard_error.unwrap();
+        assert!(
+            (known.value - truth).abs() < 4.0 * error,
+            "{key}: {known:?}"
+        );
+        assert!(error < 0.25 * truth, "{key}: {error}");
+    }
+    let angle = &law.parameters["fibre_angle_deg"];
+    assert_eq!((angle.value, angle.standard_error), (0.0, None));
+    assert_eq!(angle.verdict, Some(Identified::Stated));
+    let text = found.tissues[0].as_ref().unwrap();
+    let tissue = Tissue::parse(text, "muscle.toml").unwrap();
+    assert!(tissue.to_abaqus().unwrap().contains("HOLZAPFEL"));
+    assert!(
+        tissue
+            .to_febio()
+            .unwrap()
+            .contains("Holzapfel-Gasser-Ogden")
+    );
+    let fit = &specimen.fits[name];
+    let values = law.parameters.iter();
+    let mut evaluated = FoundLaw {
+        law: name.to_owned(),
+        values: values.map(|(key, own)| (key.clone(), own.value)).collect(),
+        series: Vec::new(),
+        covariance: fit.covariance.clone(),
+        elastic: None,
+        test: fit.test,
+        fibre_axis_angle_deg: fit.fibre_axis_angle_deg,
+    };
+    let material = Material::from_tissue(&tissue).unwrap();
+    let [x, y] = [Vec3::x(), Vec3::y()];
+    for (angle, frame) in [(0.0, [x, y]), (90.0, [y, x])] {
+        evaluated.fibre_axis_angle_deg = Some(angle);
+        let [stress, error] = evaluated.evaluate(None, &[1.2]).unwrap()[0];
+        let law = material
+            .law
+            .in_frame(&FibreFrame::new(&frame[0], &frame[1]).unwrap());
+        let solved = stretched(law.unwrap().as_ref(), 1.2)
+            .unwrap()
+            .nominal_stress;
+        // The tissue's numbers are written to some digits.
+        assert!(
+            (stress / solved - 1.0).abs() < 1e-3,
+            "{angle}: {stress} {solved}"
+        );
+        assert!(error > 0.0 && error < 0.1 * stress, "{error}");
+    }
+    evaluated.fibre_axis_angle_deg = None;
+    let said = evaluated.evaluate(None, &[1.2]).unwrap_err().to_string();
+    assert!(said.contains("fibre_axis_angle_deg"), "{said}");
 }

@@ -14,6 +14,7 @@ pub mod estimate;
 mod friction;
 mod graded;
 pub mod hemisphere;
+pub mod homogeneous;
 pub mod indentation;
 mod linear_system;
 mod mapping;

@@ -9,7 +9,7 @@
 //! `fibres::a_strip_is_pulled`.
 //!
 //! *Limits*: the homogeneous state, of fibres that lie in a plane of the axes, symmetric about one of them, so that nothing
-//! shears; that a bar may neck or buckle is not asked.
+//! shears (see [`super::homogeneous`]); that a bar may neck or buckle is not asked.
 
 use nalgebra::Matrix3;
 

@@ -28,6 +28,7 @@ mod field;
 mod friction;
 mod hexahedra;
 mod homogeneous;
+mod homogeneous_piece;
 mod indentation;
 mod inhomogeneous;
 mod invariants;

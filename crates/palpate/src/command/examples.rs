@@ -72,6 +72,17 @@ const ALL: &[Example] = &[
         "a table of depth and force of another program, to be fitted"
     ),
     example!(
+        "strip-0.csv",
+        "first/strip-0.csv",
+        "a strip of muscle, pulled along its fibres"
+    ),
+    example!(
+        "strip-45.csv",
+        "first/strip-45.csv",
+        "the same at 45 degrees to them"
+    ),
+    example!("strip-90.csv", "first/strip-90.csv", "the same across them"),
+    example!(
         "esophagus/scene.toml",
         "esophagus/scene.toml",
         "the lower esophagus under a probe"

@@ -144,5 +144,5 @@ fn what_cannot_be_designed_is_one_sentence() {
     refused(&["liver.csv"], "one tissue or recordings alone");
     let linear = "format = 1\n[tissue]\nlaw = \"linear\"\nyoungs_modulus_pa = 3000.0\npoissons_ratio = 0.45\n";
     fs::write(folder.path().join("liver.toml"), linear).unwrap();
-    refused(&[], "not one that recordings are fitted with");
+    refused(&[], "not one that indentations are fitted with");
 }

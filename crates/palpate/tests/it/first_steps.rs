@@ -35,7 +35,7 @@ fn examples_are_valid() {
         let file = valid["file"].as_str().unwrap();
         let kind = valid["kind"].as_str().unwrap();
         let expected = match file {
-            "liver-4mm.csv" => "recording",
+            "liver-4mm.csv" | "strip-0.csv" | "strip-45.csv" | "strip-90.csv" => "recording",
             _ if file.ends_with(".csv") => "motion",
             _ if file.starts_with("tasks/") || file.ends_with("trainer.toml") => "task",
             _ if file.starts_with("problems/") => "problem",

@@ -152,9 +152,9 @@ def characterize(
     ----------
     recordings : path or iterable of paths
         Files, also of instruments, or folders of them; those of the same organ, subject and site are one specimen.
-    law : {"neo_hookean", "mooney_rivlin", "exponential", "ogden", "reduced_polynomial"}, optional
-        The only law that is sought; by default the first three are. Its answer stands under this name in
-        ``Specimen.laws``.
+    law : {"neo_hookean", "mooney_rivlin", "exponential", "ogden", "reduced_polynomial", "holzapfel_gasser_ogden"}, optional
+        The only law that is sought; by default the first three are, and of pieces that state ``fibre_axis_angle_deg`` also the
+        last. Its answer stands under this name in ``Specimen.laws``.
     order : int, optional
         Terms of ``"ogden"``, by default 1, or of ``"reduced_polynomial"``, by default 2: 1 to 3.
     terms : int, optional

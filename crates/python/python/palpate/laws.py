@@ -57,7 +57,7 @@ class Parameter(dict[str, Any]):
 
     @property
     def verdict(self) -> str | None:
-        """``"known"``, ``"correlated"``, ``"hardly_known"`` or ``"on_bound"``."""
+        """``"known"``, ``"correlated"``, ``"hardly_known"``, ``"on_bound"`` or, where recordings state it, ``"stated"``."""
         verdict: str | None = self.get("verdict")
         return verdict
 
@@ -102,11 +102,15 @@ class FittedRecording:
     file : str
         As it was named.
     is_piece : bool
-        Whether a piece was pressed or pulled along one axis.
+        Whether a piece was pressed, pulled or sheared.
+    test : {"uniaxial", "planar_tension", "simple_shear"} or None
+        How the piece was deformed.
+    fibre_axis_angle_deg : float or None
+        The angle of its loading to the axis of its fibres, where the recording states it.
     time : array
         From first contact [s].
     course : array
-        Depths [m]; of a piece, stretches [-].
+        Depths [m]; of a piece, stretches or amounts of shear [-].
     measured : array
         Forces [N]; of a piece, nominal stresses [Pa].
     """
@@ -114,6 +118,8 @@ class FittedRecording:
     def __init__(self, samples: Mapping[str, Any], law: str) -> None:
         self.file: str = samples["file"]
         self.is_piece: bool = samples["is_piece"]
+        self.test: str | None = samples["test"]
+        self.fibre_axis_angle_deg: float | None = samples["fibre_axis_angle_deg"]
         self.time: Floats = samples["time"]
         self.course: Floats = samples["course"]
         self.measured: Floats = samples["measured"]
@@ -225,7 +231,13 @@ class Law(dict[str, Any]):
         return np.asarray(self.best_fit - self.measured)
 
     def evaluate(
-        self, time: ArrayLike | None = None, depth: ArrayLike | None = None, *, stretch: ArrayLike | None = None
+        self,
+        time: ArrayLike | None = None,
+        depth: ArrayLike | None = None,
+        *,
+        stretch: ArrayLike | None = None,
+        test: str | None = None,
+        fibre_axis_angle_deg: float | None = None,
     ) -> Floats:
         """Return forces [N] at depths [m], or nominal stresses [Pa] of a piece at stretches [-].
 
@@ -236,18 +248,33 @@ class Law(dict[str, Any]):
         depth : array
             Depths [m] of the indenter of the recordings; beyond the deepest of them force goes on along its tangent.
         stretch : array
-            Of a piece, deformed over undeformed length.
+            Of a piece, deformed over undeformed length; in simple shear, amounts of shear.
+        test : {"uniaxial", "planar_tension", "simple_shear"}, optional
+            How the piece is deformed; by default as that of the first recording.
+        fibre_axis_angle_deg : float, optional
+            Of a law with fibres, the angle from the loading to their axis; by default that of the first recording.
         """
-        return self._evaluated(time, depth, stretch)[0]
+        return self._evaluated(time, depth, stretch, test, fibre_axis_angle_deg)[0]
 
     def evaluate_error(
-        self, time: ArrayLike | None = None, depth: ArrayLike | None = None, *, stretch: ArrayLike | None = None
+        self,
+        time: ArrayLike | None = None,
+        depth: ArrayLike | None = None,
+        *,
+        stretch: ArrayLike | None = None,
+        test: str | None = None,
+        fibre_axis_angle_deg: float | None = None,
     ) -> Floats:
         """Return the standard errors of what `evaluate` returns, from `covariance`."""
-        return self._evaluated(time, depth, stretch)[1]
+        return self._evaluated(time, depth, stretch, test, fibre_axis_angle_deg)[1]
 
     def _evaluated(
-        self, time: ArrayLike | None, depth: ArrayLike | None, stretch: ArrayLike | None
+        self,
+        time: ArrayLike | None,
+        depth: ArrayLike | None,
+        stretch: ArrayLike | None,
+        test: str | None,
+        fibre_axis_angle_deg: float | None,
     ) -> tuple[Floats, Floats]:
         name, course = ("stretch", stretch) if self.is_piece else ("depth", depth)
         if course is None:
@@ -260,7 +287,10 @@ class Law(dict[str, Any]):
             "series": [] if self.relaxation is None else self.relaxation.terms,
             "covariance": self._fit["covariance"],
             "elastic": self._fit["elastic"],
-            "test": self._fit.get("test"),
+            "test": self._fit.get("test") if test is None else test,
+            "fibre_axis_angle_deg": self._fit.get("fibre_axis_angle_deg")
+            if fibre_axis_angle_deg is None
+            else fibre_axis_angle_deg,
         }
         return _palpate._evaluate(
             json.dumps(known), None if time is None else np.atleast_1d(time), np.atleast_1d(course)

@@ -23,8 +23,11 @@ pub struct FitAnswer {
     pub information_criterion: Option<f64>,
     /// The instantaneous elastic force; null of a piece, whose stress is a closed form.
     pub elastic: Option<ElasticAnswer>,
-    /// How a piece was deformed; null of an indentation.
+    /// How the first piece was deformed; null of an indentation.
     pub test: Option<PieceTest>,
+    /// The angle of its loading to the axis of its fibres [degrees]; null where it is not stated.
+    #[serde(default)]
+    pub fibre_axis_angle_deg: Option<f64>,
 }
 
 /// A covariance.
@@ -119,13 +122,21 @@ fn of_indentation(law: &LawDescription) -> FitAnswer {
             sensitivities: by.collect(),
         }),
         test: None,
+        fibre_axis_angle_deg: None,
     }
 }
 
 fn of_piece(law: &UniaxialFit) -> FitAnswer {
     let finite = |bound: f64| bound.is_finite().then_some(bound);
     let bounds = law.fit.parameters.iter();
-    let bounds = bounds.map(|own| (own.name.clone(), [own.lower, own.upper].map(finite)));
+    let bounds = bounds.map(|own| {
+        let [lower, upper] = match own.fixed {
+            true => [own.value; 2],
+            false => [own.lower, own.upper],
+        };
+        (own.name.clone(), [lower, upper].map(finite))
+    });
+    let first = law.loadings.first().copied().unwrap_or_default();
     FitAnswer {
         bounds: bounds.collect(),
         covariance: CovarianceAnswer::of(correlations_of_piece(law)),
@@ -133,6 +144,7 @@ fn of_piece(law: &UniaxialFit) -> FitAnswer {
         effective_samples: law.uncertainty.effective_samples,
         information_criterion: None,
         elastic: None,
-        test: Some(law.test),
+        test: Some(first.test),
+        fibre_axis_angle_deg: first.fibre_axis_angle_deg,
     }
 }

@@ -293,6 +293,15 @@ impl LawAnswer {
             misfit: law.misfit,
         };
         judge_law(&mut own, &correlations_of_piece(law));
+        let fixed = law.fit.parameters.iter().filter(|own| own.fixed);
+        let fixed = fixed.map(|own| (own.name.as_str(), Identified::Stated));
+        let undetermined = law.undetermined.iter();
+        let undetermined = undetermined.map(|name| (*name, Identified::HardlyKnown));
+        for (name, verdict) in fixed.chain(undetermined) {
+            if let Some(known) = own.parameters.get_mut(name) {
+                known.verdict = Some(verdict);
+            }
+        }
         own
     }
 }

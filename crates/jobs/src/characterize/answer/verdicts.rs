@@ -15,10 +15,12 @@ pub enum Identified {
     Known,
     /// Its error goes with that of another parameter, which `correlated_with` names.
     Correlated,
-    /// Its standard error is more than a quarter of it.
+    /// Its standard error is more than a quarter of it, or the tests do not determine it.
     HardlyKnown,
     /// It ended on a bound.
     OnBound,
+    /// The recordings state it.
+    Stated,
 }
 
 /// Another parameter, with which an error goes together.

@@ -7,6 +7,7 @@ mod of_recordings;
 pub(crate) use of_recordings::all_samples;
 
 use palpate_characterize::inverse::SoughtLaw;
+use palpate_characterize::lumped::PieceTest;
 use palpate_files::quantity::quantity;
 use palpate_files::recording::RecordingHeader;
 use serde::{Deserialize, Serialize};
@@ -63,12 +64,18 @@ pub struct DrawnRecording {
 pub struct DrawnFit {
     /// Times [s] from first contact.
     pub time: Vec<f64>,
-    /// Depths [m]; of a piece along one axis, stretches [-].
+    /// Depths [m]; of a piece, stretches or amounts of shear [-].
     pub course: Vec<f64>,
     /// Forces [N]; of a piece, nominal stresses [Pa].
     pub measured: Vec<f64>,
-    /// Whether it is of a piece along one axis.
+    /// Whether it is of a piece.
     pub is_piece: bool,
+    /// How the piece was deformed; none of an indentation.
+    #[serde(default)]
+    pub test: Option<PieceTest>,
+    /// The angle of its loading to the axis of its fibres [degrees]; none where it is not stated.
+    #[serde(default)]
+    pub fibre_axis_angle_deg: Option<f64>,
     /// That were found.
     pub laws: Vec<DrawnCurve>,
     /// That was found.
@@ -133,7 +140,7 @@ impl Portrait {
         let shortest = shortest.fold(f64::INFINITY, f64::min);
         let relaxation = studied.found.relaxation.as_ref().ok();
         Self {
-            facts: facts(&studied.recordings[0].header),
+            facts: shared_facts(studied),
             recordings,
             laws: of_laws::drawn(&studied.found),
             relaxation: relaxation
@@ -158,9 +165,18 @@ fn key(law: SoughtLaw) -> String {
     law.name().word().to_owned()
 }
 
+/// What the headers of all recordings say alike.
+fn shared_facts(studied: &Studied) -> Vec<(String, String)> {
+    let mut each = studied.recordings.iter().map(|own| facts(&own.header));
+    let mut shared = each.next().unwrap_or_default();
+    each.for_each(|own| shared.retain(|fact| own.contains(fact)));
+    shared
+}
+
 /// What a header says of specimen and indenter.
 fn facts(header: &RecordingHeader) -> Vec<(String, String)> {
     let length = |of: Option<f64>| of.map(|m| quantity("_m", m, None));
+    let degrees = |angle: Option<f64>| angle.map(|angle| format!("{angle}°"));
     let said = [
         (
             "condition",
@@ -179,17 +195,21 @@ fn facts(header: &RecordingHeader) -> Vec<(String, String)> {
             header.indenter_shape.map(|own| own.word().to_owned()),
         ),
         ("radius of the indenter", length(header.indenter_radius_m)),
-        (
-            "half angle",
-            header
-                .indenter_half_angle_deg
-                .map(|angle| format!("{angle}°")),
-        ),
+        ("half angle", degrees(header.indenter_half_angle_deg)),
         (
             "area",
             header.area_m2.map(|area| quantity("_m2", area, None)),
         ),
         ("height", length(header.height_m)),
+        (
+            "angle of the fibres' axis",
+            degrees(header.fibre_axis_angle_deg),
+        ),
+        ("angle of the fibres", degrees(header.fibre_angle_deg)),
+        (
+            "dispersion",
+            header.dispersion.map(|own| format!("{own:.4}")),
+        ),
         ("inner radius", length(header.inner_radius_m)),
         ("outer radius", length(header.outer_radius_m)),
         ("length", length(header.length_m)),

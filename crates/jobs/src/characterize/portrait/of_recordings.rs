@@ -1,5 +1,5 @@
 use palpate_characterize::clean::SegmentKind;
-use palpate_characterize::lumped::Pulled;
+use palpate_characterize::lumped::{PieceLoading, Pulled};
 use palpate_characterize::{CleanRecording, FittedRecording, FittedRelaxation};
 
 use super::super::finished::Studied;
@@ -99,7 +99,10 @@ fn beside(
         values: some(&law.values, &kept),
         reach: some(&law.reach, &kept),
     });
+    let loading = is_piece.then(|| PieceLoading::of(&recording.header));
     Some(DrawnFit {
+        test: loading.map(|own| own.test),
+        fibre_axis_angle_deg: loading.and_then(|own| own.fibre_axis_angle_deg),
         laws: laws.collect(),
         relaxation: fitted
             .relaxation

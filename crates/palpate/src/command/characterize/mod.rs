@@ -37,6 +37,8 @@ Examples:
       Young's modulus at each place of a map, with a picture
   palpate characterize liver.csv --law neo_hookean --abaqus liver.inp --febio liver.feb
       material cards for finite element packages
+  palpate characterize strip-0.csv strip-45.csv strip-90.csv --out muscle.toml --febio muscle.feb
+      one law with fibres for strips that are cut at several angles to them
   palpate characterize liver.csv --law neo_hookean --in-loop
       with full viscoelastic finite elements inside the fit, for deep and fast presses
 
@@ -68,7 +70,8 @@ pub(crate) struct Arguments {
     /// Write an HTML report with plots of all results.
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
-    /// Fit this law only; default: the first three, of which the simplest that no other beats is preferred.
+    /// Fit this law only; default: the first three, and of pieces that state `fibre_axis_angle_deg` also the last, which has
+    /// fibres, of which the simplest that no other beats is preferred.
     #[arg(long, value_enum)]
     law: Option<Law>,
     /// Number of terms of `ogden` (default 1: mu and alpha) or `reduced_polynomial` (default 2: C10 and C20; 3 is Yeoh's
@@ -104,6 +107,7 @@ enum Law {
     Exponential,
     Ogden,
     ReducedPolynomial,
+    HolzapfelGasserOgden,
 }
 
 impl From<Law> for LawName {
@@ -114,6 +118,7 @@ impl From<Law> for LawName {
             Law::Exponential => Self::Exponential,
             Law::Ogden => Self::Ogden,
             Law::ReducedPolynomial => Self::ReducedPolynomial,
+            Law::HolzapfelGasserOgden => Self::HolzapfelGasserOgden,
         }
     }
 }

@@ -107,6 +107,7 @@ fn shown(key: &str, known: &Known) -> String {
     let remark = match (known.verdict, &known.correlated_with) {
         (Some(Identified::OnBound), _) => "on its bound".to_owned(),
         (Some(Identified::HardlyKnown), _) => "hardly known".to_owned(),
+        (Some(Identified::Stated), _) => "as stated".to_owned(),
         (Some(Identified::Correlated), Some(with)) => format!(
             "tied to {}: correlation {:.2}",
             without_unit(&with.parameter),

@@ -1,6 +1,7 @@
 use super::{recorded, words};
 use crate::plot::{Band, Plot, Series, Style};
 use crate::report::{Markup, Scale, figure, unit};
+use palpate_characterize::lumped::PieceTest;
 use palpate_jobs::characterize::Specimen;
 use palpate_jobs::characterize::{DrawnCurve, DrawnFit, Portrait};
 
@@ -79,7 +80,13 @@ impl<'a> Shown<'a> {
     /// What depths or stretches are multiplied with to be drawn, and the name of their axis.
     fn course(&self) -> (f64, String) {
         if self.is_piece {
-            return (1.0, "stretch [-]".to_owned());
+            let is_shear = |fit: &&&DrawnFit| fit.test == Some(PieceTest::SimpleShear);
+            let name = match self.fitted.iter().filter(is_shear).count() {
+                0 => "stretch [-]",
+                all if all == self.fitted.len() => "amount of shear [-]",
+                _ => "stretch or amount of shear [-]",
+            };
+            return (1.0, name.to_owned());
         }
         let depths = self.fitted.iter().flat_map(|fit| &fit.course);
         let Scale { factor, unit } = unit("_m", depths.fold(0.0, |most: f64, d| most.max(*d)));
@@ -91,9 +98,19 @@ impl<'a> Shown<'a> {
         let (mut series, mut bands) = (Vec::new(), Vec::new());
         for (place, fit) in self.fitted.iter().take(RECORDINGS).enumerate() {
             let x = along(fit);
-            let name = Self::named("measured", place);
+            let name = match fit.fibre_axis_angle_deg {
+                Some(angle) => of_piece(fit.test, angle),
+                None => Self::named("measured", place),
+            };
             let points = scaled(&x, &fit.measured, self.scale.factor);
-            series.push(measured(name, points));
+            // The angles of several pieces are told apart by their colors.
+            series.push(match fit.fibre_axis_angle_deg {
+                Some(_) => Series {
+                    color: place,
+                    ..measured(name, points)
+                },
+                None => measured(name, points),
+            });
             for (color, law) in laws.iter().enumerate() {
                 let Some(curve) = fit.laws.iter().find(|curve| curve.law == **law) else {
                     continue;
@@ -198,6 +215,16 @@ impl<'a> Shown<'a> {
              these residuals, and as independent between recordings.",
         )
     }
+}
+
+/// What was measured of a piece, by how it was deformed at an angle [degrees] to its fibres.
+fn of_piece(test: Option<PieceTest>, angle: f64) -> String {
+    let test = match test.unwrap_or_default() {
+        PieceTest::Uniaxial => "measured",
+        PieceTest::PlanarTension => "planar tension",
+        PieceTest::SimpleShear => "simple shear",
+    };
+    format!("{test}, fibres at {angle}°")
 }
 
 /// The name of the axis of time.

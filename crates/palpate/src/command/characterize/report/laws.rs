@@ -146,6 +146,7 @@ fn verdict_on(known: &Known) -> Markup {
     match (known.verdict, &known.correlated_with) {
         (Some(Identified::Known), _) => "known".into(),
         (Some(Identified::HardlyKnown), _) => "hardly known".into(),
+        (Some(Identified::Stated), _) => "as stated".into(),
         (Some(Identified::OnBound), _) => "on its bound, no estimate".into(),
         (Some(Identified::Correlated), Some(with)) => Markup::from("tied to ")
             .and(symbol(&with.parameter))

@@ -135,7 +135,9 @@ fn known_by_itself(own: &Specimen) -> Option<String> {
     let terms = own.relaxation.iter();
     let terms = terms.flat_map(|found| found.g.iter().chain(&found.tau_s));
     let all: Vec<&Known> = law.parameters.values().chain(terms).collect();
-    if all.iter().any(|own| own.verdict != Some(Identified::Known)) {
+    let is_settled =
+        |own: &Option<Identified>| matches!(own, Some(Identified::Known | Identified::Stated));
+    if all.iter().any(|own| !is_settled(&own.verdict)) {
         return None;
     }
     let errors = all
