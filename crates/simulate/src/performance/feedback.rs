@@ -246,8 +246,13 @@ fn change(task: &Task, score: &Score) -> Phrase {
         (Outcome::Touch { beside: None, .. }, _) => "change-lift",
         (Outcome::Touch { reached: false, .. }, _) => "change-stay",
         (Outcome::Cut { .. }, _) if perforated => "change-shallower",
-        (Outcome::Cut { clean: false, part }, Goal::Cut { .. }) if *part < 0.97 => "change-uncut",
-        (Outcome::Cut { clean: false, .. }, _) => "change-line",
+        (Outcome::Cut { clean: false, .. }, Goal::Cut { tolerance_m, .. }) => {
+            let line = score.cut.and_then(|cut| cut.along_line);
+            match line.is_some_and(|line| line.largest_deviation > *tolerance_m) {
+                true => "change-line",
+                false => "change-uncut",
+            }
+        }
         _ => return errors(task, score),
     })
 }

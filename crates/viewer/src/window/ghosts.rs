@@ -3,6 +3,7 @@
 
 use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2};
 use nalgebra::{Quaternion, Unit};
+use palpate_files::scene::CutLine;
 use palpate_geometry::Vec3;
 use palpate_simulate::Ghost;
 
@@ -40,15 +41,19 @@ impl Over<'_> {
         }
     }
 
-    /// Draws the line that shall be cut, dashed.
-    pub(super) fn wanted(&self, [from, to]: [Vec3; 2]) {
-        if let (Some(from), Some(to)) = (self.seen(&from), self.seen(&to)) {
-            let stroke = Stroke::new(2.0, BRIGHT.gamma_multiply(0.8));
-            let dashes = Shape::dashed_line(&[from, to], stroke, 7.0, 6.0);
-            self.painter.extend(dashes);
-            for end in [from, to] {
-                self.painter.circle_filled(end, 3.5, BRIGHT);
-            }
+    /// Draws the line that shall be cut, dashed, and the ends of an open one.
+    pub(super) fn wanted(&self, line: &CutLine) {
+        let points = line.points_m().iter();
+        let seen: Option<Vec<Pos2>> = points.map(|point| self.seen(&Vec3::from(*point))).collect();
+        let Some(seen) = seen else {
+            return;
+        };
+        let stroke = Stroke::new(2.0, BRIGHT.gamma_multiply(0.8));
+        self.painter
+            .extend(Shape::dashed_line(&seen, stroke, 7.0, 6.0));
+        let ends = [seen.first(), seen.last()];
+        for end in ends.into_iter().flatten().filter(|_| !line.is_closed()) {
+            self.painter.circle_filled(*end, 3.5, BRIGHT);
         }
     }
 

@@ -206,8 +206,8 @@ impl Picture {
             camera,
         };
         match &attempt.task.goal {
-            Goal::Cut { from_m, to_m, .. } => {
-                over.wanted([*from_m, *to_m].map(Vec3::from));
+            Goal::Cut { line, .. } => {
+                over.wanted(line);
                 over.left(&attempt.uncut());
             }
             Goal::Traction {

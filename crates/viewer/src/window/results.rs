@@ -211,7 +211,9 @@ fn words(key: &str, value: f64) -> (String, String) {
     let (tool, plain) = key
         .split_once('.')
         .map_or(("", key), |(tool, plain)| (tool, plain));
-    let units: [(&str, f64, &str); 6] = [
+    let units: [(&str, f64, &str); 8] = [
+        ("_m2", 1e6, "mm²"),
+        ("_part", 100.0, "%"),
         ("_n_s", 1.0, "N s"),
         ("_rad", 57.295_779_513_082_32, "°"),
         ("_m", 1e3, "mm"),
@@ -259,5 +261,13 @@ mod tests {
         );
         assert_eq!(read("right.peak_force_n", 0.5), "right: peak force 500 mN");
         assert_eq!(read("perforations", 2.0), "perforations 2 ");
+        assert_eq!(
+            read("cut_part", 0.985),
+            "part of the line that is cut 98.5 %"
+        );
+        assert_eq!(
+            read("cut_deviation_area_m2", 31.4e-6),
+            "area between the cut and the line 31.4 mm²"
+        );
     }
 }
