@@ -295,6 +295,10 @@ class-experts = Mittel der Experten
 ## Im Bild
 picture-organ = Bild des Organs
 picture-tool = { $tool }: { $mm } mm tief, { $mn } mN
+picture-lump = der Knoten
+picture-stated = die angegebene Größe
+picture-target = das Ziel
+picture-mark = Ihre Markierung
 hint-touch = auf das Organ drücken: berühren, dann nach unten ziehen: tiefer · rechts ziehen: drehen · Mitte ziehen: verschieben · Rad: Zoom · ?: Tasten
 hint-pulling = ziehen: Gewebe ziehen · Rad: vor und zurück · G: Branchen öffnen
 hint-shut = Branchen geschlossen · ziehen: Gewebe ziehen · G: öffnen · ?: Tasten

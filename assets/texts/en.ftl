@@ -300,6 +300,10 @@ class-experts = mean of experts
 ## In the picture
 picture-organ = Picture of the organ
 picture-tool = { $tool }: { $mm } mm deep, { $mn } mN
+picture-lump = the lump
+picture-stated = the size you stated
+picture-target = the target
+picture-mark = your mark
 hint-touch = press on the organ: touch, then drag down to go deeper · right drag: turn · middle drag: move · wheel: zoom · ?: keys
 hint-pulling = drag: pull · wheel: to and fro · G: open the jaws
 hint-shut = the jaws are shut · drag: pull · G: open them · ?: keys

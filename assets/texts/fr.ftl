@@ -283,6 +283,10 @@ class-experts = moyenne des experts
 ## Dans l’image
 picture-organ = Image de l’organe
 picture-tool = { $tool } : { $mm } mm de profondeur, { $mn } mN
+picture-lump = le nodule
+picture-stated = la taille indiquée
+picture-target = la cible
+picture-mark = votre marque
 hint-touch = appuyer sur l’organe : toucher, puis glisser vers le bas : plus profond · bouton droit : tourner · bouton du milieu : déplacer · molette : zoom · ? : touches
 hint-pulling = glisser : tirer · molette : avancer, reculer · G : ouvrir les mors
 hint-shut = les mors sont fermés · glisser : tirer · G : les ouvrir · ? : touches

@@ -3,15 +3,18 @@
 
 use std::f64::consts::TAU;
 
-use palpate_files::scene::{CutLine, Goal, ModelKind};
+use nalgebra::Rotation3;
+use palpate_files::scene::{CutLine, Goal, ModelKind, Task};
 use palpate_files::session::Event;
-use palpate_files::{Pose, Scene};
+use palpate_files::{Pose, Scene, SessionRow};
 use palpate_geometry::Vec3;
 use palpate_simulate::performance::{Performance, Score, Status};
 use palpate_simulate::{
     Demonstration, Resources, Simulation, SimulationState, SimulationWorkspace, check_target,
     draw_variant, step,
 };
+
+use crate::performance::row;
 
 const TASK: &str = include_str!("../../../../assets/tasks/cutting.toml");
 
@@ -222,6 +225,69 @@ fn short_wide_and_deep_cuts_fail() {
             );
         }
     }
+}
+
+/// A circle is covered across the place where its line ends, and nothing of it by a cut beyond the tolerance; the area of
+/// the deviation and the cue are those of the ring. Judge: by hand. Tolerances: the chords of the line, half a thousandth
+/// of the radius, and the distance of rows.
+#[test]
+fn a_circle_is_measured_around() {
+    let (radius, tolerance_m) = (0.014, 0.002);
+    let line = CutLine::circle([0.0; 3], radius, [0.0, 0.0, 1.0]);
+    let start = Vec3::from(line.points_m()[0]);
+    let task = Task {
+        goal: Goal::Cut {
+            line,
+            tolerance_m,
+            layers: None,
+        },
+        ..Task::default()
+    };
+    // From so many turns to so many, off the line.
+    let cut = |performance: &mut Performance, [from, to]: [f64; 2], off: f64| {
+        for k in 0..=200 {
+            let turn = from + (to - from) * f64::from(k) / 200.0;
+            let along = Rotation3::from_axis_angle(&Vec3::z_axis(), TAU * turn) * start;
+            performance.add(&SessionRow {
+                contact: true,
+                cut: true,
+                events: Event::Cut.into(),
+                ..row(0.01 * f64::from(k), along * (1.0 + off / radius))
+            });
+        }
+        let said = performance.deviation();
+        performance.add(&row(2.0, Vec3::zeros()));
+        said
+    };
+    let tools = ["right".to_owned()];
+    let new = || Performance::new(&task, &tools);
+    let part = |performance: &Performance| match performance.status() {
+        Status::GoesOn { part, .. } => part.unwrap(),
+        other => panic!("{other:?}"),
+    };
+    let mut across = new();
+    let said = cut(&mut across, [0.8, 1.3], -0.001).unwrap();
+    assert!(said.is_inside == Some(true) && (said.distance - 0.001).abs() < 5e-4 * radius);
+    assert!((part(&across) - 0.5).abs() < 1e-3, "{}", part(&across));
+    let gap: f64 = across
+        .uncut()
+        .iter()
+        .map(|[from, to]| (to - from).norm())
+        .sum();
+    assert!(
+        (gap - 0.5 * TAU * radius).abs() < 1e-3 * TAU * radius,
+        "{gap}"
+    );
+    let ring = across.score().cut.unwrap().along_line.unwrap();
+    let area = 0.5 * TAU * (radius - 0.001) * 0.001;
+    assert!((ring.deviation_area / area - 1.0).abs() < 0.01, "{ring:?}");
+    cut(&mut across, [0.3, 0.799], 0.0015);
+    assert_eq!(across.status(), Status::Over { late: false });
+    assert_eq!(across.score().outcome.passed(), Some(true));
+    let mut wide = new();
+    let said = cut(&mut wide, [0.0, 1.0], 0.0025).unwrap();
+    assert_eq!(said.is_inside, Some(false));
+    assert_eq!(part(&wide), 0.0);
 }
 
 /// The same variant gives the same session, to the last bit, and a new beginning closes the circle.

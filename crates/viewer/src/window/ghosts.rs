@@ -7,6 +7,7 @@ use palpate_files::scene::CutLine;
 use palpate_geometry::Vec3;
 use palpate_simulate::Ghost;
 
+use super::texts::text;
 use crate::Camera;
 use crate::style::{BRIGHT, LEFT};
 
@@ -90,19 +91,25 @@ impl Over<'_> {
             self.painter
                 .circle_filled(at, size, LEFT.gamma_multiply(0.45));
             self.painter.circle_stroke(at, size, Stroke::new(2.5, LEFT));
-            self.named(at + Vec2::new(0.0, -size - 4.0), "the lump", LEFT);
+            self.named(
+                at + Vec2::new(0.0, -size - 4.0),
+                &text!("picture-lump"),
+                LEFT,
+            );
         }
     }
 
-    /// Draws the outline of the size that was stated for a lump.
-    pub(super) fn stated(&self, middle: &Vec3, radius: f64) {
+    /// Draws the outline of the radius [m] that was stated for a lump, whose true one is `truth` [m].
+    pub(super) fn stated(&self, middle: &Vec3, radius: f64, truth: f64) {
         let [right, ..] = self.camera.axes();
-        let edge = middle + radius * right;
-        if let (Some(at), Some(edge)) = (self.seen(middle), self.seen(&edge)) {
-            let size = at.distance(edge);
+        let size_of = |radius: f64| {
+            let (at, edge) = (self.seen(middle)?, self.seen(&(middle + radius * right))?);
+            Some((at, at.distance(edge)))
+        };
+        if let (Some((at, size)), Some((_, lump))) = (size_of(radius), size_of(truth)) {
             self.dashed_ring(at, size, BRIGHT);
-            let below = at + Vec2::new(0.0, size + 22.0);
-            self.named(below, "the size you stated", BRIGHT);
+            let below = at + Vec2::new(0.0, size.max(lump) + 22.0);
+            self.named(below, &text!("picture-stated"), BRIGHT);
         }
     }
 
@@ -122,7 +129,11 @@ impl Over<'_> {
             self.painter.circle_stroke(at, size, Stroke::new(2.5, LEFT));
             self.painter.circle_filled(at, 3.0, LEFT);
         }
-        self.named(at + Vec2::new(0.0, -size - 4.0), "the target", LEFT);
+        self.named(
+            at + Vec2::new(0.0, -size - 4.0),
+            &text!("picture-target"),
+            LEFT,
+        );
     }
 
     fn dashed_ring(&self, at: Pos2, size: f32, color: Color32) {
@@ -145,7 +156,7 @@ impl Over<'_> {
                 let way = Vec2::new(7.0, 7.0 * side);
                 self.painter.line_segment([at - way, at + way], stroke);
             }
-            self.named(at + Vec2::new(0.0, 26.0), "your mark", BRIGHT);
+            self.named(at + Vec2::new(0.0, 26.0), &text!("picture-mark"), BRIGHT);
         }
     }
 

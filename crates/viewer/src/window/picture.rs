@@ -232,7 +232,7 @@ impl Picture {
                     let middle = Vec3::from(nodule.center_m);
                     over.lump(&middle, nodule.radius_m);
                     if let Some(stated) = attempt.stated_diameter() {
-                        over.stated(&middle, 0.5 * stated);
+                        over.stated(&middle, 0.5 * stated, nodule.radius_m);
                     }
                 }
                 if let Some(marked) = attempt.marked {
