@@ -106,7 +106,8 @@ fn demonstrated(scene: &Scene, simulation: &Simulation) -> Result<(), String> {
     );
     let opened = cuts.length() / along.wanted;
     let errors = score.errors;
-    let is_clean = errors.force_limit + errors.perforations + errors.drops == 0;
+    let is_clean =
+        errors.force_limit + errors.perforations + errors.drops + errors.shaft_contacts == 0;
     let passes = score.outcome.passed() == Some(true) && status == Status::Over { late: false };
     // A blade that opens the whole circle opens neither much less nor more than its length.
     match passes && is_clean && score.duration > 10.0 && (0.95..1.05).contains(&opened) {
