@@ -8,7 +8,7 @@ use palpate_simulate::ShownTool;
 
 use super::attempt::Attempt;
 use super::gesture::{Gesture, GestureContext, Mouse};
-use super::ghosts::Over;
+use super::ghosts::{Over, nearest_lump};
 use super::hands::gamepad::{Pad, PadPart, PadRequests};
 use super::hands::gamepads::Gamepads;
 use super::hands::{Drive, Hand, Room, keys};
@@ -236,7 +236,8 @@ impl Picture {
                     }
                 }
                 if let Some(marked) = attempt.marked {
-                    over.mark(&marked, &Vec3::from(*target_m));
+                    let target = Vec3::from(*target_m);
+                    over.mark(&marked, &nearest_lump(&play.scene.organ.nodules, target));
                 }
             }
             _ => {}
