@@ -275,6 +275,7 @@ fn errors(task: &Task, score: &Score) -> Phrase {
 
 #[cfg(test)]
 mod tests {
+    use palpate_files::scene::CutLine;
     use palpate_files::{Events, SessionRow};
 
     use super::super::Performance;
@@ -352,5 +353,16 @@ mod tests {
         assert_eq!(held.verdict.key, "verdict-passed");
         let short = told(pull(), Events::NONE, 0.2, 2);
         assert_eq!(short.verdict, why("why-short", number("s", 2.0)));
+        let cut = |beside: f64| Goal::Cut {
+            line: CutLine::straight([beside, 0.0, 0.0], [beside, 0.03, 0.0]),
+            tolerance_m: 0.002,
+            layers: None,
+        };
+        let aside = told(cut(0.01), Event::Cut.into(), 0.1, 1);
+        assert_eq!(aside.verdict, why("why-off-line", number("mm", 10.0)));
+        assert_eq!(aside.change.key, "change-line");
+        let begun = told(cut(0.001), Event::Cut.into(), 0.1, 1);
+        assert_eq!(begun.verdict, why("why-uncut", number("percent", 100.0)));
+        assert_eq!(begun.change.key, "change-uncut");
     }
 }
