@@ -86,7 +86,7 @@ impl Mesh {
     /// Parameters
     /// ----------
     /// name : str
-    ///     esophagus, liver, kidney, stomach, spleen, diaphragm, hemisphere or cube.
+    ///     esophagus, liver, kidney, stomach, spleen, diaphragm, hemisphere, cube or slab.
     /// triangles : int, optional
     ///     How many it shall have.
     #[classmethod]

@@ -16,7 +16,7 @@ use crate::failure::Failure;
 const NAME: &str = "scene";
 
 /// Scenes that come with the program.
-const BUILT_IN: [(&str, &str); 5] = [
+const BUILT_IN: [(&str, &str); 6] = [
     (
         "esophagus",
         include_str!("../../../assets/esophagus/scene.toml"),
@@ -32,6 +32,10 @@ const BUILT_IN: [(&str, &str); 5] = [
     (
         "retraction",
         include_str!("../../../assets/tasks/retraction.toml"),
+    ),
+    (
+        "cutting",
+        include_str!("../../../assets/tasks/cutting.toml"),
     ),
     (
         "myotomy",
@@ -67,9 +71,9 @@ impl Scene {
     ///
     /// Parameters
     /// ----------
-    /// name : {"esophagus", "palpation", "traction", "retraction", "myotomy"}
+    /// name : {"esophagus", "palpation", "traction", "retraction", "cutting", "myotomy"}
     ///     The esophagus without anything to do, or a task: find the stiff spot in a liver, hold an even pull, lift a
-    ///     lobe of a liver and touch what it covers, cut the muscle of the lower esophagus.
+    ///     lobe of a liver and touch what it covers, cut a circle out of a sheet, cut the muscle of the lower esophagus.
     /// seed : int, default 0
     ///     Which variant of the task.
     #[classmethod]

@@ -235,6 +235,11 @@ def test_what_is_no_action_or_task_is_told(kind: str, single: touch.TouchEnv) ->
         FORMS[kind][0](simulation=single.touch.simulation, substeps=0)
 
 
+def test_a_circle_is_no_straight_line() -> None:
+    with pytest.raises(palpate.InputError, match="is a circle"):
+        touch.CuttingEnv(palpate.Scene.builtin("cutting"), model="local")
+
+
 def over(environment: touch.TouchEnv, place: NDArray[np.float64]) -> NDArray[np.float32]:
     """The press of 4 mm nearest to a place."""
     press = environment.touch.press

@@ -58,7 +58,7 @@ def test_what_is_no_scene_is_told(content: dict[str, object], said: str) -> None
 
 def test_builtin_scenes_are_there() -> None:
     assert palpate.Scene.builtin("palpation").task["title"] == "Palpation"
-    for name in ("esophagus", "traction", "myotomy"):
+    for name in ("esophagus", "traction", "retraction", "cutting", "myotomy"):
         assert palpate.Scene.builtin(name).tools
     with pytest.raises(palpate.InputError, match="the nearest is `traction`"):
         palpate.Scene.builtin("tractions")

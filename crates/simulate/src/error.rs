@@ -185,6 +185,19 @@ pub enum Error {
         /// How far a tip may be [m].
         tolerance: f64,
     },
+    /// A line that a task wants cut has no length.
+    #[error("the line of `task.cut` is too short to be one; give it some millimetres")]
+    NoLine,
+    /// A line that a task wants cut lies away from the organ.
+    #[error(
+        "the line of `task.cut` is up to {:.1} mm from the organ's surface, but no cut more than {:.1} mm from it passes; move it to the surface, or make it smaller", 1e3 * distance, 1e3 * tolerance
+    )]
+    LineOffOrgan {
+        /// The largest distance from the surface [m].
+        distance: f64,
+        /// The largest that may be [m].
+        tolerance: f64,
+    },
     /// The thread of the model ended in a panic.
     #[error("the model thread panicked, and the devices were stopped; report it as a defect")]
     ModelPanicked,
@@ -252,6 +265,8 @@ impl Error {
             | Self::EmptySession
             | Self::TrocarInOrgan { .. }
             | Self::TargetOutOfReach { .. }
+            | Self::NoLine
+            | Self::LineOffOrgan { .. }
             | Self::UnknownTool { .. }
             | Self::TooLong { .. } => true,
         }

@@ -53,6 +53,7 @@ mod organ;
 mod orientation;
 pub mod performance;
 mod play;
+mod polyline;
 mod preparation;
 mod region_places;
 mod replay;

@@ -114,6 +114,7 @@ pub fn builtin_organ(organ: BuiltinOrgan) -> Organ {
         BuiltinOrgan::Diaphragm => Organ::Diaphragm,
         BuiltinOrgan::Hemisphere => Organ::Hemisphere,
         BuiltinOrgan::Cube => Organ::Cube,
+        BuiltinOrgan::Slab => Organ::Slab,
     }
 }
 

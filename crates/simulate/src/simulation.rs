@@ -78,6 +78,7 @@ impl Simulation {
             trocar::check(tool, (&surface, &tree))?;
         }
         nodule::check(&scene.organ.nodules, (&surface, &tree))?;
+        target::check_line(scene, &surface, &tree)?;
         let is_nonlinear = scene.model.kind == ModelKind::Nonlinear;
         let (map, more) = read_regions(&scene.organ, is_nonlinear, (&surface, &tree))?;
         warnings.extend(more);
@@ -115,7 +116,7 @@ impl Simulation {
             .as_ref()
             .map(|regions| regions.at_surface().material.clone());
         let neighbours = Neighbour::all(scene, &tools)?;
-        target::check(
+        target::check_touch(
             &scene.task.goal,
             neighbours.iter().map(|body| &body.surface),
         )?;

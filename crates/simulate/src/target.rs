@@ -1,27 +1,40 @@
-//! The place that a task wants touched.
+//! The place that a task wants touched, and the line that it wants cut.
 
 use palpate_files::Scene;
 use palpate_files::scene::Goal;
 use palpate_geometry::{AabbTree, Surface, Vec3};
 
+use crate::polyline::Polyline;
 use crate::{Error, organ};
 
-/// Refuses a task of `scene` whose target no tip can touch: it lies on a neighbour that collides.
+/// A line is looked at in steps of this length, or of this part of it, whichever is longer [m], [-].
+const STEP: f64 = 1e-3;
+const OF_THE_LINE: f64 = 1e-3;
+
+/// Refuses a task of `scene` that no tool can do: whose target lies on no neighbour that collides, or whose line lies
+/// away from the organ.
 ///
 /// # Errors
-/// When the target is farther from the neighbours than counts, or a neighbour cannot be read.
+/// When the target or the line is farther from these surfaces than counts, or one of them cannot be read.
 pub fn check_target(scene: &Scene) -> Result<(), Error> {
-    let Goal::Touch(_) = scene.task.goal else {
-        return Ok(());
-    };
-    let bodies = scene.neighbours.iter().filter(|own| own.collides);
-    let surfaces = bodies.map(|own| Ok(organ::read_neighbour(own)?.0));
-    let surfaces: Vec<Surface> = surfaces.collect::<Result<_, Error>>()?;
-    check(&scene.task.goal, surfaces.iter())
+    let goal = &scene.task.goal;
+    match goal {
+        Goal::Touch(_) => {
+            let bodies = scene.neighbours.iter().filter(|own| own.collides);
+            let surfaces = bodies.map(|own| Ok(organ::read_neighbour(own)?.0));
+            let surfaces: Vec<Surface> = surfaces.collect::<Result<_, Error>>()?;
+            check_touch(goal, surfaces.iter())
+        }
+        Goal::Cut { .. } => {
+            let (surface, _) = organ::read_organ(&scene.organ.shape)?;
+            check_line(scene, &surface, &AabbTree::new(surface.mesh()))
+        }
+        _ => Ok(()),
+    }
 }
 
-/// As [`check_target`], where the neighbours that collide have these surfaces.
-pub(crate) fn check<'s>(
+/// Refuses a target that lies on none of the `surfaces` of the neighbours that collide.
+pub(crate) fn check_touch<'s>(
     goal: &Goal,
     surfaces: impl Iterator<Item = &'s Surface>,
 ) -> Result<(), Error> {
@@ -39,6 +52,32 @@ pub(crate) fn check<'s>(
         false => Err(Error::TargetOutOfReach {
             distance,
             tolerance: touch.tolerance_m,
+        }),
+    }
+}
+
+/// Refuses a line that is farther from the organ's `surface` than a cut along it may be: beside it by the tolerance, and
+/// below it by the depth of the layers, for a straight line over a curved organ lies inside.
+pub(crate) fn check_line(scene: &Scene, surface: &Surface, tree: &AabbTree) -> Result<(), Error> {
+    let Goal::Cut {
+        line, tolerance_m, ..
+    } = &scene.task.goal
+    else {
+        return Ok(());
+    };
+    let layers = scene.organ.layers.iter().map(|layer| layer.thickness_m);
+    let tolerance = tolerance_m + layers.sum::<f64>();
+    let line = Polyline::new(line).ok_or(Error::NoLine)?;
+    let length = line.length();
+    let steps = (length / STEP.max(OF_THE_LINE * length)).ceil() as u32;
+    let places = (0..=steps).map(|step| line.at(length * f64::from(step) / f64::from(steps)));
+    let distances = places.map(|place| tree.nearest(surface.mesh(), &place).distance);
+    let distance = distances.fold(0.0, f64::max);
+    match distance <= tolerance {
+        true => Ok(()),
+        false => Err(Error::LineOffOrgan {
+            distance,
+            tolerance,
         }),
     }
 }

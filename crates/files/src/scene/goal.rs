@@ -2,7 +2,7 @@ use std::f64::consts::PI;
 use std::ops::Bound::{Excluded, Included};
 
 use super::task::TaskScene;
-use super::{Tool, ToolKind};
+use super::{CutLine, Tool, ToolKind};
 use crate::words::either;
 use crate::{Domain, Error, Key, Keys};
 
@@ -36,12 +36,10 @@ pub enum Goal {
         /// The pull above which the tissue tears [N].
         tear_force_n: Option<f64>,
     },
-    /// When a straight cut is as long as its line.
+    /// When a line is cut.
     Cut {
-        /// Where it should begin [m].
-        from_m: [f64; 3],
-        /// Where it should end [m].
-        to_m: [f64; 3],
+        /// Where.
+        line: CutLine,
         /// How far beside the line still counts [m].
         tolerance_m: f64,
         /// How many layers from outside; none in an organ without layers.
@@ -172,9 +170,11 @@ pub(super) const TRACTION: &[Key] = &[
 ];
 
 pub(super) const CUT: &[Key] = &[
-    Key::vector("from_m", Domain::POSITION, "Where it should begin.")
-        .required("[0.0, -0.01, 0.015]"),
-    Key::vector("to_m", Domain::POSITION, "Where it should end.").required("[0.0, -0.01, -0.015]"),
+    CutLine::FROM,
+    CutLine::TO,
+    CutLine::CENTER,
+    CutLine::RADIUS,
+    CutLine::NORMAL,
     Key::number(
         "tolerance_m",
         Domain::LENGTH,
@@ -296,15 +296,11 @@ impl Goal {
     }
 
     fn cut(cut: &Keys<'_>, layers: usize) -> Result<Self, Error> {
-        let (from_m, to_m) = (cut.required_vector("from_m")?, cut.required_vector("to_m")?);
-        if from_m == to_m {
-            return Err(cut.bad("to_m", "another place than `from_m`"));
-        }
+        let line = CutLine::from_keys(cut)?;
         let wanted = cut.integer_within("layers", 1..=layers.max(1) as u64)?;
         let wanted = wanted.map_or(layers.saturating_sub(1).max(1), |wanted| wanted as usize);
         Ok(Self::Cut {
-            from_m,
-            to_m,
+            line,
             tolerance_m: cut.required_number("tolerance_m")?,
             layers: (layers > 0).then_some(wanted),
         })

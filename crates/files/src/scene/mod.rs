@@ -1,6 +1,7 @@
 //! What stands in a scene: an organ and its tissue, what surrounds it, the model that moves it and
 //! the tools that touch it.
 
+mod cut_line;
 mod cutting;
 mod draw;
 mod goal;
@@ -19,6 +20,7 @@ mod view;
 
 use std::path::{Path, PathBuf};
 
+pub use cut_line::CutLine;
 pub use cutting::{CutMode, Cutting};
 pub use draw::{Drawn, Draws, FindOnSurface, LARGEST_SEED, OnSurface, SurfacePoint, Variant};
 pub use goal::{Goal, SoughtSize, TouchGoal};

@@ -22,6 +22,8 @@ words! {
         Hemisphere = "hemisphere",
         /// Edge 0.1 m, from -0.05 m to 0.05 m along each axis, bottom held.
         Cube = "cube",
+        /// 0.1 m along x and y, 15 mm thick, bottom face at z = 0 centred on the origin and held.
+        Slab = "slab",
     }
 }
 

@@ -73,7 +73,7 @@ impl Task {
         .optional("", "everybody does what they like"),
         Key::table("traction", TRACTION, "Done when a force was held for long enough.")
             .optional("", "another goal"),
-        Key::table("cut", CUT, "Done when a straight cut is as long as its line.")
+        Key::table("cut", CUT, "Done when a line is cut.")
             .optional("", "another goal"),
         Key::table(
             "touch",

@@ -75,8 +75,10 @@ fn shipped_documents_are_usual() {
     for name in [
         "esophagus/scene",
         "esophagus/trainer",
+        "tasks/cutting",
         "tasks/myotomy",
         "tasks/palpation",
+        "tasks/retraction",
         "tasks/traction",
     ] {
         let scene = Scene::read(format!("{assets}/{name}.toml")).unwrap();

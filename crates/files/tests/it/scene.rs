@@ -338,6 +338,57 @@ fn goals_are_one_table_or_none() {
     }
 }
 
+/// A line to cut is straight or a circle, which is closed, around its normal; half of one, both and neither are refused in
+/// one sentence. Judge: the circle's distance from its centre, and the sense of its points.
+#[test]
+fn a_line_to_cut_is_straight_or_a_circle() {
+    let line = |keys: &str| {
+        let text = format!(
+            "format = 1\n[organ]\nbuiltin = \"slab\"\nbuiltin_tissue = \"pig-liver\"\n[task.cut]\ntolerance_mm = 2\n{keys}"
+        );
+        let goal = Scene::parse(&text, "s.toml").map(|scene| scene.task.goal);
+        goal.map(|goal| match goal {
+            Goal::Cut { line, .. } => line,
+            other => panic!("{other:?}"),
+        })
+    };
+    let straight = "from_mm = [0, 0, 15]\nto_mm = [10, 0, 15]\n";
+    let found = line(straight).unwrap();
+    assert!(!found.is_closed());
+    assert_eq!(found.points_m(), [[0.0, 0.0, 0.015], [0.01, 0.0, 0.015]]);
+    let circle = "center_mm = [1, 2, 15]\nradius_mm = 14\nnormal = [0, 0, 3]\n";
+    let found = line(circle).unwrap();
+    assert!(found.is_closed());
+    let mut turned = 0.0;
+    for pair in found.points_m().windows(2) {
+        let [a, b] = [pair[0], pair[1]].map(|p| [p[0] - 0.001, p[1] - 0.002]);
+        assert!((a[0].hypot(a[1]) - 0.014).abs() < 1e-15 && pair[0][2] == 0.015);
+        turned += (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
+    }
+    assert!((turned - std::f64::consts::TAU).abs() < 1e-12, "{turned}");
+    for (bad, expected) in [
+        (format!("{straight}{circle}"), "keep one of them"),
+        (
+            String::new(),
+            "a straight line, by `from_m` and `to_m`, or a circle",
+        ),
+        (circle.replace("radius_mm = 14\n", ""), "task.cut.radius_m"),
+        (
+            circle.replace("normal = [0, 0, 3]\n", ""),
+            "task.cut.normal",
+        ),
+        (circle.replace("3]", "0]"), "whose length is not 0"),
+        (circle.replace("14", "0"), "task.cut.radius_m"),
+        ("to_mm = [0, 0, 1]\n".to_owned(), "task.cut.from_m"),
+    ] {
+        let message = line(&bad).unwrap_err().to_string();
+        assert!(
+            message.contains(expected) && !message.contains('\n'),
+            "{message}"
+        );
+    }
+}
+
 /// Each fault of a touch is refused by its key, with what to give instead.
 #[test]
 fn a_touch_names_tools_and_a_neighbour_that_are_there() {

@@ -1,7 +1,5 @@
-use std::collections::HashMap;
-
-use super::{AnchorPlane, OrganDescription};
-use crate::{MeshError, NodeId, TriangleMesh, Vec3};
+use super::{AnchorPlane, OrganDescription, grid};
+use crate::{MeshError, TriangleMesh, Vec3};
 
 const EDGE: f64 = 0.1;
 
@@ -28,31 +26,7 @@ pub(super) fn anchor() -> Vec<AnchorPlane> {
 /// A grid of squares on each face, with alternating diagonals: 12 n² triangles.
 pub(super) fn surface_mesh(triangles: usize) -> Result<TriangleMesh, MeshError> {
     let cells = nearest_square(triangles, 12, 1);
-    let mut corners = Corners::new(cells);
-    let mut faces = Vec::with_capacity(12 * cells * cells);
-    for axis in 0..3 {
-        for side in [0, cells] {
-            for (i, j) in (0..cells * cells).map(|c| (c % cells, c / cells)) {
-                let mut square = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(u, v)| {
-                    let mut lattice = [side; 3];
-                    lattice[(axis + 1) % 3] = u;
-                    lattice[(axis + 2) % 3] = v;
-                    corners.node(lattice)
-                });
-                if side == 0 {
-                    square.reverse();
-                }
-                // Starting one corner further turns the diagonal.
-                let [a, b, c, d] = if (i + j) % 2 == 0 {
-                    square
-                } else {
-                    [square[1], square[2], square[3], square[0]]
-                };
-                faces.extend([[a, b, c], [a, c, d]]);
-            }
-        }
-    }
-    TriangleMesh::new(corners.positions, faces)
+    grid::surface_mesh([cells; 3], |part| EDGE * part.add_scalar(-0.5))
 }
 
 /// The whole number n, `least` or more, for which `factor` n² is nearest to `wanted`.
@@ -66,31 +40,6 @@ pub(super) fn nearest_square(wanted: usize, factor: usize, least: usize) -> usiz
             above
         };
     nearest.max(least)
-}
-
-/// Lattice points on the surface, numbered as they are first met.
-struct Corners {
-    cells: usize,
-    numbers: HashMap<[usize; 3], NodeId>,
-    positions: Vec<Vec3>,
-}
-
-impl Corners {
-    fn new(cells: usize) -> Self {
-        Self {
-            cells,
-            numbers: HashMap::new(),
-            positions: Vec::new(),
-        }
-    }
-
-    fn node(&mut self, lattice: [usize; 3]) -> NodeId {
-        *self.numbers.entry(lattice).or_insert_with(|| {
-            let scaled = lattice.map(|l| EDGE * (l as f64 / self.cells as f64 - 0.5));
-            self.positions.push(Vec3::from(scaled));
-            NodeId(self.positions.len() as u32 - 1)
-        })
-    }
 }
 
 #[cfg(test)]

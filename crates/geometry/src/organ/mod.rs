@@ -1,8 +1,8 @@
 //! The built-in organs: closed surfaces made from formulas, at any fineness.
 //!
 //! Solid organs are smooth maps of the unit sphere (`sphere_map`), so that every even number of
-//! triangles can be had exactly; the tube and the sheet with a hole (`revolved`), the hemisphere and the
-//! cube are grids.
+//! triangles can be had exactly; the tube and the sheet with a hole (`revolved`), the hemisphere, the
+//! cube and the slab are grids.
 
 mod anchor;
 mod cube;
@@ -10,10 +10,12 @@ mod description;
 mod diaphragm;
 mod error;
 mod esophagus;
+mod grid;
 mod hemisphere;
 mod kidney;
 mod liver;
 mod revolved;
+mod slab;
 mod sphere_map;
 mod spleen;
 mod stomach;
@@ -44,11 +46,13 @@ pub enum Organ {
     Hemisphere,
     /// A cube, for comparison with closed forms.
     Cube,
+    /// A flat slab, for training models.
+    Slab,
 }
 
 impl Organ {
     /// Every built-in, in the order in which they are listed to users.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Esophagus,
         Self::Liver,
         Self::Kidney,
@@ -57,6 +61,7 @@ impl Organ {
         Self::Diaphragm,
         Self::Hemisphere,
         Self::Cube,
+        Self::Slab,
     ];
 
     /// The word that a scene uses for it.
@@ -70,6 +75,7 @@ impl Organ {
             Self::Diaphragm => "diaphragm",
             Self::Hemisphere => "hemisphere",
             Self::Cube => "cube",
+            Self::Slab => "slab",
         }
     }
 
@@ -84,6 +90,7 @@ impl Organ {
             Self::Diaphragm => diaphragm::description(),
             Self::Hemisphere => hemisphere::description(),
             Self::Cube => cube::description(),
+            Self::Slab => slab::description(),
         }
     }
 
@@ -96,6 +103,7 @@ impl Organ {
             Self::Diaphragm => 6_000,
             Self::Hemisphere => 3_072,
             Self::Cube => 3_072,
+            Self::Slab => 4_000,
         }
     }
 
@@ -107,6 +115,7 @@ impl Organ {
             Self::Liver | Self::Kidney | Self::Stomach | Self::Spleen => 200,
             Self::Hemisphere => 48,
             Self::Cube => 12,
+            Self::Slab => slab::LEAST_TRIANGLES,
         }
     }
 
@@ -134,6 +143,7 @@ impl Organ {
             Self::Diaphragm => diaphragm::surface_mesh(triangles),
             Self::Hemisphere => hemisphere::surface_mesh(triangles),
             Self::Cube => cube::surface_mesh(triangles),
+            Self::Slab => slab::surface_mesh(triangles),
         };
         Ok(mesh?)
     }
@@ -153,6 +163,7 @@ impl Organ {
             Self::Diaphragm => diaphragm::anchor(),
             Self::Hemisphere => hemisphere::anchor(),
             Self::Cube => cube::anchor(),
+            Self::Slab => slab::anchor(),
         }
     }
 }

@@ -60,6 +60,7 @@ fn grids_have_nearly_the_triangles_asked_for() {
         Organ::Diaphragm,
         Organ::Hemisphere,
         Organ::Cube,
+        Organ::Slab,
     ] {
         for asked in [1_000, 3_726, 20_000, 70_000] {
             let made = organ.surface_mesh(asked).unwrap().triangles().len();

@@ -49,6 +49,7 @@ mod real_organs;
 mod refused_input;
 mod slit;
 mod slit_bodies;
+mod slit_closed;
 mod slit_held_out;
 mod slit_judge;
 mod solid;

@@ -1,8 +1,9 @@
 //! Bodies with a slit, as tables and as finite elements.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::ControlFlow;
 
+use nalgebra::Rotation3;
 use palpate_geometry::{AabbTree, TriangleId};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::finite_elements::condensed::CondensedProblem;
@@ -10,7 +11,7 @@ use palpate_mechanics::surface_response::slit::{CutBody, Slit, SlitFacet, Spot};
 use palpate_mechanics::surface_response::{SurfaceResponse, TipField};
 
 use crate::boundary_response::Held;
-use crate::slit_judge::{Cut, Grid, Square, mirrored};
+use crate::slit_judge::{Cut, CutShape, Grid, Square, mirrored};
 
 pub(crate) const MM: f64 = 1e-3;
 
@@ -145,12 +146,19 @@ impl Table {
             tree: &self.tree,
             response: &self.response,
         };
-        let length = cut.length / facets as f64;
+        let sides = match cut.shape {
+            CutShape::Straight => 1,
+            CutShape::Square => 4,
+        };
+        let length = sides as f64 * cut.length / facets as f64;
         for k in 0..facets {
-            let middle = Vec3::new(0.0, (k as f64 + 0.5) * length - 0.5 * cut.length, 0.0);
+            let (side, number) = (k * sides / facets, k % (facets / sides));
+            let turn = Rotation3::from_axis_angle(&Vec3::z_axis(), FRAC_PI_2 * side as f64);
+            let aside = if sides == 1 { 0.0 } else { 0.5 * cut.length };
+            let along = (number as f64 + 0.5) * length - 0.5 * cut.length;
             let facet = SlitFacet {
-                middle: self.grid.place(&middle),
-                along: Vec3::y(),
+                middle: self.grid.place(&(turn * Vec3::new(aside, along, 0.0))),
+                along: turn * Vec3::y(),
                 normal: Vec3::z(),
                 length,
                 depth: cut.depth,
@@ -217,6 +225,7 @@ pub(crate) fn slit_of([length, depth]: [f64; 2]) -> Cut {
     Cut {
         length: length * MM,
         depth: depth * MM,
+        shape: CutShape::Straight,
     }
 }
 

@@ -10,7 +10,7 @@ use palpate_mechanics::finite_elements::{
 };
 use palpate_mechanics::{LinearElastic, Vec3};
 
-/// A body between lines of a grid [m]; the top is at z = 0, and the slit at x = 0.
+/// A body between lines of a grid [m]; the top is at z = 0, and a straight slit at x = 0.
 #[derive(Clone)]
 pub(crate) struct Grid {
     pub(crate) lines: [Vec<f64>; 3],
@@ -19,11 +19,40 @@ pub(crate) struct Grid {
     pub(crate) poissons_ratio: f64,
 }
 
-/// From −`length`/2 to `length`/2 along y and down to `depth` [m].
+/// A slit down to `depth` [m].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Cut {
     pub(crate) length: f64,
     pub(crate) depth: f64,
+    pub(crate) shape: CutShape,
+}
+
+/// How a slit runs over the top.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum CutShape {
+    /// From −`length`/2 to `length`/2 along y.
+    Straight,
+    /// Around a square with sides of `length` about the origin.
+    Square,
+}
+
+impl Cut {
+    /// Whether a point of the top is on it, away from its ends.
+    fn is_on(&self, at: &Vec3) -> bool {
+        let half = 0.5 * self.length;
+        match self.shape {
+            CutShape::Straight => at.x.abs() < NEAR && at.y.abs() < half - NEAR,
+            CutShape::Square => (at.x.abs().max(at.y.abs()) - half).abs() < NEAR,
+        }
+    }
+
+    /// Whether a point is on the side of it whose nodes are doubled.
+    fn is_beyond(&self, at: &Vec3) -> bool {
+        match self.shape {
+            CutShape::Straight => at.x > 0.0,
+            CutShape::Square => at.x.abs().max(at.y.abs()) > 0.5 * self.length,
+        }
+    }
 }
 
 /// An even traction on a rectangle of the top: lowest and highest x and y [m].
@@ -131,9 +160,7 @@ impl Grid {
             for node in 0..vertices.len() {
                 let at = vertices[node];
                 let through = cut.depth >= -bottom - NEAR;
-                let inside = at.x.abs() < NEAR
-                    && at.y.abs() < 0.5 * cut.length - NEAR
-                    && (through || at.z > -cut.depth + NEAR);
+                let inside = cut.is_on(&at) && (through || at.z > -cut.depth + NEAR);
                 if inside {
                     twins[node] = Some(vertices.len());
                     vertices.push(at);
@@ -144,7 +171,8 @@ impl Grid {
         for k in 0..nz - 1 {
             for j in 0..ny - 1 {
                 for i in 0..nx - 1 {
-                    let right = self.lines[0][i] > -NEAR;
+                    let middle = 0.5 * (self.at([i, j, k]) + self.at([i + 1, j + 1, k + 1]));
+                    let is_beyond = cut.is_some_and(|cut| cut.is_beyond(&middle));
                     // Six paths along the axes from the lowest corner to the highest.
                     for path in [
                         [0, 1, 2],
@@ -161,9 +189,8 @@ impl Grid {
                                 corner[path[step - 1]] += 1;
                             }
                             let node = self.node(corner);
-                            let on_slit = right && self.lines[0][i].abs() < NEAR;
                             *place = match twins[node] {
-                                Some(twin) if on_slit => twin,
+                                Some(twin) if is_beyond => twin,
                                 _ => node,
                             };
                         }

@@ -128,6 +128,11 @@ const ALL: &[Example] = &[
         "a task: lift a lobe and touch what it covers"
     ),
     example!(
+        "tasks/cutting.toml",
+        "tasks/cutting.toml",
+        "a task: cut out a circle along its line"
+    ),
+    example!(
         "tasks/myotomy.toml",
         "tasks/myotomy.toml",
         "a task: cut the muscle and leave the mucosa"

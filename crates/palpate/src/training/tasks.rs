@@ -26,10 +26,11 @@ macro_rules! built_in {
 }
 
 /// The tasks that come with the program.
-const BUILT_IN: [BuiltIn; 4] = [
+const BUILT_IN: [BuiltIn; 5] = [
     built_in!("palpation"),
     built_in!("traction"),
     built_in!("retraction"),
+    built_in!("cutting"),
     built_in!("myotomy"),
 ];
 

@@ -16,6 +16,7 @@ use palpate_files::{Event, Pose, Scene, Session};
 use palpate_geometry::Vec3;
 
 use crate::performance::{Performance, Status};
+use crate::polyline::Polyline;
 use crate::{Simulation, SimulationState, SimulationWorkspace, step};
 use ways::{RestSurface, cut, depths, found, pulled};
 
@@ -113,20 +114,15 @@ impl Demonstration {
                 let direction = direction.map_or(-Vec3::y(), |(own, _)| Vec3::from(own));
                 pulled(&ground, tool, *force_n * direction.normalize())
             }
-            Goal::Cut {
-                from_m,
-                to_m,
-                layers,
-                ..
-            } => {
+            Goal::Cut { line, layers, .. } => {
                 let of = |kinds: &[ToolKind]| {
                     let mut tools = scene.tools.iter();
                     tools.position(|own| kinds.contains(&own.kind))
                 };
                 let blade = of(&[ToolKind::Scissors, ToolKind::Hook])?;
                 let depths = depths(simulation, layers.unwrap_or(1));
-                let line = [*from_m, *to_m].map(Vec3::from);
-                cut(&ground, line, &depths, (blade, of(&[ToolKind::Grasper])))
+                let line = Polyline::new(line)?;
+                cut(&ground, &line, &depths, (blade, of(&[ToolKind::Grasper])))
             }
             Goal::Touch(touch) => {
                 let number = |name: &String| scene.tools.iter().position(|own| own.name == *name);

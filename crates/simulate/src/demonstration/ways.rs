@@ -4,6 +4,7 @@ use palpate_geometry::Vec3;
 
 use super::{FREE, SLOW, Step};
 use crate::Simulation;
+use crate::polyline::Polyline;
 
 /// How far over the surface a tip waits [m].
 const ABOVE: f64 = 0.012;
@@ -120,21 +121,38 @@ pub(super) fn depths(simulation: &Simulation, layers: usize) -> Vec<f64> {
     (0..layers.min(bottoms.len())).map(depth).collect()
 }
 
+/// Where the hand holds that does not cut [m], and in which direction it pulls there: beside the middle of an open line
+/// and outside of a closed one, on the side that a left hand comes from.
+fn hold(ground: &RestSurface<'_>, line: &Polyline) -> (Vec3, Vec3) {
+    if line.is_closed() {
+        let leftmost = line.points().min_by(|one, other| one.x.total_cmp(&other.x));
+        let leftmost = leftmost.unwrap_or_else(|| line.at(0.0));
+        let (sum, count) = line
+            .points()
+            .fold((Vec3::zeros(), 0.0), |(sum, count), point| {
+                (sum + point, count + 1.0)
+            });
+        let aside = (leftmost - sum / count).normalize();
+        return (leftmost + ASIDE * aside, aside);
+    }
+    let middle = 0.5 * line.length();
+    let along = (line.at(middle + SPACING) - line.at(middle)).normalize();
+    let (middle, normal) = ground.at(&line.at(middle));
+    let aside = normal.cross(&along).normalize();
+    let aside = if aside.x > 0.0 { -aside } else { aside };
+    (middle + ASIDE * aside, aside)
+}
+
 /// Holds beside a line, if something can hold, and cuts along it, once for each depth.
 pub(super) fn cut(
     ground: &RestSurface<'_>,
-    [from, to]: [Vec3; 2],
+    line: &Polyline,
     depths: &[f64],
     (blade, grasper): (usize, Option<usize>),
 ) -> Vec<Step> {
-    let along = (to - from).normalize();
     let mut steps = Vec::new();
     if let Some(tool) = grasper {
-        let (middle, normal) = ground.at(&(0.5 * (from + to)));
-        // The side that a left hand comes from.
-        let aside = normal.cross(&along).normalize();
-        let aside = if aside.x > 0.0 { -aside } else { aside };
-        let place = middle + ASIDE * aside;
+        let (place, aside) = hold(ground, line);
         steps.extend(grasped(ground, tool, &place));
         steps.push(Step::Move {
             tool,
@@ -143,11 +161,12 @@ pub(super) fn cut(
             cuts: false,
         });
     }
-    let length = (to - from).norm() + 2.0 * BEYOND;
+    // A closed line has no end before it, and goes around again beyond it.
+    let start = if line.is_closed() { 0.0 } else { -BEYOND };
+    let length = line.length() + BEYOND - start;
     let pieces = (length / SPACING).ceil() as u32;
     for depth in depths {
-        let place =
-            |piece: u32| from + along * (length * f64::from(piece) / f64::from(pieces) - BEYOND);
+        let place = |piece: u32| line.at(start + length * f64::from(piece) / f64::from(pieces));
         let over = |piece: u32, height: f64, speed: f64, cuts: bool| Step::Move {
             tool: blade,
             to: ground.over(&place(piece), height),

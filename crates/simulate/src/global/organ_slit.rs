@@ -7,7 +7,7 @@
 //! *How we know*: `slit::…` of `mechanics`; `cut_mechanics::…`.
 //!
 //! *Limits*: the contact tells its side of a slit by its place at rest; a cut beyond [`MOST`] facets is seen and
-//! no longer felt.
+//! no longer felt, with a warning.
 
 use nalgebra::Matrix3;
 use palpate_geometry::Vec3;
@@ -58,6 +58,8 @@ pub(crate) struct OrganSlit {
     sources: Vec<Source>,
     /// Parts of the way that were taken, whether they became a facet or not.
     taken: usize,
+    /// Length of the facets that could not be [m].
+    unfelt: f64,
     /// Another number whenever the facets are others.
     pub(super) version: u64,
     /// Of the force of each tool's tip.
@@ -81,6 +83,7 @@ impl OrganSlit {
             slit,
             sources: Vec::with_capacity(MOST),
             taken: 0,
+            unfelt: 0.0,
             version: 0,
         }
     }
@@ -94,9 +97,13 @@ impl OrganSlit {
             self.sources.truncate(kept);
             self.slit.truncate(kept);
             self.taken = self.sources.last().map_or(0, |source| source.end);
+            self.unfelt = 0.0;
             self.version += 1;
         }
-        self.taken = self.taken.min(way.len());
+        if way.len() < self.taken {
+            self.taken = way.len();
+            self.unfelt = 0.0;
+        }
         while let Some(part) = way.get(self.taken) {
             let wanted = (OF_THE_DEPTH * model.depth_of(part.felt)).max(SHORTEST);
             let Some(next) = next(way, self.taken, cuts.goes_on(), wanted) else {
@@ -143,6 +150,8 @@ impl OrganSlit {
                     layers: first.felt,
                 });
                 self.version += 1;
+            } else {
+                self.unfelt += facet.length;
             }
         }
     }
@@ -247,8 +256,19 @@ impl GlobalModel {
 impl GlobalWorkspace {
     /// What to be careful about in the forces of cuts, as sentences.
     pub(crate) fn warnings(&self) -> Vec<String> {
-        let slit = self.slit.as_ref().map(|slit| &slit.slit);
-        slit.map_or_else(Vec::new, |slit| slit.warnings())
+        let Some(own) = &self.slit else {
+            return Vec::new();
+        };
+        let mut warnings = own.slit.warnings();
+        if own.unfelt > 0.0 {
+            warnings.push(format!(
+                "{:.0} mm of the cuts are seen and do not change the force: the model has room for {MOST} pieces of {:.1} mm \
+                 or half of the depth, and for none on an edge of the organ",
+                1e3 * own.unfelt,
+                1e3 * SHORTEST
+            ));
+        }
+        warnings
     }
 }
 

@@ -4,23 +4,41 @@ use palpate_files::scene::Goal;
 use palpate_files::{Event, SessionRow};
 use palpate_geometry::Vec3;
 
-/// A blade that is farther from its last opening than this [m] was lifted in between.
+use crate::polyline::Polyline;
+
+/// A blade that is farther from where it was a row before than this [m] was lifted in between.
 const LEAP: f64 = 5e-3;
 
 /// Strokes that leave less than this [m] between them are one cut: an opening goes on to the edge of its triangle,
 /// about a millimetre, and nothing is left there that a blade could open.
 const JOINED: f64 = 1.5e-3;
 
+/// A line is whole when this part of it is left at most [-], and no more than strokes may leave between them: openings
+/// end at the edges of triangles.
+const LEFT: f64 = 0.03;
+
 /// The ways of cuts.
 #[derive(Debug, Clone)]
 pub(super) struct CutWay {
-    line: Option<[Vec3; 2]>,
+    line: Option<Polyline>,
+    /// The largest distance from it that counts [m].
+    tolerance: f64,
     /// The layer that the line shall be cut down to; none in an organ without layers.
     wanted_layers: Option<usize>,
     /// Where something was opened, cut by cut.
     cut_paths: Vec<Vec<Place>>,
     /// Which tool makes the last one.
-    by: Option<usize>,
+    by: Option<Maker>,
+}
+
+/// A tool that makes a cut.
+#[derive(Debug, Clone, Copy)]
+struct Maker {
+    tool: usize,
+    /// Whether it cuts because a hand says so, and not because tissue gives way under it.
+    by_hand: bool,
+    /// Where its tip was last [m].
+    tip: Vec3,
 }
 
 /// Where something was opened.
@@ -28,12 +46,23 @@ pub(super) struct CutWay {
 struct Place {
     /// The tip [m].
     tip: Vec3,
-    /// How far it was below the surface at rest [m].
-    depth: f64,
     /// The deepest layer that was opened there; none in an organ without layers.
     layer: Option<usize>,
     /// Whether the surface was opened there, not a layer below an opening.
     outermost: bool,
+    /// Where it is along the line [m].
+    along: f64,
+    /// How far it is beside the line over the surface.
+    deviation: Deviation,
+}
+
+/// How far a cut is beside its line over the surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Deviation {
+    /// [m]
+    pub distance: f64,
+    /// Whether it is inside of the line; none where that is open.
+    pub is_inside: Option<bool>,
 }
 
 /// What was cut.
@@ -58,21 +87,23 @@ pub struct LineScore {
     pub mean_deviation: f64,
     /// The largest distance from it [m].
     pub largest_deviation: f64,
+    /// The area between it and the openings of the surface: the distance, over their length [m²].
+    pub deviation_area: f64,
 }
 
 impl CutWay {
     pub(super) fn new(goal: &Goal) -> Self {
-        let (line, wanted_layers) = match goal {
+        let (line, tolerance, wanted_layers) = match goal {
             Goal::Cut {
-                from_m,
-                to_m,
+                line,
+                tolerance_m,
                 layers,
-                ..
-            } => (Some([*from_m, *to_m].map(Vec3::from)), *layers),
-            _ => (None, None),
+            } => (Polyline::new(line), *tolerance_m, *layers),
+            _ => (None, f64::INFINITY, None),
         };
         Self {
             line,
+            tolerance,
             wanted_layers,
             cut_paths: Vec::new(),
             by: None,
@@ -89,81 +120,107 @@ impl CutWay {
             self.cut_paths.pop();
             self.by = None;
         }
-        let ends = !row.contact || happened(Event::Lifted);
-        if self.by == Some(row.tool) && ends {
-            self.by = None;
+        let tip = Vec3::from(row.position_m);
+        if let Some(by) = self.by.as_mut().filter(|by| by.tool == row.tool) {
+            let ends = !row.contact
+                || happened(Event::Lifted)
+                || by.by_hand && !row.cut
+                || (tip - by.tip).norm() > LEAP;
+            by.tip = tip;
+            if ends {
+                self.by = None;
+            }
         }
         if !happened(Event::Cut) {
             return;
         }
-        let tip = Vec3::from(row.position_m);
-        let goes_on = self.by == Some(row.tool)
-            && self
-                .cut_paths
-                .last()
-                .and_then(|cut_path| cut_path.last())
-                .is_some_and(|last| (last.tip - tip).norm() < LEAP);
-        if !goes_on {
+        if self.by.is_none_or(|by| by.tool != row.tool) {
             self.cut_paths.push(Vec::new());
-            self.by = Some(row.tool);
+            self.by = Some(Maker {
+                tool: row.tool,
+                by_hand: row.cut,
+                tip,
+            });
         }
+        let near = self.line.as_ref().map(|line| line.nearest(&tip));
         if let Some(cut_path) = self.cut_paths.last_mut() {
             cut_path.push(Place {
                 tip,
-                depth: row.depth_m,
+                along: near.map_or(0.0, |near| near.along),
+                deviation: Deviation {
+                    distance: near.map_or(0.0, |near| aside(&near.aside, row.depth_m)),
+                    is_inside: near.and_then(|near| near.is_inside),
+                },
                 layer: row.events.deepest_opened(),
                 outermost: happened(Event::OpensLayer1) || row.events.deepest_opened().is_none(),
             });
         }
     }
 
-    /// Length of the line that shall be cut, and what of it is cut down to the wanted layer [m].
-    pub(super) fn covered(&self) -> Option<(f64, f64)> {
-        let [from, to] = self.line?;
-        let parts = self.parts();
-        let covered = parts.iter().map(|[low, high]| high - low).sum();
-        Some(((to - from).norm(), covered))
+    /// Where the cut that is being made is beside its line.
+    pub(super) fn deviation(&self) -> Option<Deviation> {
+        self.by.and(self.line.as_ref())?;
+        Some(self.cut_paths.last()?.last()?.deviation)
     }
 
-    /// The stretches of the line that are not cut down to the wanted layer: their ends [m].
+    /// Length of the line that shall be cut, and what of it is cut down to the wanted layer [m].
+    fn covered(&self) -> Option<[f64; 2]> {
+        let line = self.line.as_ref()?;
+        // A sum of nothing is -0.
+        let parts = self.parts(line).into_iter();
+        let covered = parts.fold(0.0, |sum, [low, high]| sum + (high - low));
+        Some([line.length(), covered])
+    }
+
+    /// The part of the line that is cut down to the wanted layer [-].
+    pub(super) fn part(&self) -> Option<f64> {
+        self.covered().map(|[wanted, covered]| covered / wanted)
+    }
+
+    /// Whether the whole line is cut down to the wanted layer.
+    pub(super) fn is_whole(&self) -> bool {
+        self.covered()
+            .is_some_and(|[wanted, covered]| wanted - covered <= JOINED.min(LEFT * wanted))
+    }
+
+    /// The stretches of the line that are not cut down to the wanted layer: the ends of their straight pieces [m].
     pub(super) fn uncut(&self) -> Vec<[Vec3; 2]> {
-        let Some([from, to]) = self.line else {
+        let Some(line) = &self.line else {
             return Vec::new();
         };
-        let wanted = (to - from).norm();
-        let along = (to - from) / wanted;
         let mut gaps = Vec::new();
         let mut end = 0.0;
-        for [low, high] in self.parts().into_iter().chain([[wanted, wanted]]) {
+        for [low, high] in self.parts(line).into_iter().chain([[line.length(); 2]]) {
             if low > end {
-                gaps.push([from + along * end, from + along * low]);
+                gaps.extend(line.pieces(end, low));
             }
             end = high;
         }
         gaps
     }
 
-    /// What of the line is cut down to the wanted layer, in order and apart: from where to where along it [m].
-    fn parts(&self) -> Vec<[f64; 2]> {
-        let Some([from, to]) = self.line else {
-            return Vec::new();
-        };
-        let wanted = (to - from).norm();
-        let along = (to - from) / wanted;
+    /// What of the line is cut down to the wanted layer within the tolerance, in order and apart: from where to where
+    /// along it [m].
+    fn parts(&self, line: &Polyline) -> Vec<[f64; 2]> {
+        let length = line.length();
         let mut each: Vec<[f64; 2]> = Vec::new();
         for cut_path in &self.cut_paths {
-            let deep = cut_path
-                .iter()
-                .filter(|place| place.layer >= self.wanted_layers);
-            let at = deep.map(|place| (place.tip - from).dot(&along));
-            let (low, high) = at.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| {
-                (low.min(at), high.max(at))
-            });
-            let (low, high) = (low.max(0.0), high.min(wanted));
-            if low < high {
-                each.push([low, high]);
+            for pair in cut_path.windows(2) {
+                let counts = |place: &Place| {
+                    place.layer >= self.wanted_layers && place.deviation.distance <= self.tolerance
+                };
+                if !pair.iter().all(counts) {
+                    continue;
+                }
+                let [one, other] = [pair[0].along, pair[1].along];
+                let (low, high) = (one.min(other), one.max(other));
+                match line.is_closed() && high - low > 0.5 * length {
+                    true => each.extend([[0.0, low], [high, length]]),
+                    false => each.push([low, high]),
+                }
             }
         }
+        each.retain(|[low, high]| low < high);
         each.sort_unstable_by(|one, other| one[0].total_cmp(&other[0]));
         let mut parts: Vec<[f64; 2]> = Vec::new();
         for [low, high] in each {
@@ -171,6 +228,14 @@ impl CutWay {
                 Some(last) if low <= last[1] + JOINED => last[1] = last[1].max(high),
                 _ => parts.push([low, high]),
             }
+        }
+        // Where a closed line ends it goes on.
+        if let (true, Some(first), Some(last)) = (line.is_closed(), parts.first(), parts.last())
+            && first[0] + length - last[1] <= JOINED
+        {
+            let last = parts.len() - 1;
+            parts[0][0] = 0.0;
+            parts[last][1] = length;
         }
         parts
     }
@@ -190,34 +255,31 @@ impl CutWay {
         Some(CutScore {
             count: self.cut_paths.len(),
             length: length.sum(),
-            along_line: self
-                .line
-                .zip(self.covered())
-                .map(|(line, (wanted, covered))| {
-                    let places = self.cut_paths.iter().flatten();
-                    let largest = places.map(|place| off(&line, place)).fold(0.0, f64::max);
-                    let (mut weight, mut sum) = (0.0, 0.0);
-                    for piece in pieces.clone() {
-                        let way = (piece[1].tip - piece[0].tip).norm();
-                        weight += way;
-                        sum += way * 0.5 * (off(&line, &piece[0]) + off(&line, &piece[1]));
+            along_line: self.covered().map(|[wanted, covered]| {
+                let places = self.cut_paths.iter().flatten();
+                let largest = places
+                    .map(|place| place.deviation.distance)
+                    .fold(0.0, f64::max);
+                let (mut weight, mut sum, mut area) = (0.0, 0.0, 0.0);
+                for piece in pieces.clone() {
+                    let way = (piece[1].tip - piece[0].tip).norm();
+                    let both = piece[0].deviation.distance + piece[1].deviation.distance;
+                    weight += way;
+                    sum += 0.5 * way * both;
+                    if piece.iter().all(|place| place.outermost) {
+                        area += 0.5 * way * both;
                     }
-                    LineScore {
-                        wanted,
-                        covered,
-                        mean_deviation: if weight > 0.0 { sum / weight } else { largest },
-                        largest_deviation: largest,
-                    }
-                }),
+                }
+                LineScore {
+                    wanted,
+                    covered,
+                    mean_deviation: if weight > 0.0 { sum / weight } else { largest },
+                    largest_deviation: largest,
+                    deviation_area: area,
+                }
+            }),
         })
     }
-}
-
-/// How far a tip of a depth is beside a line over the surface [m]: what is below it does not count.
-fn off([from, to]: &[Vec3; 2], place: &Place) -> f64 {
-    let line = to - from;
-    let at = ((place.tip - from).dot(&line) / line.norm_squared()).clamp(0.0, 1.0);
-    aside(&(place.tip - (from + line * at)), place.depth)
 }
 
 /// The part of a way [m] along the surface when `depth` [m] of it is below it.

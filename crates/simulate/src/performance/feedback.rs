@@ -246,8 +246,13 @@ fn change(task: &Task, score: &Score) -> Phrase {
         (Outcome::Touch { beside: None, .. }, _) => "change-lift",
         (Outcome::Touch { reached: false, .. }, _) => "change-stay",
         (Outcome::Cut { .. }, _) if perforated => "change-shallower",
-        (Outcome::Cut { clean: false, part }, Goal::Cut { .. }) if *part < 0.97 => "change-uncut",
-        (Outcome::Cut { clean: false, .. }, _) => "change-line",
+        (Outcome::Cut { clean: false, .. }, Goal::Cut { tolerance_m, .. }) => {
+            let line = score.cut.and_then(|cut| cut.along_line);
+            match line.is_some_and(|line| line.largest_deviation > *tolerance_m) {
+                true => "change-line",
+                false => "change-uncut",
+            }
+        }
         _ => return errors(task, score),
     })
 }
@@ -270,6 +275,7 @@ fn errors(task: &Task, score: &Score) -> Phrase {
 
 #[cfg(test)]
 mod tests {
+    use palpate_files::scene::CutLine;
     use palpate_files::{Events, SessionRow};
 
     use super::super::Performance;
@@ -347,5 +353,16 @@ mod tests {
         assert_eq!(held.verdict.key, "verdict-passed");
         let short = told(pull(), Events::NONE, 0.2, 2);
         assert_eq!(short.verdict, why("why-short", number("s", 2.0)));
+        let cut = |beside: f64| Goal::Cut {
+            line: CutLine::straight([beside, 0.0, 0.0], [beside, 0.03, 0.0]),
+            tolerance_m: 0.002,
+            layers: None,
+        };
+        let aside = told(cut(0.01), Event::Cut.into(), 0.1, 1);
+        assert_eq!(aside.verdict, why("why-off-line", number("mm", 10.0)));
+        assert_eq!(aside.change.key, "change-line");
+        let begun = told(cut(0.001), Event::Cut.into(), 0.1, 1);
+        assert_eq!(begun.verdict, why("why-uncut", number("percent", 100.0)));
+        assert_eq!(begun.change.key, "change-uncut");
     }
 }

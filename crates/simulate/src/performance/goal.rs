@@ -240,13 +240,13 @@ impl GoalWatch {
         let part = match &self.goal {
             Goal::Free | Goal::Find { .. } => None,
             Goal::Traction { hold_s, .. } => Some((self.within / hold_s).min(1.0)),
-            Goal::Cut { .. } => cut.covered().map(|(wanted, covered)| covered / wanted),
+            Goal::Cut { .. } => cut.part(),
             Goal::Touch(_) => self.touch.as_ref().map(TouchWatch::part),
         };
-        let cut = matches!(self.goal, Goal::Cut { .. }) && part.is_some_and(|part| part >= WHOLE);
-        match self.done || cut || late {
+        let is_cut = cut.is_whole();
+        match self.done || is_cut || late {
             true => Status::Over {
-                late: late && !self.done && !cut,
+                late: late && !self.done && !is_cut,
             },
             false => Status::GoesOn {
                 part,
@@ -282,14 +282,11 @@ impl GoalWatch {
                 .as_ref()
                 .map_or(Outcome::Free, TouchWatch::outcome),
             Goal::Cut { tolerance_m, .. } => {
-                let part = cut
-                    .covered()
-                    .map_or(0.0, |(wanted, covered)| covered / wanted);
                 let line = cut.score().and_then(|score| score.along_line);
-                let straight = line.is_some_and(|line| line.largest_deviation <= *tolerance_m);
+                let on_line = line.is_some_and(|line| line.largest_deviation <= *tolerance_m);
                 Outcome::Cut {
-                    part,
-                    clean: part >= WHOLE && straight && errors.perforations == 0,
+                    part: cut.part().unwrap_or(0.0),
+                    clean: cut.is_whole() && on_line && errors.perforations == 0,
                 }
             }
         }
@@ -327,9 +324,6 @@ impl Wanted for Goal {
         Some(Advice { force: size, cue })
     }
 }
-
-/// The part of a line that counts as all of it [-]: openings end at the edges of triangles.
-const WHOLE: f64 = 0.97;
 
 impl Outcome {
     /// Whether the task was done as it should be; none where nothing had to be.

@@ -69,11 +69,16 @@ impl Score {
         if let Some(cut) = &self.cut {
             add(own("cut_length_m"), Some(cut.length), Neither);
             if let Some(line) = &cut.along_line {
-                add(own("cut_covered_m"), Some(line.covered), More);
+                add(own("cut_part"), Some(line.covered / line.wanted), More);
                 add(own("cut_mean_deviation_m"), Some(line.mean_deviation), Less);
                 add(
                     own("cut_largest_deviation_m"),
                     Some(line.largest_deviation),
+                    Less,
+                );
+                add(
+                    own("cut_deviation_area_m2"),
+                    Some(line.deviation_area),
                     Less,
                 );
             }

@@ -24,7 +24,7 @@ use palpate_files::{Event, SessionRow};
 use palpate_geometry::Vec3;
 
 pub use comparison::{Comparison, Standard, compare};
-pub use cut::CutScore;
+pub use cut::{CutScore, Deviation};
 pub use feedback::{Feedback, Phrase, PhraseValue, feedback};
 pub use force::ForceScore;
 pub use goal::{Advice, Cue, Outcome, SizeOutcome, Status};
@@ -142,7 +142,13 @@ impl Performance {
         self.goal.awaits_diameter()
     }
 
-    /// The stretches of the line of a cut that are not cut to the wanted depth yet: their ends [m].
+    /// Where the cut that is being made is beside its line.
+    pub fn deviation(&self) -> Option<Deviation> {
+        self.cut.deviation()
+    }
+
+    /// The stretches of the line of a cut that are not cut to the wanted depth yet: the ends of their straight pieces
+    /// [m].
     pub fn uncut(&self) -> Vec<[Vec3; 2]> {
         self.cut.uncut()
     }

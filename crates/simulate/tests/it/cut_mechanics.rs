@@ -112,6 +112,73 @@ fn a_rim_is_softer_and_the_rest_is_not() {
     assert_eq!(again, uncut);
 }
 
+/// A circle that is cut all around, and a little further, softens both of its sides and its middle less; undone, it leaves
+/// no trace. Judge: the uncut organ, and the other side of the circle; how much it softens is judged in `mechanics`,
+/// against finite elements with a slit that closes. Tolerance: a quarter, for triangles are ten times as large as the
+/// distance from the rim, and unlike on both sides.
+#[test]
+fn a_circle_softens_both_of_its_sides() {
+    const RADIUS: f64 = 0.012;
+    let simulation = simulation(CUBE, "depth_m = 0.003");
+    let mut hands = Hands::new(&simulation);
+    let at = |radius: f64, angle: f64| top(radius * angle.cos(), radius * angle.sin());
+    let rim =
+        [0.5, 2.1, 3.7, 5.3].map(|angle| [RADIUS - 0.002, RADIUS + 0.002].map(|r| at(r, angle)));
+    let places: Vec<Vec3> = rim.into_iter().flatten().chain([top(0.0, 0.0)]).collect();
+    let feel = |hands: &mut Hands<'_>| -> Vec<Vec3> {
+        places.iter().map(|place| hands.feel(*place)).collect()
+    };
+    let uncut = feel(&mut hands);
+    for k in 0..=420 {
+        let force = hands.at(
+            Some(at(RADIUS, std::f64::consts::TAU * f64::from(k) / 400.0)),
+            None,
+        );
+        assert!(force.iter().all(|x| x.is_finite()), "{k}");
+    }
+    hands.at(None, None);
+    let around = std::f64::consts::TAU * RADIUS;
+    let length = hands.state.cuts.as_ref().unwrap().length();
+    assert!((0.95..1.15).contains(&(length / around)), "{length}");
+    let cut = feel(&mut hands);
+    let parts: Vec<f64> = cut
+        .iter()
+        .zip(&uncut)
+        .map(|(cut, uncut)| cut.z / uncut.z)
+        .collect();
+    println!("force over that of the uncut organ: {parts:.3?}");
+    let mean = parts[..8].iter().sum::<f64>() / 8.0;
+    assert!(mean > 0.3 && mean < 0.95, "{parts:?}");
+    for part in &parts[..8] {
+        assert!((part / mean - 1.0).abs() < 0.25, "{parts:?}");
+    }
+    assert!(parts[8] > mean && parts[8] <= 1.0, "{parts:?}");
+    assert!(hands.state.undo_cut());
+    assert_eq!(feel(&mut hands), uncut);
+}
+
+/// What the model has no room for is reported, and no longer once it is undone. Five strokes of 40 mm are more than 96
+/// pieces of 1.2 mm.
+#[test]
+fn cuts_that_are_not_felt_are_reported() {
+    let simulation = simulation(CUBE, "depth_m = 0.002");
+    let mut hands = Hands::new(&simulation);
+    let mut said = Vec::new();
+    for stroke in 0..5 {
+        let y = 0.006 * f64::from(stroke) - 0.0116;
+        hands.cut(top(-0.02, y), top(0.02, y));
+        hands.feel(top(0.0, 0.03));
+        said.push(hands.workspace.warnings().join(" "));
+    }
+    assert!(said[0].is_empty() && said[1].is_empty(), "{said:?}");
+    assert!(said[4].contains("mm of the cuts are seen"), "{said:?}");
+    for _ in 0..3 {
+        assert!(hands.state.undo_cut());
+    }
+    hands.feel(top(0.0, 0.03));
+    assert!(hands.workspace.warnings().is_empty());
+}
+
 /// The source's mode leaves forces alone (section 7.7).
 #[test]
 fn the_source_s_mode_changes_no_force() {

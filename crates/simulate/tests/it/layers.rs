@@ -1,6 +1,6 @@
 //! Layers: each is opened by itself, by a blade's depth and by force, and is named by event, summary and score.
 
-use palpate_files::scene::Goal;
+use palpate_files::scene::{CutLine, Goal};
 use palpate_files::session::{Event, Events};
 use palpate_files::{Motion, Pose, Scene};
 use palpate_geometry::Vec3;
@@ -263,8 +263,7 @@ fn the_myotomy_is_two_strokes_and_a_third_layer_is_a_perforation() {
     let mut scene = draw_variant(&drawn, 0).unwrap();
     // The line that the motion follows.
     scene.task.goal = Goal::Cut {
-        from_m: [0.001, -0.0075, 0.014],
-        to_m: [0.001, -0.0075, -0.011],
+        line: CutLine::straight([0.001, -0.0075, 0.014], [0.001, -0.0075, -0.011]),
         tolerance_m: 0.003,
         layers: Some(2),
     };

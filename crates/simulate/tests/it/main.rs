@@ -36,6 +36,7 @@ mod nonlinear;
 mod nonlinear_neighbours;
 mod nonlinear_regions;
 mod performance;
+mod precision_cutting;
 mod random_scenes;
 mod replay;
 mod retraction;

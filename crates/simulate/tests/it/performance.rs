@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{Isometry3, UnitQuaternion};
-use palpate_files::scene::{Goal, Task};
+use palpate_files::scene::{CutLine, Goal, Task};
 use palpate_files::session::Event;
 use palpate_files::{Events, SessionRow};
 use palpate_geometry::Vec3;
@@ -240,8 +240,7 @@ fn cutting(beside: f64, depth: f64, to: f64) -> Vec<SessionRow> {
 fn line() -> Task {
     Task {
         goal: Goal::Cut {
-            from_m: [0.0; 3],
-            to_m: [0.03, 0.0, 0.0],
+            line: CutLine::straight([0.0; 3], [0.03, 0.0, 0.0]),
             tolerance_m: 0.002,
             layers: None,
         },
@@ -415,8 +414,7 @@ fn the_uncut_stretches_are_told() {
     let tools = vec!["left".to_owned()];
     let task = Task {
         goal: Goal::Cut {
-            from_m: [0.0; 3],
-            to_m: [0.030, 0.0, 0.0],
+            line: CutLine::straight([0.0; 3], [0.030, 0.0, 0.0]),
             tolerance_m: 0.003,
             layers: None,
         },

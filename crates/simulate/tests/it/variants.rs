@@ -62,6 +62,7 @@ fn a_variant_is_the_same_to_the_last_bit() {
     for text in [
         include_str!("../../../../assets/tasks/palpation.toml"),
         include_str!("../../../../assets/tasks/traction.toml"),
+        include_str!("../../../../assets/tasks/cutting.toml"),
         include_str!("../../../../assets/tasks/myotomy.toml"),
     ] {
         let scene = task(text);

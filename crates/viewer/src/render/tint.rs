@@ -73,6 +73,13 @@ impl Tint {
                 [0.47, 0.180, 0.140],
                 [0.21, 0.020, 0.020],
             ),
+            // The colour of drapes: no tissue, and what lies below it is seen.
+            BuiltinOrgan::Slab => colors(
+                0.30,
+                [0.045, 0.105, 0.125],
+                [0.085, 0.165, 0.185],
+                [0.045, 0.105, 0.125],
+            ),
             BuiltinOrgan::Hemisphere | BuiltinOrgan::Cube => Self::MUSCLE,
         }
     }

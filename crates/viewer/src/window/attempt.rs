@@ -7,7 +7,7 @@ use palpate_files::session::{Event, SessionRow};
 use palpate_files::{Claim, Overwrite};
 use palpate_geometry::Vec3;
 use palpate_simulate::performance::{
-    Comparison, Errors, Outcome, Performance, Score, Standard, Status, compare,
+    Comparison, Deviation, Errors, Outcome, Performance, Score, Standard, Status, compare,
 };
 use palpate_simulate::{Demonstration, Guidance, SessionFolder, ShownTool, Tutor, read_experts};
 
@@ -252,6 +252,14 @@ impl Attempt {
             },
             Phase::Reads | Phase::GoesOn(_) => None,
         }
+    }
+
+    /// Where the cut that is being made is beside its line, and the largest distance that counts [m].
+    pub(super) fn deviation(&self) -> Option<(Deviation, f64)> {
+        let Goal::Cut { tolerance_m, .. } = self.task.goal else {
+            return None;
+        };
+        Some((self.performance.deviation()?, tolerance_m))
     }
 
     /// The stretches of a line that are not cut yet [m].

@@ -9,7 +9,7 @@ use super::attempt::{Attempt, Phase, Unsaved};
 use super::diameter;
 use super::page::{self, main_button, or_key, quiet};
 use super::results::over;
-use super::texts::{of_task, text};
+use super::texts::{decimal, of_task, text};
 use crate::style::{BAR, CARD_OVER_PICTURE, DEPTH, FAULT, QUIET, WARNING, WHITE};
 
 /// What somebody wants of an attempt.
@@ -319,8 +319,8 @@ fn gauge(ui: &mut Ui, attempt: &Attempt) {
                 return;
             };
             let words = match force > limit {
-                true => ("cue-too-hard", FAULT),
-                false => ("", DEPTH),
+                true => (text!("cue-too-hard"), FAULT),
+                false => deviation_words(attempt),
             };
             ([0.0, limit, 1.5 * limit], force, words)
         }
@@ -330,7 +330,7 @@ fn gauge(ui: &mut Ui, attempt: &Attempt) {
         ui.label(RichText::new(words).size(28.0).monospace().color(WHITE));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if !cue.0.is_empty() {
-                let words = RichText::new(text!(cue.0)).size(20.0);
+                let words = RichText::new(cue.0).size(20.0);
                 ui.label(words.strong().color(cue.1));
             }
         });
@@ -361,9 +361,9 @@ fn gauge(ui: &mut Ui, attempt: &Attempt) {
     painter.vline(at(force), rect.y_range(), egui::Stroke::new(5.0, color));
 }
 
-/// The phrase of a cue, with those for more and less of the force that counts, and its color.
-fn cue_words(cue: Cue, [more, less]: [&'static str; 2]) -> (&'static str, Color32) {
-    match cue {
+/// The words of a cue, with the keys of those for more and less of the force that counts, and its color.
+fn cue_words(cue: Cue, [more, less]: [&'static str; 2]) -> (String, Color32) {
+    let (key, color) = match cue {
         Cue::Hold => ("cue-hold", DEPTH),
         Cue::More => (more, WARNING),
         Cue::Less => (less, FAULT),
@@ -371,7 +371,31 @@ fn cue_words(cue: Cue, [more, less]: [&'static str; 2]) -> (&'static str, Color3
         Cue::Grasp => ("cue-grasp", WARNING),
         Cue::Lift => ("cue-lift", WARNING),
         Cue::Reach => ("cue-reach", WARNING),
+    };
+    (text!(key), color)
+}
+
+/// A cut this near to its line is on it, in units of the distance that counts [-].
+const ON_THE_LINE: f64 = 0.25;
+
+/// How far the cut that is being made is beside its line, in words, and their color; nothing where none is made.
+fn deviation_words(attempt: &Attempt) -> (String, Color32) {
+    let Some((deviation, tolerance)) = attempt.deviation() else {
+        return (String::new(), DEPTH);
+    };
+    if deviation.distance < ON_THE_LINE * tolerance {
+        return (text!("cue-on-line"), DEPTH);
     }
+    let key = match deviation.is_inside {
+        Some(true) => "cue-inside",
+        Some(false) => "cue-outside",
+        None => "cue-beside",
+    };
+    let color = match deviation.distance <= tolerance {
+        true => WARNING,
+        false => FAULT,
+    };
+    (text!(key, mm = decimal(1e3 * deviation.distance, 1)), color)
 }
 
 pub(super) fn trouble(ui: &mut Ui, attempt: &Attempt) {

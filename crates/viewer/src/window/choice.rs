@@ -131,6 +131,7 @@ fn fineness(organ: BuiltinOrgan) -> usize {
         | BuiltinOrgan::Stomach
         | BuiltinOrgan::Diaphragm
         | BuiltinOrgan::Hemisphere
-        | BuiltinOrgan::Cube => 14_000,
+        | BuiltinOrgan::Cube
+        | BuiltinOrgan::Slab => 14_000,
     }
 }

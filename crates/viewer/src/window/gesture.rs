@@ -64,6 +64,8 @@ struct Press {
     /// The line of the picture that it slides along, and the one at which it is not deeper than a touch.
     line: f64,
     zero: f64,
+    /// The line at which the mouse was in the picture before.
+    last: f64,
     /// What was there, or where the tool has slid to since.
     over: Picked,
     /// Depth by the wheel [m].
@@ -117,9 +119,11 @@ impl Gesture {
             (true, Some(mut press), Some(place)) => {
                 if mouse.cuts {
                     let before = self.aim.map_or(TOUCH, |aim| aim.depth);
-                    press.line = place.1;
+                    // A blade moves as the mouse does, and does not go to where that has come while it went deeper.
+                    press.line += place.1 - press.last;
                     press.zero = place.1 - (before - TOUCH - press.by_wheel) / DEEPEST;
                 }
+                press.last = place.1;
                 // Else sideways only: down the picture is into the tissue.
                 if let Some(over) = seen((place.0, press.line)) {
                     press.over = over;
@@ -136,6 +140,7 @@ impl Gesture {
                 self.press = over.map(|over| Press {
                     line: place.1,
                     zero: place.1,
+                    last: place.1,
                     over,
                     by_wheel: 0.0,
                 });

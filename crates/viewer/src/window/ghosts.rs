@@ -3,9 +3,11 @@
 
 use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2};
 use nalgebra::{Quaternion, Unit};
+use palpate_files::scene::{CutLine, Nodule};
 use palpate_geometry::Vec3;
 use palpate_simulate::Ghost;
 
+use super::texts::text;
 use crate::Camera;
 use crate::style::{BRIGHT, LEFT};
 
@@ -18,6 +20,15 @@ const OPEN: f64 = 0.004;
 
 /// Length of the arrow of a pull [m].
 const ARROW: f64 = 0.025;
+
+/// The middle of the lump that a target lies over [m], for from the eye it is not below that; the target where there is
+/// no lump.
+pub(super) fn nearest_lump(lumps: &[Nodule], target: Vec3) -> Vec3 {
+    let middles = lumps.iter().map(|lump| Vec3::from(lump.center_m));
+    let off = |middle: &Vec3| (middle - target).norm();
+    let nearest = middles.min_by(|one, other| off(one).total_cmp(&off(other)));
+    nearest.unwrap_or(target)
+}
 
 /// A picture that is drawn on, and from where it was taken.
 pub(super) struct Over<'a> {
@@ -40,15 +51,19 @@ impl Over<'_> {
         }
     }
 
-    /// Draws the line that shall be cut, dashed.
-    pub(super) fn wanted(&self, [from, to]: [Vec3; 2]) {
-        if let (Some(from), Some(to)) = (self.seen(&from), self.seen(&to)) {
-            let stroke = Stroke::new(2.0, BRIGHT.gamma_multiply(0.8));
-            let dashes = Shape::dashed_line(&[from, to], stroke, 7.0, 6.0);
-            self.painter.extend(dashes);
-            for end in [from, to] {
-                self.painter.circle_filled(end, 3.5, BRIGHT);
-            }
+    /// Draws the line that shall be cut, dashed, and the ends of an open one.
+    pub(super) fn wanted(&self, line: &CutLine) {
+        let points = line.points_m().iter();
+        let seen: Option<Vec<Pos2>> = points.map(|point| self.seen(&Vec3::from(*point))).collect();
+        let Some(seen) = seen else {
+            return;
+        };
+        let stroke = Stroke::new(2.0, BRIGHT.gamma_multiply(0.8));
+        self.painter
+            .extend(Shape::dashed_line(&seen, stroke, 7.0, 6.0));
+        let ends = [seen.first(), seen.last()];
+        for end in ends.into_iter().flatten().filter(|_| !line.is_closed()) {
+            self.painter.circle_filled(*end, 3.5, BRIGHT);
         }
     }
 
@@ -85,19 +100,25 @@ impl Over<'_> {
             self.painter
                 .circle_filled(at, size, LEFT.gamma_multiply(0.45));
             self.painter.circle_stroke(at, size, Stroke::new(2.5, LEFT));
-            self.named(at + Vec2::new(0.0, -size - 4.0), "the lump", LEFT);
+            self.named(
+                at + Vec2::new(0.0, -size - 4.0),
+                &text!("picture-lump"),
+                LEFT,
+            );
         }
     }
 
-    /// Draws the outline of the size that was stated for a lump.
-    pub(super) fn stated(&self, middle: &Vec3, radius: f64) {
+    /// Draws the outline of the radius [m] that was stated for a lump, whose true one is `truth` [m].
+    pub(super) fn stated(&self, middle: &Vec3, radius: f64, truth: f64) {
         let [right, ..] = self.camera.axes();
-        let edge = middle + radius * right;
-        if let (Some(at), Some(edge)) = (self.seen(middle), self.seen(&edge)) {
-            let size = at.distance(edge);
+        let size_of = |radius: f64| {
+            let (at, edge) = (self.seen(middle)?, self.seen(&(middle + radius * right))?);
+            Some((at, at.distance(edge)))
+        };
+        if let (Some((at, size)), Some((_, lump))) = (size_of(radius), size_of(truth)) {
             self.dashed_ring(at, size, BRIGHT);
-            let below = at + Vec2::new(0.0, size + 22.0);
-            self.named(below, "the size you stated", BRIGHT);
+            let below = at + Vec2::new(0.0, size.max(lump) + 22.0);
+            self.named(below, &text!("picture-stated"), BRIGHT);
         }
     }
 
@@ -117,7 +138,11 @@ impl Over<'_> {
             self.painter.circle_stroke(at, size, Stroke::new(2.5, LEFT));
             self.painter.circle_filled(at, 3.0, LEFT);
         }
-        self.named(at + Vec2::new(0.0, -size - 4.0), "the target", LEFT);
+        self.named(
+            at + Vec2::new(0.0, -size - 4.0),
+            &text!("picture-target"),
+            LEFT,
+        );
     }
 
     fn dashed_ring(&self, at: Pos2, size: f32, color: Color32) {
@@ -140,7 +165,7 @@ impl Over<'_> {
                 let way = Vec2::new(7.0, 7.0 * side);
                 self.painter.line_segment([at - way, at + way], stroke);
             }
-            self.named(at + Vec2::new(0.0, 26.0), "your mark", BRIGHT);
+            self.named(at + Vec2::new(0.0, 26.0), &text!("picture-mark"), BRIGHT);
         }
     }
 

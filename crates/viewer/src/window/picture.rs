@@ -8,7 +8,7 @@ use palpate_simulate::ShownTool;
 
 use super::attempt::Attempt;
 use super::gesture::{Gesture, GestureContext, Mouse};
-use super::ghosts::Over;
+use super::ghosts::{Over, nearest_lump};
 use super::hands::gamepad::{Pad, PadPart, PadRequests};
 use super::hands::gamepads::Gamepads;
 use super::hands::{Drive, Hand, Room, keys};
@@ -206,8 +206,8 @@ impl Picture {
             camera,
         };
         match &attempt.task.goal {
-            Goal::Cut { from_m, to_m, .. } => {
-                over.wanted([*from_m, *to_m].map(Vec3::from));
+            Goal::Cut { line, .. } => {
+                over.wanted(line);
                 over.left(&attempt.uncut());
             }
             Goal::Traction {
@@ -232,11 +232,12 @@ impl Picture {
                     let middle = Vec3::from(nodule.center_m);
                     over.lump(&middle, nodule.radius_m);
                     if let Some(stated) = attempt.stated_diameter() {
-                        over.stated(&middle, 0.5 * stated);
+                        over.stated(&middle, 0.5 * stated, nodule.radius_m);
                     }
                 }
                 if let Some(marked) = attempt.marked {
-                    over.mark(&marked, &Vec3::from(*target_m));
+                    let target = Vec3::from(*target_m);
+                    over.mark(&marked, &nearest_lump(&play.scene.organ.nodules, target));
                 }
             }
             _ => {}

@@ -2,7 +2,7 @@
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{self, RichText, Ui};
-use egui_plot::{HLine, Line, PlotPoints};
+use egui_plot::{HLine, Line, PlotPoints, uniform_grid_spacer};
 use palpate_files::scene::Goal;
 use palpate_simulate::performance::{Measure, feedback};
 
@@ -105,7 +105,12 @@ fn forces(ui: &mut Ui, attempt: &Attempt) {
     let most = points
         .iter()
         .fold(0.0, |most: f64, [_, force]| most.max(*force));
-    let plot = page::still_plot("forces", 110.0).show(ui, |plot| {
+    let top = lines.iter().fold(most, |top, line| top.max(1e3 * line));
+    let step = label_step(top);
+    let plot = page::still_plot("forces", 110.0).y_grid_spacer(uniform_grid_spacer(move |_| {
+        [step, 10.0 * step, 100.0 * step]
+    }));
+    let plot = plot.show(ui, |plot| {
         plot.line(Line::new("force", PlotPoints::from(points)).color(FORCE));
         for line in lines {
             plot.hline(HLine::new("band", 1e3 * line).color(DEPTH).width(2.0));
@@ -113,6 +118,17 @@ fn forces(ui: &mut Ui, attempt: &Attempt) {
     });
     let words = text!("result-force-most", plot = words, mn = most.round());
     page::name(&plot.response, Role::Image, &words);
+}
+
+/// The largest of 1, 2 and 5 times a power of ten of which two are at most `top`: a low plot has room for a few labels.
+fn label_step(top: f64) -> f64 {
+    let half = 0.5 * top.max(1.0);
+    let power = 10_f64.powf(half.log10().floor());
+    let steps = [5.0, 2.0].map(|times| times * power);
+    steps
+        .into_iter()
+        .find(|step| *step <= half)
+        .unwrap_or(power)
 }
 
 /// The last attempts of the same trainee.
@@ -211,7 +227,9 @@ fn words(key: &str, value: f64) -> (String, String) {
     let (tool, plain) = key
         .split_once('.')
         .map_or(("", key), |(tool, plain)| (tool, plain));
-    let units: [(&str, f64, &str); 6] = [
+    let units: [(&str, f64, &str); 8] = [
+        ("_m2", 1e6, "mm²"),
+        ("_part", 100.0, "%"),
         ("_n_s", 1.0, "N s"),
         ("_rad", 57.295_779_513_082_32, "°"),
         ("_m", 1e3, "mm"),
@@ -259,5 +277,13 @@ mod tests {
         );
         assert_eq!(read("right.peak_force_n", 0.5), "right: peak force 500 mN");
         assert_eq!(read("perforations", 2.0), "perforations 2 ");
+        assert_eq!(
+            read("cut_part", 0.985),
+            "part of the line that is cut 98.5 %"
+        );
+        assert_eq!(
+            read("cut_deviation_area_m2", 31.4e-6),
+            "area between the cut and the line 31.4 mm²"
+        );
     }
 }

@@ -162,7 +162,7 @@ class CuttingEnv(TouchEnv):
     """Cut along a line, and no deeper; see `TouchEnv`.
 
     The seed moves the line by up to 4 mm along and 0.5 mm aside, and draws where the tip begins. A fourth number above
-    zero cuts. **Reward**: the part of the line that was cut, and 1 for the whole, within the task's tolerance. Of the goal
+    zero cuts. **Reward**: the part of the straight line that was cut within the task's tolerance, and 1 for the whole. Of the goal
     the ends of the line [m] are seen (6).
     """
 

@@ -209,6 +209,10 @@ class Cutting(Task):
 
     def __init__(self, scene: palpate.Scene, rest: palpate.Mesh) -> None:
         super().__init__(scene, rest)
+        if "from_m" not in self.wanted:
+            raise palpate.InputError(
+                "the line of `task.cut` is a circle, and this environment cuts a straight one; give `from_m` and `to_m`"
+            )
         self.ends = np.array([self.wanted["from_m"], self.wanted["to_m"]], dtype=float)
         self.along = (self.ends[1] - self.ends[0]) / np.linalg.norm(self.ends[1] - self.ends[0])
         out = self.normals[int(np.linalg.norm(self.vertices - self.ends.mean(axis=0), axis=1).argmin())]

@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
     /// The mesh: STL, OBJ, PLY or glTF.
     #[arg(group = "mesh")]
     file: Option<PathBuf>,
-    /// A built-in organ instead of a file: esophagus, liver, kidney, stomach, spleen, diaphragm, hemisphere, cube.
+    /// A built-in organ instead of a file: esophagus, liver, kidney, stomach, spleen, diaphragm, hemisphere, cube, slab.
     #[arg(long, value_name = "NAME", group = "mesh")]
     builtin: Option<String>,
     /// The unit of the file: m, cm, mm or um.
