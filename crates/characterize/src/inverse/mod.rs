@@ -24,6 +24,7 @@ mod fitted_force;
 mod forces;
 mod law;
 mod law_fit;
+mod mesh_error;
 mod organ;
 mod repeated;
 mod tables;

@@ -8,7 +8,7 @@ use palpate_characterize::inverse::{
 use palpate_characterize::{CharacterizeSettings, CleanSettings, Error, characterize, clean};
 use palpate_files::Recording;
 use palpate_files::recording::{
-    IndenterFriction, IndenterShape, RecordingHeader, Samples, Specimen,
+    ForeignColumns, IndenterFriction, IndenterShape, RecordingHeader, Samples, Specimen,
 };
 use palpate_files::scene::{Region, RegionPlane};
 use palpate_geometry::TetrahedronMesh;
@@ -258,6 +258,66 @@ fn a_layer_returns_with_the_error_of_its_base() {
         "{with_base} {expected}"
     );
     assert!(change > of_noise, "{change} {of_noise}");
+}
+
+/// Elastic force [N] of a sphere of 10 mm without friction every quarter of a millimetre, on a layer of 5 mm with C₁₀ of 731 Pa on
+/// 95 mm that are a third as stiff: FElupe, nine-noded axisymmetric elements of 0.5 mm, extrapolated to no size and from ν of
+/// 0.49 and 0.495 to one half.
+const OF_FELUPE: [f64; 16] = [
+    0.0020949, 0.005256, 0.0089053, 0.013032, 0.017391, 0.021961, 0.026898, 0.031837, 0.037095,
+    0.042479, 0.048068, 0.053814, 0.059631, 0.065742, 0.071912, 0.078128,
+];
+
+/// Twenty presses with noise of half a percent, of which another program wrote depth from anywhere: the contact is within its
+/// 95 % interval in nine of ten, though the force is no power of the depth; and so is the modulus of the first.
+#[test]
+fn contacts_of_a_sphere_on_a_layer_are_within_their_intervals() {
+    let depths: Vec<f64> = (1..=16).map(|i| 0.25e-3 * f64::from(i)).collect();
+    let curve = IndentationCurve::through(&depths, &OF_FELUPE);
+    let series = PronySeries::new(&[(0.3, 1.5)]).unwrap();
+    let times: Vec<f64> = (0..1000).map(|i| 0.01 * f64::from(i)).collect();
+    let depth = times.iter().map(|t| (4e-3 * (t - 1.0)).clamp(-2e-3, 4e-3));
+    let depth: Vec<f64> = depth.collect();
+    let pressed: Vec<f64> = depth.iter().map(|d| d.max(0.0)).collect();
+    let forces = curve.relaxed(&series, &times, &pressed);
+    let header = RecordingHeader {
+        indenter_shape: Some(IndenterShape::Sphere),
+        indenter_radius_m: Some(0.01),
+        specimen: Some(Specimen::Layer),
+        thickness_m: Some(5e-3),
+        base_thickness_m: Some(0.095),
+        specimen_width_m: Some(0.1),
+        base_modulus_pa: Some(1462.0),
+        ..RecordingHeader::default()
+    };
+    let cleaned = |seed: u64| {
+        let mut random = Random::new(seed);
+        let mut text = "Time (s),Extension (m),Load (N)\n".to_owned();
+        for ((time, depth), force) in times.iter().zip(&depth).zip(&forces) {
+            let noisy = force + 5e-3 * OF_FELUPE[15] * random.normal();
+            text += &format!("{time:?},{depth:?},{noisy:?}\n");
+        }
+        let read = Recording::parse_foreign(&text, "pressed.csv", &ForeignColumns::default());
+        let mut recording = read.unwrap();
+        recording.header = header.clone();
+        clean(&recording, &CleanSettings::default()).unwrap()
+    };
+    let within = |seed: &u64| {
+        let contact = cleaned(*seed).handling.contact;
+        let error = contact.depth_error_m.unwrap();
+        println!("{:.1} ± {:.1} µm", 1e6 * contact.depth_m, 1e6 * error);
+        contact.depth_m.abs() <= 1.96 * error
+    };
+    let held = (0..20).filter(within).count();
+    assert!(held >= 18, "{held}");
+    let all = characterize(&[cleaned(0)], &settings(), &mut |_| ());
+    let law = all.laws[0].1.clone().unwrap();
+    let own = law.parameters[0].1;
+    println!("{own:?}");
+    assert!(
+        (own.value - 731.0).abs() < 1.96 * own.standard_error.unwrap(),
+        "{own:?}"
+    );
 }
 
 /// Judge: the factor of a smooth punch on a layer of two radii on a rigid plate [Hayes et al. 1972], 1.94 for ν = ½; over the
