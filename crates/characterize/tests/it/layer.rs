@@ -149,7 +149,7 @@ fn held(contrast: f64, curve: &IndentationCurve, deepest: f64) -> usize {
 /// Judge: tetrahedra at finite strain. What is asked of the intervals of 95 %: 90 to 99 of 100; where the base hardly matters,
 /// or elements do most, they are wider, which their bounds are for.
 #[test]
-#[ignore = "some minutes: tetrahedra at finite strain"]
+#[ignore = "by hand: falls short, a base three times as stiff to 0.3 radii has 83 of 100"]
 fn intervals_of_layers_hold_the_truth() {
     for contrast in [0.1, 0.3, 3.0, 10.0] {
         let depths = [0.05, 0.3];
