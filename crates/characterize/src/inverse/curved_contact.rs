@@ -34,6 +34,9 @@ enum Round {
 /// Least curvature of the gap beside that on a plane [-]: in a hollow that fits closer the contact is no small part of
 /// the sphere.
 const LEAST_CURVATURE: f64 = 0.25;
+/// The same under a cone: at 0.55 the force that a plane gives at the deepest contact is reached at no depth, for the force
+/// in the gap, π/2 t a² − 4/3 κ a³ with its slope t, is largest at a = π t/(4 κ).
+const LEAST_CURVATURE_OF_CONE: f64 = 0.6;
 /// By what part of the squared inequality q of the curvatures of the gap, (κ₁ − κ₂)/(κ₁ + κ₂), a pair of unequal ones is
 /// stiffer than a circular pair of the same mean [-], to second order of q [Hertz 1881].
 const UNEQUAL: f64 = 1.0 / 3.0;
@@ -58,15 +61,15 @@ impl CurvedContact {
                 slope: 1.0 / half_angle.tan(),
             },
         };
-        let own = match shape {
-            Round::Sphere { radius } => 1.0 / radius,
-            Round::Cone { slope } => slope / radius,
+        let (own, part) = match shape {
+            Round::Sphere { radius } => (1.0 / radius, LEAST_CURVATURE),
+            Round::Cone { slope } => (slope / radius, LEAST_CURVATURE_OF_CONE),
         };
         let least = curvatures[0].min(curvatures[1]);
-        if own + least < LEAST_CURVATURE * own {
+        if own + least < part * own {
             return Err(Error::OrganTooHollow {
                 radius: -1.0 / least,
-                least: 1.0 / ((1.0 - LEAST_CURVATURE) * own),
+                least: 1.0 / ((1.0 - part) * own),
             });
         }
         let mean = own + 0.5 * (curvatures[0] + curvatures[1]);
@@ -78,24 +81,25 @@ impl CurvedContact {
 
     /// Depth on the organ [m] at the force that is felt on a plane at `depth` [m].
     pub(super) fn depth(&self, depth: f64) -> f64 {
-        let flat = Self {
-            curvature: 0.0,
-            ..*self
-        };
-        let on_plane = flat.radius_at(depth, Self::depth_of);
-        let radius = self.radius_at(flat.force_of(on_plane), Self::force_of);
-        self.depth_of(radius)
+        self.depth_at_force_of(&self.on_plane(), depth)
     }
 
     /// Depth on a plane [m] at the force that is felt on the organ at `depth` [m].
     pub(super) fn depth_on_plane(&self, depth: f64) -> f64 {
-        let flat = Self {
+        self.on_plane().depth_at_force_of(self, depth)
+    }
+
+    fn on_plane(&self) -> Self {
+        Self {
             curvature: 0.0,
             ..*self
-        };
-        let on_organ = self.radius_at(depth, Self::depth_of);
-        let radius = flat.radius_at(self.force_of(on_organ), Self::force_of);
-        flat.depth_of(radius)
+        }
+    }
+
+    /// Depth [m] at the force that `other` has at `depth` [m].
+    fn depth_at_force_of(&self, other: &Self, depth: f64) -> f64 {
+        let force = other.force_of(other.radius_at(depth, Self::depth_of));
+        self.depth_of(self.radius_at(force, Self::force_of))
     }
 
     /// Change of the depth on the organ with that on a plane [-].
@@ -255,6 +259,24 @@ mod tests {
                 assert_eq!(contact.depth(depth) > depth, curvature > 0.0);
             }
         }
+    }
+
+    /// In the closest hollow that is fitted, a cone still reaches the force that a plane gives.
+    #[test]
+    fn a_cone_in_the_closest_hollow_is_inverted() {
+        let (half_angle, radius) = (1.2_f64, 0.5 * RADIUS);
+        let slope = 1.0 / half_angle.tan();
+        let cone = Indenter {
+            shape: IndenterShape::Cone { half_angle },
+            ..sphere()
+        };
+        let closest = -0.399 * slope / radius;
+        let contact = CurvedContact::of(&cone, [closest; 2], radius);
+        let contact = contact.unwrap().unwrap();
+        let depth = FRAC_PI_2 * slope * radius;
+        let back = contact.depth_on_plane(contact.depth(depth));
+        assert!((back / depth - 1.0).abs() < 1e-9, "{back} {depth}");
+        assert!(CurvedContact::of(&cone, [1.01 * closest; 2], radius).is_err());
     }
 
     #[test]

@@ -90,6 +90,9 @@ impl Constraints {
 
     /// Which points slide, and with what forces, by sweeps from the last solution; whether that is anything else than before.
     fn slide(&mut self) -> bool {
+        if self.contacts.rubs.is_empty() {
+            return false;
+        }
         let (count, tools) = (self.count(), self.tools.rows.len());
         let normals = tools + self.contacts.normals();
         for row in normals..count {
