@@ -1,12 +1,12 @@
-"""Steps of the environments per second, alone and vectorised, by the same actions at random.
+"""Steps of the environments per second of processor time, alone and vectorised, by the same actions at random.
 
-A step of an environment is ten of the model. With an argument "hybrid" the whole organs are prepared (minutes, once);
-without one the local model answers.
+Processor time is that of all threads together, so that other programs on the machine hardly matter; a vector divides its
+work among all cores. A step of an environment is ten of the model. With an argument "hybrid" the whole organs are prepared
+(minutes, once); without one the local model answers.
 """
 
 from __future__ import annotations
 
-import os
 import sys
 import time
 
@@ -30,35 +30,35 @@ def actions() -> NDArray[np.float32]:
 
 
 def alone(environment: touch.TouchEnv) -> float:
-    """Steps per second, one episode after the other."""
-    begin = time.perf_counter()
+    """Steps per second of processor time, one episode after the other."""
+    begin = time.process_time()
     for number, own in enumerate(actions().swapaxes(0, 1)):
         environment.reset(seed=number)
         for action in own:
             _, _, terminated, truncated, _ = environment.step(action)
             if terminated or truncated:
                 environment.reset()
-    return STEPS * COUNT / (time.perf_counter() - begin)
+    return STEPS * COUNT / (time.process_time() - begin)
 
 
 def together(environment: touch.TouchVectorEnv) -> float:
-    """Steps per second, all episodes side by side."""
-    begin = time.perf_counter()
+    """The same, all episodes side by side."""
+    begin = time.process_time()
     environment.reset(seed=0)
     for action in actions():
         environment.step(action)
-    return STEPS * COUNT / (time.perf_counter() - begin)
+    return STEPS * COUNT / (time.process_time() - begin)
 
 
 def main() -> None:
     """Prints both for each task."""
     model = sys.argv[1] if len(sys.argv) > 1 else "local"
-    print(f"{model} model, {COUNT} together on {os.cpu_count()} cores; a step is ten of the model's")
+    print(f"{model} model, {COUNT} together; a step is ten of the model's; per second of one core")
     for single, vector in FORMS:
         scene = palpate.Scene.builtin(single.kind.builtin)
-        begin = time.perf_counter()
+        begin = time.process_time()
         one = single(scene, model=model)
-        prepared = time.perf_counter() - begin
+        prepared = time.process_time() - begin
         simulation = one.touch.simulation
         name = single.__name__.removesuffix("Env")
         rates = [(alone(one), together(vector(COUNT, simulation=simulation))) for _ in range(3)]
