@@ -15,6 +15,7 @@ import json
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 import textwrap
@@ -41,7 +42,7 @@ ENGINES = {
 }
 OWN = {"palpate_local", "palpate_global", "palpate_nonlinear", "felupe_axisymmetric", "calculix_axisymmetric"}
 FINE = {"sphere_cube_045"}  # scenes that are run on the fine mesh too: minutes with some engines
-LIMIT = 900  # seconds for a run
+LIMIT = 900  # seconds of processor time for a run
 HELD = 0.05  # seconds before a judged time whose mean is taken, where the depth does not change
 
 
@@ -65,20 +66,18 @@ def ran(engine, scene, mesh, python, fresh):
         environment = os.environ | {name: "1" for name in threads}
         core = min(os.sched_getaffinity(0))
         began = time.perf_counter()
-        try:
-            done = subprocess.run(
-                ["taskset", "-c", str(core), *command],
-                env=environment,
-                cwd=KEPT,
-                capture_output=True,
-                text=True,
-                timeout=LIMIT,
-            )
-            if not path.exists():
-                last = (done.stderr.strip().splitlines() or [f"ended with {done.returncode}"])[-1]
-                path.write_text(json.dumps({"failed": last}))
-        except subprocess.TimeoutExpired:
+        done = subprocess.run(
+            ["taskset", "-c", str(core), "prlimit", f"--cpu={LIMIT}", *command],
+            env=environment,
+            cwd=KEPT,
+            capture_output=True,
+            text=True,
+        )
+        if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
             path.write_text(json.dumps({"failed": f"not done within {LIMIT} s"}))
+        elif not path.exists():
+            last = (done.stderr.strip().splitlines() or [f"ended with {done.returncode}"])[-1]
+            path.write_text(json.dumps({"failed": last}))
         print(f"{engine}, {scene}, {mesh}: {time.perf_counter() - began:.0f} s", file=sys.stderr, flush=True)
     return json.loads(path.read_text())
 

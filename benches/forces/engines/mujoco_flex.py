@@ -49,7 +49,7 @@ def model_of(scene, mesh):
 
 
 def run(scene, mesh):
-    began = time.perf_counter()
+    began = time.process_time()
     model = model_of(scene, mesh)
     data = mujoco.MjData(model)
     above = RADIUS + (scene.radius if scene.tool["shape"] == "sphere" else 0.5 * scene.radius)
@@ -57,9 +57,9 @@ def run(scene, mesh):
     forces, settled, durations, first, six = [], [], [], None, np.zeros(6)
     for now in times:
         data.mocap_pos[0] = [0.0, 0.0, above - scene.depth(now)]
-        before = time.perf_counter()
+        before = time.process_time()
         mujoco.mj_step(model, data)
-        after = time.perf_counter()
+        after = time.process_time()
         durations.append(after - before)
         first = first or after - began
         total = 0.0

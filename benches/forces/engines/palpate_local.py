@@ -116,7 +116,7 @@ def probed(vertices, triangles, scene):
 
 
 def run(scene, _mesh, kind=None):
-    began = time.perf_counter()
+    began = time.process_time()
     with tempfile.TemporaryDirectory() as folder:
         content, top = organ(scene, folder)
         content = {"organ": content, "model": {"kind": kind or KIND}, "tool": tools(scene)}
@@ -138,9 +138,9 @@ def run(scene, _mesh, kind=None):
             pose = [*place, 1.0, 0.0]
         else:
             pose = [[*place, 0.0, 0.0], [np.nan] * 5] if scene.slit else place
-        before = time.perf_counter()
+        before = time.process_time()
         force = simulation.step(pose)
-        after = time.perf_counter()
+        after = time.process_time()
         durations.append(after - before)
         first = first or after - began
         forces.append(-scene.along * float(np.asarray(force).reshape(-1)[2]))

@@ -34,7 +34,7 @@ def unfit(scene):
 
 
 def run(scene, mesh):
-    began = time.perf_counter()
+    began = time.process_time()
     bullet.connect(bullet.DIRECT)
     try:
         return pressed(scene, mesh, began)
@@ -79,9 +79,9 @@ def pressed(scene, mesh, began):
     forces, settled, durations, first = [], [], [], None
     for now in times:
         bullet.changeConstraint(held, [0, 0, above - SCALE * scene.depth(now)], maxForce=1e6)
-        before = time.perf_counter()
+        before = time.process_time()
         bullet.stepSimulation()
-        after = time.perf_counter()
+        after = time.process_time()
         durations.append(after - before)
         first = first or after - began
         forces.append(abs(bullet.getConstraintState(held)[2]) / SCALE**2)

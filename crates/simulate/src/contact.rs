@@ -379,3 +379,41 @@ fn surroundings(
         .sum();
     Surroundings::Known(frame.tr_mul(&further) * frame)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use palpate_files::Scene;
+
+    const SCENE: &str = "format = 1\n[organ]\nbuiltin = \"liver\"\ntriangles = 800\nbuiltin_tissue = \"pig-liver\"\n\
+        [model]\nkind = \"local\"\n[[tool]]\nname = \"right\"\ndevice = \"mouse\"\n\
+        tip = { shape = \"flat\", radius_m = 0.002, contact = \"slip\" }\n";
+
+    /// Judge: a search at every place. Forty places within 2 cm of one, then of another: most are in the air.
+    #[test]
+    fn a_tip_in_the_air_is_found_when_it_touches() {
+        let scene = Scene::parse(SCENE, "scene.toml").unwrap();
+        let simulation = Simulation::new(&scene).unwrap();
+        let (tool, mesh) = (&simulation.tools()[0], simulation.surface().mesh());
+        let ground = simulation.ground(tool);
+        let (mut clearance, mut last, mut skipped, mut touched) =
+            (Clearance::default(), None, 0, 0);
+        let middle = mesh.vertices().iter().sum::<Vec3>() / mesh.vertices().len() as f64;
+        for step in 0..20_000_u32 {
+            // By the fractions of irrational numbers: forty places around one at some height over a vertex.
+            let part = |by: f64| (f64::from(step) * by).fract() - 0.5;
+            let walk = (f64::from(step / 40) * 0.7548776662).fract() * 0.08;
+            let aside = Vec3::new(part(0.6180339887), part(0.4142135624), part(0.7320508076));
+            let from = mesh.vertices()[(step / 40 * 7919) as usize % mesh.vertices().len()];
+            let outward = (from - middle).normalize();
+            let tip = from + outward * walk + aside * 0.02;
+            skipped += usize::from((tip - clearance.tip).norm() < clearance.room);
+            let found = clearance.detect(&ground, tool, last.as_ref(), &tip);
+            assert_eq!(found, detect(&ground, tool, last.as_ref(), &tip), "{step}");
+            touched += usize::from(found.is_some());
+            last = found;
+        }
+        println!("{skipped} places were not sought, {touched} touched");
+        assert!(skipped > 500 && touched > 500);
+    }
+}

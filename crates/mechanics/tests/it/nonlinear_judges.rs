@@ -22,8 +22,9 @@ struct Case {
     /// With so many elements across.
     mesh: fn(usize) -> TetrahedronMesh,
     is_fixed: fn(&Vec3) -> bool,
-    /// Place, normal and radius of the load.
+    /// Place, normal and radius of the load, and the nodes that may have a part of it.
     load: (Vec3, Vec3, f64),
+    is_loaded: fn(&Vec3) -> bool,
     way: Vec3,
     /// Elements across, of the model and of its judge.
     across: [usize; 2],
@@ -38,6 +39,7 @@ const BAR: Case = Case {
     },
     is_fixed: |place| place.x < 1e-9,
     load: (Vec3::new(0.1, 0.01, 0.01), Vec3::new(1.0, 0.0, 0.0), 1.0),
+    is_loaded: |place| place.x > 0.1 - 1e-9,
     way: Vec3::new(0.0, 0.06, 0.0),
     across: [2, 4],
 };
@@ -48,6 +50,10 @@ const TUBE: Case = Case {
     mesh: tube,
     is_fixed: |place| place.x < 1e-9 || place.x > 0.08 - 1e-9,
     load: (Vec3::new(0.04, 0.008, 0.0), Vec3::new(0.0, 1.0, 0.0), 8e-3),
+    is_loaded: |place| {
+        let is_outside = place.y.hypot(place.z) > 0.008 - 1e-4;
+        is_outside && (place - Vec3::new(0.04, 0.008, 0.0)).norm() < 0.014
+    },
     way: Vec3::new(0.0, 0.02, 0.0),
     across: [1, 2],
 };
@@ -96,7 +102,10 @@ impl Moved {
     fn new(case: &Case, across: usize, moduli: Moduli<f64>) -> Self {
         let mesh = (case.mesh)(across);
         let all = vec![moduli; mesh.tetrahedra().len()];
-        let model = NonlinearModel::on_boundary(&mesh, &all, case.is_fixed).unwrap();
+        // Influences of the whole boundary of the judge would need some gigabytes.
+        let is_fixed = |_, place: &Vec3| (case.is_fixed)(place);
+        let is_loaded = |_, place: &Vec3| (case.is_loaded)(place);
+        let model = NonlinearModel::new(&mesh, &all, is_fixed, is_loaded).unwrap();
         let mut load = model.spread_load();
         let (place, normal, radius) = case.load;
         model.boundary().spread(&place, &normal, radius, &mut load);
