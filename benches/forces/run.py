@@ -7,8 +7,8 @@ An engine is a module of `engines` with
 - `LAW`, the name of its law in `laws.py`, `MESHES`, those that it needs, `SETTINGS`, what was set and why;
 - `version()`;
 - `unfit(scene)`, a reason why it cannot do a scene, else None;
-- `run(scene, mesh)`, a dictionary of arrays `time` [s], `force` [N], `settled` [m] of the probe, `steps_s`, the
-  processor time of each step [s], and `first_s`, that from the scene to the end of the first step [s].
+- `run(scene, mesh)`, a dictionary of arrays `time` [s], `force` [N], `settled` [m] of the probe, `steps_s`, the duration
+  of each step on the clock [s], and `first_s`, from the scene to the end of the first step [s].
 """
 
 import importlib
@@ -25,13 +25,13 @@ from scene import Scene
 def main():
     engine, name, fineness, path = sys.argv[1:]
     scene = Scene(name)
-    began = time.process_time()
+    began = time.perf_counter()
     try:
         adapter = importlib.import_module(f"engines.{engine}")
     except ImportError as error:
         pathlib.Path(path).write_text(json.dumps({"missing": str(error).splitlines()[0]}))
         return
-    importing = time.process_time() - began
+    importing = time.perf_counter() - began
     reason = adapter.unfit(scene)
     answer = {"law": adapter.LAW, "version": adapter.version(), "settings": " ".join(adapter.SETTINGS.split())}
     if reason:

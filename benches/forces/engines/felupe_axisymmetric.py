@@ -141,14 +141,14 @@ def pressed(scene, law, edge, depths):
 
 
 def run(scene, _mesh):
-    began = time.process_time()
+    began = time.perf_counter()
     depths = np.linspace(0, scene.path.max(), round(scene.path.max() / (INCREMENT * scene.radius)) + 1)[1:]
     if scene.axisymmetric:
         force, settled, nodes = pressed(scene, LAW, EDGE, depths)
     else:
         # The coarser of the meshes whose difference is the answers' error.
         force, settled, nodes = felupe_solid.pressed(scene, LAW, felupe_solid.MESHES[scene.name][0], depths)
-    seconds = time.process_time() - began
+    seconds = time.perf_counter() - began
     times = scene.times(0.005)
     at = scene.depth(times)
     return {

@@ -49,7 +49,7 @@ def model_of(scene, mesh):
 
 
 def run(scene, mesh):
-    began = time.process_time()
+    began = time.perf_counter()
     model = model_of(scene, mesh)
     data = mujoco.MjData(model)
     above = RADIUS + (scene.radius if scene.tool["shape"] == "sphere" else 0.5 * scene.radius)
@@ -57,9 +57,9 @@ def run(scene, mesh):
     forces, settled, durations, first, six = [], [], [], None, np.zeros(6)
     for now in times:
         data.mocap_pos[0] = [0.0, 0.0, above - scene.depth(now)]
-        before = time.process_time()
+        before = time.perf_counter()
         mujoco.mj_step(model, data)
-        after = time.process_time()
+        after = time.perf_counter()
         durations.append(after - before)
         first = first or after - began
         total = 0.0

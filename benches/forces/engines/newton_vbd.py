@@ -30,7 +30,7 @@ def unfit(scene):
 
 def run(scene, mesh):
     warp.config.quiet = True
-    began = time.process_time()
+    began = time.perf_counter()
     with warp.ScopedDevice("cpu"):
         return pressed(scene, mesh, began)
 
@@ -82,11 +82,11 @@ def pressed(scene, mesh, began):
         for state in states:
             state.body_q.assign(pose)
             state.body_qd.assign(moving)
-        before = time.process_time()
+        before = time.perf_counter()
         states[0].clear_forces()
         pipeline.collide(states[0], contacts)
         solver.step(states[0], states[1], control, contacts, STEP, observables=observed)
-        after = time.process_time()
+        after = time.perf_counter()
         durations.append(after - before)
         first = first or after - began
         states.reverse()

@@ -116,7 +116,7 @@ def probed(vertices, triangles, scene):
 
 
 def run(scene, _mesh, kind=None):
-    began = time.process_time()
+    began = time.perf_counter()
     with tempfile.TemporaryDirectory() as folder:
         content, top = organ(scene, folder)
         content = {"organ": content, "model": {"kind": kind or KIND}, "tool": tools(scene)}
@@ -138,9 +138,9 @@ def run(scene, _mesh, kind=None):
             pose = [*place, 1.0, 0.0]
         else:
             pose = [[*place, 0.0, 0.0], [np.nan] * 5] if scene.slit else place
-        before = time.process_time()
+        before = time.perf_counter()
         force = simulation.step(pose)
-        after = time.process_time()
+        after = time.perf_counter()
         durations.append(after - before)
         first = first or after - began
         forces.append(-scene.along * float(np.asarray(force).reshape(-1)[2]))
