@@ -72,7 +72,7 @@ pub use limits::{DeadMan, Guard, Interventions, Limits, OutputForce, Stage};
 pub use memory::{MemoryLock, lock_memory};
 pub use pid::{Pid, PidGains};
 pub use priority::{Priority, lower_priority, raise_model_priority, raise_priority};
-pub use report::{LoopReport, measure_lateness};
+pub use report::LoopReport;
 pub use sample::Sample;
 pub use servo_loop::{ServoLoop, ServoReader};
 pub use servo_settings::ServoSettings;

@@ -131,11 +131,6 @@ impl ServoLoop {
         Ok((servo, reader))
     }
 
-    /// Time from tick to tick [s].
-    pub fn period(&self) -> f64 {
-        self.period
-    }
-
     /// The scheduler of the device, from whose thread it has to be ticked; none for one that any thread may tick.
     pub fn scheduler(&self) -> Option<Box<dyn Scheduler>> {
         self.device.scheduler()

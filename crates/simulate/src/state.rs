@@ -218,20 +218,8 @@ impl SimulationState {
         (*shown_at, *cuts_shown_at) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
     }
 
-    /// Other stiff balls than those of the scene: one model serves organs that differ in nothing else.
-    ///
-    /// # Errors
-    /// When the middle of one is not in the organ.
-    pub fn with_nodules(
-        mut self,
-        simulation: &Simulation,
-        nodules: &[Nodule],
-    ) -> Result<Self, Error> {
-        self.set_nodules(simulation, nodules)?;
-        Ok(self)
-    }
-
-    /// The same in place; after an error nothing has changed.
+    /// Replaces the stiff balls of the scene: one model serves organs that differ in nothing else. After an error
+    /// nothing has changed.
     ///
     /// # Errors
     /// When the middle of one is not in the organ.

@@ -55,13 +55,6 @@ impl SensorAxes {
         both.fold(0.0, |most, (x, y)| most.max(x.hypot(*y)))
     }
 
-    /// The largest torque [N m].
-    pub fn largest_torque_n_m(&self) -> f64 {
-        let [_, _, _, tx, ty, tz] = &self.columns;
-        let all = tx.iter().zip(ty).zip(tz);
-        all.fold(0.0, |most, ((x, y), z)| most.max(x.hypot(*y).hypot(*z)))
-    }
-
     pub(super) fn check(&self, samples: usize) -> Result<(), Error> {
         for ((name, values), domain) in Self::COLUMNS.iter().zip(&self.columns).zip(Self::DOMAINS) {
             let wrong = |what: String, found: String, expected: String| Error::BadContent {

@@ -128,11 +128,6 @@ impl TipField {
         Ok(Self { radius, vertices })
     }
 
-    /// Radius of the tip's touching area [m].
-    pub fn radius(&self) -> f64 {
-        self.radius
-    }
-
     /// The load of a tip at the point of `triangle` with the weights `barycentric` [-].
     pub fn at(
         &self,

@@ -199,7 +199,6 @@ fn neither_tick_nor_step_allocates() {
         assert_no_alloc(|| advance(&mut interaction, 10_000));
         assert_eq!(violation_count(), 0);
         let snapshot = interaction.snapshot();
-        assert!(snapshot.recent_events.count() > 20);
         let wanted = simulation.enhancement().copied().unwrap_or_default();
         let seen = EnhancedSurface::new(&simulation, wanted).unwrap();
         assert_eq!(seen.is_some(), snapshot.whole.is_some());
@@ -234,7 +233,8 @@ fn a_snapshot_shows_what_the_model_has_done() {
     });
     // The corners of the touched triangle at least.
     assert!(moved.count() >= 3);
-    let events: Vec<_> = snapshot.recent_events.since(0).map(|h| h.event).collect();
+    let rows: Vec<_> = interaction.rows().collect();
+    let events: Vec<_> = rows.iter().flat_map(|row| row.events.iter()).collect();
     assert_eq!(
         events[..3],
         [Event::Contact, Event::Release, Event::Contact]
@@ -269,7 +269,6 @@ fn threads_give_the_same_forces_as_steps() {
     println!("{quality:?}");
     assert!(stops.load(Ordering::Relaxed) > 0);
     assert_rows_are_steps(&simulation, &rows);
-    assert_eq!(interaction.lost_rows(), 0);
     assert!(interaction.snapshot().report.steps >= 100);
     assert!(interaction.samples(0).count() > 100);
 }

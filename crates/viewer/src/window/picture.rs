@@ -242,9 +242,7 @@ impl Picture {
             }
             _ => {}
         }
-        if let Some(guidance) = &attempt.guidance {
-            over.tools(&guidance.ghosts);
-        }
+        over.tools(&attempt.ghosts);
     }
 
     /// Turns, moves and zooms the camera.
