@@ -22,7 +22,7 @@ use line::Line;
 use crate::phantom::{Imperfections, MECHANICS_STEP, Machine, VirtualPhantom};
 use crate::sensing::{Sensing, Source};
 use crate::{
-    DepthTrajectory, Error, Indenter, Reference, RigSettings, VirtualForceSensor, VirtualSpecimen,
+    DepthTrajectory, Error, Indenter, Reference, RigSettings, VirtualSpecimen,
 };
 
 /// Samples that a device with a scheduler may be ahead of the rig.
@@ -88,11 +88,7 @@ impl Rig {
             device: Box::new(device),
             controller: Box::new(indenter),
             reference,
-            sensor: Source::Virtual {
-                sensor: VirtualForceSensor::nano17(seed),
-                felt,
-                tip_distance: settings.tip_distance,
-            },
+            sensor: Source::of_virtual(felt, seed, &settings),
             header,
             breath_held,
             settings,

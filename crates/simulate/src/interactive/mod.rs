@@ -31,7 +31,6 @@ mod published;
 mod quality;
 mod recorder;
 mod scene_devices;
-mod scripted;
 mod snapshot;
 mod virtual_interaction;
 

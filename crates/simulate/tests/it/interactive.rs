@@ -5,14 +5,16 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use assert_no_alloc::{assert_no_alloc, reset_violation_count, violation_count};
+use nalgebra::{Quaternion, Unit};
 use palpate_devices::Places;
+use palpate_files::motion::ToolMotion;
 use palpate_files::scene::DeviceKind;
 use palpate_files::session::Event;
 use palpate_files::{Pose, SessionRow};
 use palpate_geometry::Vec3;
-use palpate_servo::{Fault, Pointer, Sample, ServoSettings, Trajectory, VirtualDevice};
+use palpate_servo::{Fault, Pointer, Sample, ServoSettings, Trajectory, VirtualDevice, Waypoint};
 use palpate_simulate::interactive::{
-    DevicePlacement, ExtrapolationError, Interaction, PlacedDevice, SceneDevices,
+    CUTS, DevicePlacement, ExtrapolationError, Interaction, PlacedDevice, SceneDevices,
     VirtualInteraction, judge_samples,
 };
 use palpate_simulate::{
@@ -30,6 +32,22 @@ pub(crate) fn palpating(frequency: f64) -> VirtualDevice {
         amplitude: Vec3::new(2e-4, -1e-4, -4e-3),
         frequency,
     })
+}
+
+/// A stiff hand that plays `motion`, whose first row is the beginning of time.
+pub(crate) fn playing(motion: &ToolMotion) -> PlacedDevice {
+    let first = motion.first_time_s();
+    let places = motion.rows().iter().map(|row| Waypoint {
+        orientation: row
+            .pose
+            .orientation
+            .map(|[x, y, z, w]| Unit::new_normalize(Quaternion::new(w, x, y, z))),
+        grip: row.pose.grip,
+        buttons: if row.pose.cut { CUTS } else { 0 },
+        ..Waypoint::new(row.time_s - first, Vec3::from(row.pose.position_m))
+    });
+    let path = Trajectory::way(places.collect()).unwrap();
+    PlacedDevice::new(VirtualDevice::new(path))
 }
 
 pub(crate) fn simulation(model: &str, contact: &str, prony: &str) -> Arc<Simulation> {
@@ -154,7 +172,7 @@ fn a_scripted_hand_plays_a_motion() {
     ];
     let motion = motion(&rows);
     let (played, _) = played(&simulation, &motion);
-    let device = PlacedDevice::playing(motion.tool("right").unwrap()).unwrap();
+    let device = playing(motion.tool("right").unwrap());
     let devices = vec![Some(device)];
     let settings = ServoSettings::default();
     let mut interaction = VirtualInteraction::new(simulation, devices, settings).unwrap();

@@ -1,7 +1,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use palpate_files::Scene;
+use palpate_files::{Scene, Session};
 use palpate_geometry::{AabbTree, Surface, Vec3};
 use palpate_servo::{PointerHand, ServoSettings, lock_memory};
 use palpate_simulate::interactive::{
@@ -163,23 +163,25 @@ impl Play {
     /// # Errors
     /// When a neighbour cannot be read.
     pub(super) fn of_session(session: PlayedSession, gpu: &Gpu) -> Result<Self, Error> {
-        Self::again((session.scene, session.simulation), session.replay, gpu)
-    }
-
-    /// A session of `scene` that is played again; its hands move nothing.
-    ///
-    /// # Errors
-    /// When a neighbour cannot be read.
-    pub(super) fn again(
-        (scene, simulation): (Scene, Arc<Simulation>),
-        replay: Replay,
-        gpu: &Gpu,
-    ) -> Result<Self, Error> {
-        let playback = Playback::new(&simulation, replay);
-        let nobody = scene.tools.iter().map(|_| None).collect();
-        let prepared = Prepared::around((scene, simulation), Resources::default(), gpu)?;
+        let playback = Playback::new(&session.simulation, session.replay);
+        let nobody = session.scene.tools.iter().map(|_| None).collect();
+        let of = (session.scene, session.simulation);
+        let prepared = Prepared::around(of, Resources::default(), gpu)?;
         let source = Source::Again(Box::new(playback));
         Ok(Self::of(prepared, (source, nobody)))
+    }
+
+    /// A session on the organ that is shown, called `name`.
+    ///
+    /// # Errors
+    /// When the session is of another scene.
+    pub(super) fn again(&self, name: String, session: &Session) -> Result<PlayedSession, Error> {
+        Ok(PlayedSession {
+            name,
+            scene: self.scene.clone(),
+            replay: Replay::new(self.simulation.clone(), session)?,
+            simulation: self.simulation.clone(),
+        })
     }
 
     fn of(prepared: Prepared, (source, pointers): (Source, Vec<Option<PointerHand>>)) -> Self {

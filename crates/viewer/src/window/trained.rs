@@ -4,7 +4,7 @@ use std::path::Path;
 
 use eframe::egui;
 use palpate_files::Scene;
-use palpate_simulate::{Replay, SessionFolder};
+use palpate_simulate::SessionFolder;
 
 use super::attempt::{Attempt, Phase};
 use super::cards::{self, Around, Asked};
@@ -17,6 +17,7 @@ use super::settings_page::SettingsPage;
 use super::texts::text;
 use super::training::TrainingResult;
 use super::{SimulatorWindow, panel};
+use crate::Error;
 
 impl SimulatorWindow {
     /// The start screen instead of everything else.
@@ -336,17 +337,15 @@ impl SimulatorWindow {
     /// Plays the session of a folder again, on the organ that is there.
     pub(super) fn look_again(&mut self, session: &Path) {
         let Some(play) = &self.play else { return };
-        let read = SessionFolder::read(session).and_then(|folder| {
-            let replay = Replay::new(play.simulation.clone(), &folder.session)?;
-            Ok((folder, replay))
-        });
-        let again = read.map_err(crate::Error::from).and_then(|(_, replay)| {
-            Play::again(
-                (play.scene.clone(), play.simulation.clone()),
-                replay,
-                &self.gpu,
-            )
-        });
+        let again = SessionFolder::read(session)
+            .map_err(Error::from)
+            .and_then(|folder| play.again(text!("replay-own"), &folder.session))
+            .and_then(|session| Play::of_session(session, &self.gpu));
+        self.show_again(again);
+    }
+
+    /// Shows a session that is played again, in place of an attempt.
+    pub(super) fn show_again(&mut self, again: Result<Play, Error>) {
         match again {
             Ok(again) => {
                 self.play = Some(again);
