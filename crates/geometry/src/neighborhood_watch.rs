@@ -64,7 +64,7 @@ pub fn follow(
         },
         Some,
     )?;
-    let reached = approach(surface, field, from, (&aim, moved))?;
+    let reached = approach(surface, field, from, &aim, moved)?;
     Some(ContactPoint {
         depth: reached.normal.dot(&(reached.point - tip)),
         ..reached
@@ -76,7 +76,8 @@ fn approach(
     surface: &Surface,
     field: &PatchField,
     from: &ContactPoint,
-    (aim, moved): (&ContactPoint, f64),
+    aim: &ContactPoint,
+    moved: f64,
 ) -> Option<ContactPoint> {
     let way = aim.point - from.point;
     let mut part = FASTEST_TRAVEL * moved / way.norm();

@@ -62,7 +62,7 @@ pub(crate) fn isosurface<'py>(
                 .map(|wanted| wanted.among(&all))
                 .collect::<Result<_, _>>()?,
         };
-        surfaces(&map, &chosen, (&settings, told))
+        surfaces(&map, &chosen, &settings, told)
     })?;
     let dict = PyDict::new(py);
     for (name, mesh) in made {
@@ -91,7 +91,8 @@ impl Wanted {
 fn surfaces(
     map: &LabelMap,
     labels: &[&Label],
-    (settings, told): (&IsosurfaceSettings, &ProgressMessage),
+    settings: &IsosurfaceSettings,
+    told: &ProgressMessage,
 ) -> Result<Vec<(String, Mesh)>, Failure> {
     let mut made = Vec::new();
     for (number, label) in labels.iter().enumerate() {

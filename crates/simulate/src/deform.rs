@@ -8,7 +8,8 @@ use crate::simulation::Simulation;
 use crate::state::{SimulationState, SimulationWorkspace};
 
 pub(crate) fn deform(
-    (simulation, time): (&Simulation, f64),
+    simulation: &Simulation,
+    time: f64,
     state: &mut SimulationState,
     workspace: &mut SimulationWorkspace,
 ) {

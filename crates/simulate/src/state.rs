@@ -228,7 +228,7 @@ impl SimulationState {
         simulation: &Simulation,
         nodules: &[Nodule],
     ) -> Result<(), Error> {
-        nodule::check(nodules, (&simulation.surface, &simulation.tree))?;
+        nodule::check(nodules, &simulation.surface, &simulation.tree)?;
         self.nodules.clear();
         self.nodules.extend_from_slice(nodules);
         Ok(())

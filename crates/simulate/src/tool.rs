@@ -59,7 +59,8 @@ impl Tool {
         tool: &scene::Tool,
         settings: FiniteSphereSettings,
         law: &LinearElastic,
-        (surface, tree): (&Surface, &AabbTree),
+        surface: &Surface,
+        tree: &AabbTree,
     ) -> Result<Self, Error> {
         let bond = match tool.tip.contact {
             scene::TipContact::Stick => Friction::Bonded,

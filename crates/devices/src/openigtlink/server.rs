@@ -91,15 +91,15 @@ impl Server {
         let bytes = &mut self.bytes;
         for tool in &self.picture.tools {
             if let Some(place) = tool.place {
-                append(bytes, ("TRANSFORM", &tool.name), time, |body| {
+                append(bytes, "TRANSFORM", &tool.name, time, |body| {
                     message::transform(body, &place, &tool.orientation);
                 });
             }
-            append(bytes, ("SENSOR", &tool.name), time, |body| {
+            append(bytes, "SENSOR", &tool.name, time, |body| {
                 message::force(body, &tool.force);
             });
         }
-        append(bytes, ("STATUS", SYSTEM), time, |body| {
+        append(bytes, "STATUS", SYSTEM, time, |body| {
             status(&self.picture, body)
         });
     }
@@ -118,14 +118,9 @@ impl Server {
                 && let Some(source) = locked(source).as_mut()
             {
                 let surface = source.surface();
-                append(
-                    &mut answer,
-                    ("POLYDATA", ORGAN),
-                    SystemTime::now(),
-                    |body| {
-                        message::surface(body, &surface);
-                    },
-                );
+                append(&mut answer, "POLYDATA", ORGAN, SystemTime::now(), |body| {
+                    message::surface(body, &surface);
+                });
             }
             answer
         });
@@ -136,10 +131,8 @@ impl Server {
 fn answer_to(request: &Request, picture: &Picture, bytes: &mut Vec<u8>) {
     let time = SystemTime::now();
     match request.kind.as_str() {
-        "GET_STATUS" => append(bytes, ("STATUS", SYSTEM), time, |body| {
-            status(picture, body)
-        }),
-        "GET_CAPABIL" => append(bytes, ("CAPABILITY", SYSTEM), time, |body| {
+        "GET_STATUS" => append(bytes, "STATUS", SYSTEM, time, |body| status(picture, body)),
+        "GET_CAPABIL" => append(bytes, "CAPABILITY", SYSTEM, time, |body| {
             message::capability(body, &KINDS);
         }),
         // Transforms and forces come by themselves, surfaces when they are due.

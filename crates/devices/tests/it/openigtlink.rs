@@ -106,7 +106,7 @@ fn until(stream: &mut TcpStream, kind: &str) -> Message {
 
 fn ask(stream: &mut TcpStream, kind: &str) {
     let mut bytes = Vec::new();
-    append(&mut bytes, (kind, ""), SystemTime::now(), |_| ());
+    append(&mut bytes, kind, "", SystemTime::now(), |_| ());
     stream.write_all(&bytes).unwrap();
 }
 
@@ -253,7 +253,7 @@ proptest! {
     fn damaged_requests(at in 0..3 * HEADER, byte in any::<u8>()) {
         let mut bytes = Vec::new();
         for _ in 0..3 {
-            append(&mut bytes, ("GET_STATUS", "x"), SystemTime::now(), |body| body.push(1));
+            append(&mut bytes, "GET_STATUS", "x", SystemTime::now(), |body| body.push(1));
         }
         bytes[at] = byte;
         let mut requests = Requests::default();

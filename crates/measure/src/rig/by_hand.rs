@@ -80,7 +80,7 @@ impl Rig {
         let from = self.line.at(self.aim);
         let way = to - from;
         if !self.leads_sideways(&way) {
-            return self.go((self.line.height(to), speed), phase, listener);
+            return self.go(self.line.height(to), speed, phase, listener);
         }
         self.forget_contact();
         let ticks = (way.norm() / speed / self.settings.period).ceil().max(1.0) as u64;

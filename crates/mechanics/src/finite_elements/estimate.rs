@@ -237,7 +237,8 @@ impl Index {
         let whole = changes(coarse, fine).largest.max(largest);
         let order = observe(
             [coarse.size, middle.size, fine.size],
-            (&first_change, &last_change),
+            &first_change,
+            &last_change,
             expected,
         );
         let error = match order {
@@ -327,7 +328,7 @@ fn norm(values: &[f64]) -> f64 {
 }
 
 /// What the changes between three meshes of these sizes, the coarsest first, show.
-fn observe(sizes: [f64; 3], (first, last): (&Changes, &Changes), expected: f64) -> Order {
+fn observe(sizes: [f64; 3], first: &Changes, last: &Changes, expected: f64) -> Order {
     if first.largest.max(last.largest) <= SOLVED_TO {
         return Order::Solved;
     }

@@ -79,7 +79,7 @@ pub(super) fn equilibrate(
     workspace: &mut FiniteElementWorkspace,
 ) -> Result<Equilibrium, Failure> {
     assemble(model, supports, &state.unknowns, workspace)?;
-    correct(SolverControls::FULL, model, supports, (state, workspace))
+    correct(SolverControls::FULL, model, supports, state, workspace)
 }
 
 /// [`equilibrate`] with this `effort`, from a `state` whose residual and tangent are assembled.
@@ -87,7 +87,8 @@ pub(super) fn correct(
     controls: SolverControls,
     model: &FiniteElementModel,
     supports: &Supports<'_>,
-    (state, workspace): (&mut FiniteElementState, &mut FiniteElementWorkspace),
+    state: &mut FiniteElementState,
+    workspace: &mut FiniteElementWorkspace,
 ) -> Result<Equilibrium, Failure> {
     if supports.leave_free(model) {
         return Err(Failure::Singular);

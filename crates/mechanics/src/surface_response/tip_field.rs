@@ -122,7 +122,7 @@ impl TipField {
             let spread = Spread::about(surface, NodeId(vertex as u32), radius);
             load.shares = spread.shares(response);
             load.further = further(response, surface, &spread);
-            load.around = seen_from(response, surface, (&spread, &load.shares));
+            load.around = seen_from(response, surface, &spread, &load.shares);
             load.reach = spread.reach;
         });
         Ok(Self { radius, vertices })
@@ -293,7 +293,8 @@ impl Spread {
 fn seen_from<T: Precision>(
     response: &SurfaceResponse<T>,
     surface: &Surface,
-    (spread, shares): (&Spread, &[Share]),
+    spread: &Spread,
+    shares: &[Share],
 ) -> Vec<(TriangleId, f32)> {
     let (mesh, sampling) = (surface.mesh(), response.parts().sampling);
     let source = |share: &Share| {

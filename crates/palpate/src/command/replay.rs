@@ -120,7 +120,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             outcome => Ok(outcome?),
         };
     }
-    let mut answer = play(arguments, (&scene, simulation.as_ref()), replay)?;
+    let mut answer = play(arguments, &scene, simulation.as_ref(), replay)?;
     answer.warnings.extend(folder.warnings());
     if arguments.json {
         return output::json(&answer);
@@ -173,7 +173,8 @@ fn prepared(
 /// Plays all steps, takes pictures and compares.
 fn play(
     arguments: &Arguments,
-    (scene, simulation): (&Scene, &Simulation),
+    scene: &Scene,
+    simulation: &Simulation,
     mut replay: Replay,
 ) -> Result<Answer, Failure> {
     let overwrite = Overwrite::of_option(arguments.overwrite);

@@ -48,7 +48,8 @@ pub(crate) fn keep(
     file: &Path,
     who: Who<'_>,
     folder: &SessionFolder,
-    (task, score): (&Task, &Score),
+    task: &Task,
+    score: &Score,
 ) -> Result<Vec<String>, palpate_record::Error> {
     let mut record = Record::open(file)?;
     let session = &folder.path;
@@ -133,7 +134,7 @@ impl TrainingRecord for Kept {
             is_expert: false,
         };
         let folder = SessionFolder::read(result.session).map_err(|error| error.to_string())?;
-        let kept = keep(&self.file, who, &folder, (&result.scene.task, result.score));
+        let kept = keep(&self.file, who, &folder, &result.scene.task, result.score);
         match kept.map_err(|error| error.to_string())?.as_slice() {
             [] => Ok(()),
             warnings => Err(warnings.join(" ")),

@@ -147,7 +147,7 @@ impl Renderer {
         let (picture, labels) = py.detach(|| {
             let mut drawing = self.drawing.lock().unwrap_or_else(PoisonError::into_inner);
             drawing.studio.view.camera = seen;
-            drawing.draw((&model, state), wanted)
+            drawing.draw(&model, state, wanted)
         })?;
         let (width, height) = (self.size.0 as usize, self.size.1 as usize);
         let drawn = PyDict::new(py);
@@ -206,7 +206,8 @@ impl Wanted {
 impl Drawing {
     fn draw(
         &mut self,
-        (model, mut state): (&Arc<Model>, SimulationState),
+        model: &Arc<Model>,
+        mut state: SimulationState,
         wanted: Wanted,
     ) -> Result<(Option<RgbaImage>, Option<Labels>), Failure> {
         // Scratch and openings follow cuts by their number, which each state counts for itself.

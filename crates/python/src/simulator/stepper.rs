@@ -100,7 +100,8 @@ impl Stepper {
     pub(super) fn reset(
         &mut self,
         model: &Model,
-        (scene, period): (Option<&Scene>, f64),
+        scene: Option<&Scene>,
+        period: f64,
     ) -> Result<(), Failure> {
         let scene = scene.unwrap_or(&model.scene);
         let SavedState {

@@ -28,7 +28,8 @@ pub(super) fn is_down(tool: &Tool, state: &ToolState) -> bool {
 /// held there.
 pub(crate) fn lead(
     simulation: &Simulation,
-    (model, cuts): (&CuttingModel, &Cuts),
+    model: &CuttingModel,
+    cuts: &Cuts,
     number: usize,
     state: &mut ToolState,
 ) {

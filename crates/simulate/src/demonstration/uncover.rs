@@ -48,7 +48,8 @@ struct Rim {
 pub(super) fn touched(
     simulation: &Simulation,
     goal: &TouchGoal,
-    (tool, holder): (usize, Option<usize>),
+    tool: usize,
+    holder: Option<usize>,
 ) -> Vec<Step> {
     let target = Vec3::from(goal.target_m);
     let bodies = simulation.neighbours.iter();

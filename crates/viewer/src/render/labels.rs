@@ -107,7 +107,7 @@ impl LabelTarget {
     /// # Errors
     /// When the adapter was lost.
     pub fn read(&self, gpu: &Gpu) -> Result<Labels, Error> {
-        let bytes = read_texture(gpu, &self.measured, (self.size, 8))?;
+        let bytes = read_texture(gpu, &self.measured, self.size, 8)?;
         // By bytes, for a vector of them need not lie as floats do.
         let float = |bytes: &[u8]| {
             bytes

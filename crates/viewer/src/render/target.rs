@@ -92,7 +92,7 @@ impl Target {
     /// When the adapter was lost.
     pub fn read(&self, gpu: &Gpu) -> Result<RgbaImage, Error> {
         let (width, height) = self.size;
-        let bytes = read_texture(gpu, &self.picture, (self.size, 4))?;
+        let bytes = read_texture(gpu, &self.picture, self.size, 4)?;
         RgbaImage::from_raw(width, height, bytes).ok_or_else(|| lost("it came back too short"))
     }
 }
@@ -101,7 +101,8 @@ impl Target {
 pub(super) fn read_texture(
     gpu: &Gpu,
     texture: &wgpu::Texture,
-    (size, each): ((u32, u32), u32),
+    size: (u32, u32),
+    each: u32,
 ) -> Result<Vec<u8>, Error> {
     let (width, height) = size;
     let row = (each * width).next_multiple_of(ROW_ALIGNMENT);

@@ -31,8 +31,8 @@ pub(super) fn show(window: &mut RigWindow, ui: &mut Ui) {
         });
     let size = vec2(0.5 * (ui.available_width() - 12.0), 28.0);
     Grid::new("by hand").spacing(vec2(8.0, 6.0)).show(ui, |ui| {
-        drive(window, (true, "Page Up"), size, ui);
-        drive(window, (false, "Page Down"), size, ui);
+        drive(window, true, "Page Up", size, ui);
+        drive(window, false, "Page Down", size, ui);
         ui.end_row();
         programmed(window, size, ui);
     });
@@ -131,7 +131,7 @@ fn jog(window: &mut RigWindow, own: Jog, size: eframe::egui::Vec2, ui: &mut Ui) 
 }
 
 /// For as long as a button is held.
-fn drive(window: &mut RigWindow, (up, key): (bool, &str), size: eframe::egui::Vec2, ui: &mut Ui) {
+fn drive(window: &mut RigWindow, up: bool, key: &str, size: eframe::egui::Vec2, ui: &mut Ui) {
     let free = window.watch.is_free();
     let word = if up { "up" } else { "down" };
     let held = Button::new(format!("Hold to go {word}")).min_size(size);

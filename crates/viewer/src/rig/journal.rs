@@ -80,7 +80,7 @@ impl Journal {
         let mut repeat = 0;
         let file = loop {
             repeat += 1;
-            let name = recording_name(specimen, place + 1, (&stimulus, repeat));
+            let name = recording_name(specimen, place + 1, &stimulus, repeat);
             let file = self.folder.join(format!("{name}.csv"));
             let asked = self.asked.iter().any(|other| other.file == file);
             if !asked && !file.exists() && !unfinished(&file).exists() {
@@ -101,7 +101,7 @@ impl Journal {
         Commission {
             number: self.last,
             file,
-            header: settings.describe(specimen, (trajectory, repeat)),
+            header: settings.describe(specimen, trajectory, repeat),
         }
     }
 

@@ -161,7 +161,7 @@ impl Attempt {
             }
             Some(folder) => match Claim::of_folder(&folder, Overwrite::Refused)
                 .map_err(palpate_simulate::Error::from)
-                .and_then(|claim| SessionFolder::create(claim, (&play.scene, &play.simulation)))
+                .and_then(|claim| SessionFolder::create(claim, &play.scene, &play.simulation))
             {
                 Ok(writer) => {
                     play.go_on();
@@ -304,7 +304,7 @@ impl Attempt {
         let folder = PathBuf::from(unsaved.elsewhere.trim());
         let written = Claim::of_folder(&folder, Overwrite::Refused)
             .map_err(palpate_simulate::Error::from)
-            .and_then(|claim| SessionFolder::create(claim, (&play.scene, &play.simulation)))
+            .and_then(|claim| SessionFolder::create(claim, &play.scene, &play.simulation))
             .and_then(|writer| play.source.record_elsewhere(writer));
         if let Err(error) = written {
             unsaved.trouble = Some(error.to_string());

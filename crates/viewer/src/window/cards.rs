@@ -75,7 +75,7 @@ pub(super) fn show(ui: &Ui, attempt: &mut Attempt, around: &Around) -> Option<As
             not_recorded(ui, unsaved.as_mut(), &mut asked);
         }),
         Phase::Over(done) => card(ui, "over", Align2::RIGHT_CENTER, 400.0, |ui| {
-            over(ui, (attempt, done), around, &mut asked);
+            over(ui, attempt, done, around, &mut asked);
             not_recorded(ui, unsaved.as_mut(), &mut asked);
         }),
     }

@@ -275,7 +275,7 @@ impl SimulatorWindow {
         }
         self.history.clear();
         match outcome.play {
-            Ok(prepared) => self.touch(prepared, (outcome.last, outcome.second)),
+            Ok(prepared) => self.touch(prepared, outcome.last, outcome.second),
             Err(error) if outcome.second => self.notice = Some(error.to_string()),
             Err(error) => {
                 self.play = None;
@@ -285,7 +285,7 @@ impl SimulatorWindow {
     }
 
     /// Begins the touch of what was prepared; with the last of it, a session that waited for it is looked at.
-    fn touch(&mut self, mut prepared: Prepared, (is_last, is_second): (bool, bool)) {
+    fn touch(&mut self, mut prepared: Prepared, is_last: bool, is_second: bool) {
         let before = self.play.as_ref();
         let before = before.map(|play| play.scene.organ.shape.clone());
         // The organ-scale model takes over from the local one in the middle of a touch: no device is closed.
@@ -428,7 +428,7 @@ impl eframe::App for SimulatorWindow {
                 (Some(play), Some(state)) => {
                     let rect = self.picture.show(ui, (state, &self.gpu), play, tool);
                     let attempt = self.attempt.as_ref();
-                    self.picture.show_task(ui, rect, (&mut *play, attempt));
+                    self.picture.show_task(ui, rect, &mut *play, attempt);
                     if !self.attempt.as_ref().is_some_and(Attempt::is_over) {
                         overlay::show(ui, rect, &self.picture, play, tool);
                     }

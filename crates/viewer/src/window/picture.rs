@@ -146,10 +146,10 @@ impl Picture {
         let view = &play.scene.view;
         let mut orbit = self.orbit.unwrap_or_else(|| {
             let framing = Orbit::framing(mesh, view.field_of_view_rad, aspect);
-            framing.from_the_side_of(&scene_camera(view, (mesh, None), aspect))
+            framing.from_the_side_of(&scene_camera(view, mesh, None, aspect))
         });
         self.steer(ui, &response, &mut orbit, extent);
-        let before = orbit.before((mesh, &play.tree));
+        let before = orbit.before(mesh, &play.tree);
         // The eye stays outside of the organ.
         orbit.distance = orbit.distance.max(before + 0.12 * extent);
         self.orbit = Some(orbit);
@@ -179,7 +179,7 @@ impl Picture {
                 }
             }
             None => {
-                self.drive(ui, (play, tool), &room);
+                self.drive(ui, play, tool, &room);
                 self.touch(ui, (&response, rect), (play, tool), &room);
             }
         }
@@ -194,7 +194,8 @@ impl Picture {
         &self,
         ui: &egui::Ui,
         rect: Rect,
-        (play, attempt): (&mut Play, Option<&Attempt>),
+        play: &mut Play,
+        attempt: Option<&Attempt>,
     ) {
         let (Some(camera), Some(attempt)) = (&self.camera, attempt) else {
             return;
@@ -285,7 +286,7 @@ impl Picture {
     }
 
     /// Moves the hands by keys and sticks, and tells the model of those that the mouse does not move.
-    fn drive(&mut self, ui: &egui::Ui, (play, tool): (&mut Play, usize), room: &Room<'_>) {
+    fn drive(&mut self, ui: &egui::Ui, play: &mut Play, tool: usize, room: &Room<'_>) {
         let free = !ui.ctx().egui_wants_keyboard_input();
         let elapsed = f64::from(ui.input(|input| input.unstable_dt)).min(0.05);
         let pads = self.gamepads.look();
@@ -380,7 +381,7 @@ impl Picture {
         camera: &Camera,
         (extent, rect, context): (f64, Rect, &egui::Context),
     ) -> egui::TextureId {
-        let texture = self.target((state, gpu), rect.size(), context.pixels_per_point());
+        let texture = self.target(state, gpu, rect.size(), context.pixels_per_point());
         let snapshot = play.source.snapshot();
         let tools: Vec<ToolPicture> = play
             .scene
@@ -433,7 +434,8 @@ impl Picture {
     /// The texture of the picture, made anew when its size or the effort has changed.
     fn target(
         &mut self,
-        (state, gpu): (&RenderState, &Gpu),
+        state: &RenderState,
+        gpu: &Gpu,
         size: Vec2,
         pixels_per_point: f32,
     ) -> egui::TextureId {

@@ -139,7 +139,7 @@ impl Play {
             ServoSettings::default(),
         )?;
         let source = Source::Touched(Box::new(interaction));
-        Ok(Self::of(prepared, (source, devices.pointers)))
+        Ok(Self::of(prepared, source, devices.pointers))
     }
 
     /// Goes on with what was prepared, while the devices stay open and their loops run. Whether the touch could: else it
@@ -155,7 +155,7 @@ impl Play {
 
     /// What is shown of `prepared` from now on, whose model has taken over.
     pub(super) fn showing(self, prepared: Prepared) -> Self {
-        Self::of(prepared, (self.source, self.pointers))
+        Self::of(prepared, self.source, self.pointers)
     }
 
     /// A session that is played again.
@@ -168,7 +168,7 @@ impl Play {
         let of = (session.scene, session.simulation);
         let prepared = Prepared::around(of, Resources::default(), gpu)?;
         let source = Source::Again(Box::new(playback));
-        Ok(Self::of(prepared, (source, nobody)))
+        Ok(Self::of(prepared, source, nobody))
     }
 
     /// A session on the organ that is shown, called `name`.
@@ -184,7 +184,7 @@ impl Play {
         })
     }
 
-    fn of(prepared: Prepared, (source, pointers): (Source, Vec<Option<PointerHand>>)) -> Self {
+    fn of(prepared: Prepared, source: Source, pointers: Vec<Option<PointerHand>>) -> Self {
         Self {
             scene: prepared.scene,
             simulation: prepared.simulation,
@@ -212,7 +212,7 @@ impl Play {
     /// Whether the organ, as it is now, lies between an `eye` and a `place` [m].
     pub(super) fn covers(&mut self, place: &Vec3, eye: &Vec3) -> bool {
         let triangles = self.simulation.surface().mesh().triangles();
-        is_covered((&self.source.snapshot().vertices, triangles), place, eye)
+        is_covered(&self.source.snapshot().vertices, triangles, place, eye)
     }
 
     /// Moves the tool of a hand to where the hand is, with its grip and its cut; from `start` [m] without a

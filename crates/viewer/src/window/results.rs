@@ -16,7 +16,8 @@ use crate::style::{DEPTH, FORCE, QUIET, WARNING, WHITE};
 /// How it was done.
 pub(super) fn over(
     ui: &mut Ui,
-    (attempt, done): (&Attempt, &Done),
+    attempt: &Attempt,
+    done: &Done,
     around: &Around,
     asked: &mut Option<Asked>,
 ) {

@@ -220,7 +220,8 @@ impl Indenter {
     pub(super) fn stick_or_slip(
         &self,
         touch: ContactStatus,
-        (place, force): (Place, [f64; 2]),
+        place: Place,
+        force: [f64; 2],
         tolerances: Tolerances,
     ) -> Option<ContactStatus> {
         let part = touch.part()?;

@@ -425,7 +425,7 @@ impl IndentationRun {
             let supports = self.supports(&touch, depth, relaxing.as_ref());
             let before = (way == Way::Downhill).then(|| state.clone());
             let workspace = &mut self.workspace;
-            let done = newton::correct(controls, &self.model, &supports, (&mut state, workspace));
+            let done = newton::correct(controls, &self.model, &supports, &mut state, workspace);
             let unstable = relaxing.is_none()
                 && workspace.factors.negative_eigenvalues() > self.model.pressures();
             let done = done.and_then(|done| match unstable && done.iterations > 0 {
@@ -456,7 +456,7 @@ impl IndentationRun {
             if let Some(memory) = &mut memory {
                 memory.advance(&self.model, &self.prony, duration, &state);
             }
-            self.note_places(&mut touch, (depth, &state));
+            self.note_places(&mut touch, depth, &state);
             let standing = ConvergedIncrement {
                 time,
                 depth,

@@ -69,9 +69,7 @@ impl IndentationRun {
                 *touch = ContactStatus::Free;
                 changed = true;
             } else if now.radius > 0.0
-                && let Some(next) = self
-                    .indenter
-                    .stick_or_slip(*touch, (now, force), tolerances)
+                && let Some(next) = self.indenter.stick_or_slip(*touch, now, force, tolerances)
             {
                 *touch = next;
                 changed = true;
