@@ -42,7 +42,7 @@ use palpate_jobs::label;
 pub(crate) fn isosurface<'py>(
     py: Python<'py>,
     path: PathBuf,
-    labels: Option<Vec<Wanted>>,
+    labels: Option<Vec<LabelChoice>>,
     triangles: usize,
     smoothing: usize,
     progress: Option<Py<PyAny>>,
@@ -73,12 +73,12 @@ pub(crate) fn isosurface<'py>(
 
 /// A label's name or number.
 #[derive(Debug, FromPyObject)]
-pub(crate) enum Wanted {
+pub(crate) enum LabelChoice {
     Number(u16),
     Name(String),
 }
 
-impl Wanted {
+impl LabelChoice {
     fn among<'l>(&self, labels: &'l [Label]) -> Result<&'l Label, Failure> {
         let words = match self {
             Self::Number(number) => number.to_string(),

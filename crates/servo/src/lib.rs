@@ -61,7 +61,7 @@ pub use affine_force::AffineForce;
 pub use clock::Clock;
 pub use controller::Controller;
 pub use device::{
-    Capabilities, Command, Device, DeviceState, Disabled, Hand, Next, NoDevice, Pointer,
+    Capabilities, Command, Device, DeviceState, Disabled, HandImpedance, Next, NoDevice, Pointer,
     PointerHand, Scheduler, Tick, Trajectory, VirtualDevice, Waypoint,
 };
 pub use extrapolate::{Extrapolator, HandOver};

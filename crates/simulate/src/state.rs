@@ -176,7 +176,7 @@ impl SimulationState {
 
     /// The organ at rest and whole, as if nothing had been touched yet. It allocates nothing, so that a model in real time
     /// may do it between two steps.
-    pub fn begin_anew(&mut self, simulation: &Simulation) {
+    pub fn reset(&mut self, simulation: &Simulation) {
         let Self {
             tools,
             deformed,
@@ -211,7 +211,7 @@ impl SimulationState {
             body.begin_anew(organ);
         }
         if let Some(cuts) = cuts {
-            cuts.begin_anew();
+            cuts.reset();
         }
         *energy = EnergyAccount::default();
         *shown_deformed = false;

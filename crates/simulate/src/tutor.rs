@@ -83,7 +83,7 @@ impl Tutor {
     }
 
     /// From the beginning again.
-    pub fn begin_anew(&mut self) {
+    pub fn reset(&mut self) {
         self.at = 0;
     }
 

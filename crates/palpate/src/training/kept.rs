@@ -15,7 +15,7 @@ use crate::failure::Failure;
 const UNTITLED: &str = "without a title";
 
 /// The training record, as a window uses it. It is opened anew each time, for other programs may have it, too.
-pub(super) struct Kept {
+pub(super) struct WindowRecord {
     file: PathBuf,
     sessions: PathBuf,
 }
@@ -82,7 +82,7 @@ pub(crate) fn keep(
     Ok(warnings)
 }
 
-impl Kept {
+impl WindowRecord {
     pub(super) fn new(folder: &Path) -> Result<Self, Failure> {
         Ok(Self {
             file: record_file(None)?,
@@ -107,7 +107,7 @@ impl Kept {
     }
 }
 
-impl TrainingRecord for Kept {
+impl TrainingRecord for WindowRecord {
     fn new_session(&self, task: &Task) -> PathBuf {
         let plain = |letter: char| match letter.is_ascii_alphanumeric() {
             true => letter.to_ascii_lowercase(),

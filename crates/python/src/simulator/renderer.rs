@@ -45,7 +45,7 @@ struct Drawing {
 
 /// Which pictures.
 #[derive(Clone, Copy)]
-struct Wanted {
+struct ImageSelection {
     rgb: bool,
     depth: bool,
     segmentation: bool,
@@ -128,7 +128,7 @@ impl Renderer {
         camera: Option<&Camera>,
         images: Vec<String>,
     ) -> Result<Bound<'py, PyDict>, Failure> {
-        let wanted = Wanted::of(&images)?;
+        let wanted = ImageSelection::of(&images)?;
         let (model, state) = state_of(simulation, index)?;
         if model.scene.organ.shape != self.model.scene.organ.shape
             || model.scene.tools.len() != self.model.scene.tools.len()
@@ -180,7 +180,7 @@ impl Renderer {
     }
 }
 
-impl Wanted {
+impl ImageSelection {
     fn of(images: &[String]) -> Result<Self, Failure> {
         let mut wanted = Self {
             rgb: false,
@@ -208,7 +208,7 @@ impl Drawing {
         &mut self,
         model: &Arc<Model>,
         mut state: SimulationState,
-        wanted: Wanted,
+        wanted: ImageSelection,
     ) -> Result<(Option<RgbaImage>, Option<Labels>), Failure> {
         // Scratch and openings follow cuts by their number, which each state counts for itself.
         if state.cuts.is_some() || !Arc::ptr_eq(model, &self.workspace.0) {

@@ -110,7 +110,7 @@ impl Stepper {
             judge,
         } = &mut self.course;
         state.set_nodules(&model.prepared, &scene.organ.nodules)?;
-        state.begin_anew(&model.prepared);
+        state.reset(&model.prepared);
         state.set_show_every(period);
         *clock = Clock::default();
         *judge = Judge::new(scene);

@@ -241,7 +241,7 @@ impl ModelLoop {
                     let Model {
                         simulation, state, ..
                     } = &mut *self.model;
-                    state.begin_anew(simulation);
+                    state.reset(simulation);
                     self.note_new_beginning();
                 }
                 ModelCommand::UndoCut => {

@@ -204,7 +204,7 @@ fn what_is_undone_was_never_there() {
     assert!(hand.state.undo_cut() && !hand.state.undo_cut());
     assert!(hand.shape() == uncut);
     hand.cut_along([top(-0.02, 0.0), top(0.02, 0.0)]);
-    hand.state.begin_anew(&simulation);
+    hand.state.reset(&simulation);
     assert!(hand.shape() == uncut && !hand.state.cuts.as_ref().unwrap().are_there());
 }
 

@@ -37,7 +37,7 @@ fn a_state_with_other_balls_is_that_of_a_model_with_them() {
         .unwrap();
     assert_eq!(pressed(&mut hand, top), expected);
     // What begins anew is the same organ.
-    hand.state.begin_anew(&plain);
+    hand.state.reset(&plain);
     assert_eq!(pressed(&mut hand, top), expected);
 }
 

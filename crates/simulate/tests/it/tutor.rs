@@ -64,7 +64,7 @@ fn ghosts_lead_along_the_path_whatever_the_time() {
     }
     // At the end the last moment is shown.
     assert!(ghost(0.1) > 0.098);
-    tutor.begin_anew();
+    tutor.reset();
     assert!(tutor.follow(&[None, None])[1].unwrap().position[0] < 0.006);
 }
 

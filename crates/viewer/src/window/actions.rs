@@ -66,7 +66,7 @@ impl SimulatorWindow {
         self.history.clear();
         self.picture.gesture = gesture::Gesture::default();
         if self.choice.scene() != before {
-            self.begin_anew(context);
+            self.reset(context);
         }
     }
 }

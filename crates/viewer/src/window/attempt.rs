@@ -148,7 +148,7 @@ impl Attempt {
         self.diameter = None;
         self.unsaved = None;
         if let Some(tutor) = &mut self.tutor {
-            tutor.begin_anew();
+            tutor.reset();
         }
         let mut folder = session;
         if play.scene.written.is_none() && folder.take().is_some() {
@@ -156,7 +156,7 @@ impl Attempt {
         }
         self.phase = Phase::GoesOn(match folder {
             None => {
-                play.begin_anew();
+                play.reset();
                 None
             }
             Some(folder) => match Claim::of_folder(&folder, Overwrite::Refused)
@@ -171,7 +171,7 @@ impl Attempt {
                 Err(error) => {
                     let error = error.to_string();
                     self.trouble = Some(text!("attempt-unrecorded", error = error));
-                    play.begin_anew();
+                    play.reset();
                     None
                 }
             },

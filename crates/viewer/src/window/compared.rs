@@ -13,7 +13,7 @@ use eframe::egui_wgpu::RenderState;
 use palpate_files::Session;
 use palpate_simulate::{Demonstration, SessionFolder};
 
-use super::picture::Picture;
+use super::picture::OrganView;
 use super::play::Play;
 use super::source::Playback;
 use super::texts::text;
@@ -29,7 +29,7 @@ pub(super) struct Compared {
     /// What the session on the left is called, and this one.
     names: [String; 2],
     pub(super) play: Play,
-    picture: Picture,
+    picture: OrganView,
 }
 
 /// A demonstration that is computed on a thread of its own.
@@ -91,7 +91,7 @@ impl SimulatorWindow {
     /// When a neighbour cannot be read.
     pub(super) fn compare(&mut self, name: String, other: PlayedSession) -> Result<(), Error> {
         let names = [name, other.name.clone()];
-        let picture = Picture::new(&self.gpu, other.scene.view.shading);
+        let picture = OrganView::new(&self.gpu, other.scene.view.shading);
         let play = Play::of_session(other, &self.gpu)?;
         self.compared = Some(Box::new(Compared {
             names,
@@ -160,7 +160,7 @@ impl SimulatorWindow {
         // Nobody plots what was felt on the right.
         drop(compared.play.source.rows());
         let [own, other] = &compared.names;
-        let mut half = |rect: Rect, picture: &mut Picture, play: &mut Play, name: &str| {
+        let mut half = |rect: Rect, picture: &mut OrganView, play: &mut Play, name: &str| {
             ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
                 picture.show(ui, (state, &self.gpu), play, 0);
                 title(ui, rect, name);

@@ -5,7 +5,7 @@ use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Stroke, Vec2};
 
 use palpate_files::scene::{Tip, TipContact};
 
-use super::picture::Picture;
+use super::picture::OrganView;
 use super::play::Play;
 use super::texts::{decimal, text, tool_name};
 use super::{list, page};
@@ -15,7 +15,7 @@ use crate::style::{DEPTH, FORCE, PLATE, QUIET, WARNING};
 const FULL: f64 = 0.015;
 
 /// What is written into the picture: how to touch, and beside a touching tool how deep and how hard.
-pub(super) fn show(ui: &egui::Ui, rect: Rect, picture: &Picture, play: &mut Play, tool: usize) {
+pub(super) fn show(ui: &egui::Ui, rect: Rect, picture: &OrganView, play: &mut Play, tool: usize) {
     let painter = ui.painter_at(rect);
     let hand = picture.hands.get(tool).copied().unwrap_or_default();
     let pressing = picture.gesture.is_pressing() && !hand.holds() || hand.is_pulling();

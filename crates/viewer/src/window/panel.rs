@@ -43,7 +43,7 @@ pub(super) fn side(window: &mut SimulatorWindow, ui: &mut Ui) {
             let other = window.choice != before && window.choice.scene() != before.scene();
             if ui.button(text!("panel-restart")).clicked() || other {
                 let context = ui.ctx().clone();
-                window.begin_anew(&context);
+                window.reset(&context);
             }
             ui.separator();
             look(window, ui);

@@ -11,7 +11,7 @@ use super::gesture::{Gesture, GestureContext, Mouse};
 use super::ghosts::{Over, nearest_lump};
 use super::hands::gamepad::{Pad, PadPart, PadRequests};
 use super::hands::gamepads::Gamepads;
-use super::hands::{Drive, Hand, Room, keys};
+use super::hands::{Drive, Hand, HandContext, keys};
 use super::overlay;
 use super::play::Play;
 use super::render_quality::RenderQuality;
@@ -25,7 +25,7 @@ const TURN: f64 = 0.007;
 const TAKEN_UP: f64 = 0.01;
 
 /// Where the organ is seen and touched.
-pub(super) struct Picture {
+pub(super) struct OrganView {
     pub(super) shading: Shading,
     pub(super) looks: Looks,
     pub(super) endoscope: bool,
@@ -55,7 +55,7 @@ pub(super) struct Picture {
     drawn: Option<(View, Vec<ToolPicture>, u64)>,
 }
 
-impl Picture {
+impl OrganView {
     pub(super) fn new(gpu: &Gpu, shading: Shading) -> Self {
         Self {
             shading,
@@ -158,7 +158,7 @@ impl Picture {
             false => orbit.camera(),
         };
         self.camera = Some(camera);
-        let room = Room {
+        let room = HandContext {
             camera: &camera,
             aspect,
             middle: (0.5 * (low + high), extent),
@@ -268,7 +268,7 @@ impl Picture {
     }
 
     /// Tools with a trocar wait before the organ.
-    fn take_up(&mut self, play: &Play, room: &Room<'_>) {
+    fn take_up(&mut self, play: &Play, room: &HandContext<'_>) {
         let tools = &play.scene.tools;
         if self.hands.len() == tools.len() {
             return;
@@ -286,7 +286,7 @@ impl Picture {
     }
 
     /// Moves the hands by keys and sticks, and tells the model of those that the mouse does not move.
-    fn drive(&mut self, ui: &egui::Ui, play: &mut Play, tool: usize, room: &Room<'_>) {
+    fn drive(&mut self, ui: &egui::Ui, play: &mut Play, tool: usize, room: &HandContext<'_>) {
         let free = !ui.ctx().egui_wants_keyboard_input();
         let elapsed = f64::from(ui.input(|input| input.unstable_dt)).min(0.05);
         let pads = self.gamepads.look();
@@ -321,7 +321,7 @@ impl Picture {
         ui: &egui::Ui,
         (response, rect): (&Response, Rect),
         (play, tool): (&mut Play, usize),
-        room: &Room<'_>,
+        room: &HandContext<'_>,
     ) {
         let Some(hand) = self.hands.get_mut(tool) else {
             return;
@@ -330,7 +330,8 @@ impl Picture {
         let pointer = ui.input(|input| input.pointer.latest_pos());
         let place = pointer
             .filter(|at| rect.contains(*at))
-            .map(|at| ((at - rect.min) / rect.size()).to_f64());
+            .map(|at| (at - rect.min) / rect.size())
+            .map(|part| (f64::from(part.x), f64::from(part.y)));
         let (down, moved) = ui.input(|input| {
             let moved = input.pointer.delta() != Vec2::ZERO;
             (input.pointer.primary_down(), moved)
@@ -483,16 +484,5 @@ fn side(name: &str, number: usize) -> usize {
         "left" => 0,
         "right" => 1,
         _ => number.min(1),
-    }
-}
-
-/// A place of the picture as the gesture counts it.
-trait Place {
-    fn to_f64(self) -> (f64, f64);
-}
-
-impl Place for Vec2 {
-    fn to_f64(self) -> (f64, f64) {
-        (f64::from(self.x), f64::from(self.y))
     }
 }

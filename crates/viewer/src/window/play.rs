@@ -244,7 +244,7 @@ impl Play {
     }
 
     /// Makes the organ whole and at rest, and goes on if all stood still.
-    pub(super) fn begin_anew(&mut self) {
+    pub(super) fn reset(&mut self) {
         self.go_on();
         self.source.send(ModelCommand::Reset);
     }

@@ -7,9 +7,9 @@ use palpate_files::Scene;
 use palpate_simulate::SessionFolder;
 
 use super::attempt::{Attempt, Phase};
-use super::cards::{self, Around, Asked};
+use super::cards::{self, AttemptAction, CardContext};
 use super::choice::Choice;
-use super::class_page::{ClassPage, Wanted};
+use super::class_page::{ClassPage, ClassPageAction};
 use super::compared::ShownDemonstration;
 use super::home::{Chosen, Home};
 use super::play::{ModelRequest, Play};
@@ -67,12 +67,12 @@ impl SimulatorWindow {
         let panel = egui::CentralPanel::default();
         match panel.show(ui, |ui| page.show(ui)).inner {
             None => {}
-            Some(Wanted::Leave) => {
+            Some(ClassPageAction::Leave) => {
                 self.class_page = None;
                 // What was assigned is seen on the start screen.
                 self.home = Some(Home::default());
             }
-            Some(Wanted::Assign(given)) => {
+            Some(ClassPageAction::Assign(given)) => {
                 let outcome = training.record.assign(&given);
                 page.take(outcome, training.record.class());
             }
@@ -111,7 +111,7 @@ impl SimulatorWindow {
         self.choice = Choice::new(scene).with_mouse(hand);
         self.radius = 1e3 * self.choice.tip.radius_m;
         self.picture.shading = self.choice.shading();
-        self.begin_anew(context);
+        self.reset(context);
     }
 
     /// Back to the start screen; what was being prepared or touched ends.
@@ -199,7 +199,7 @@ impl SimulatorWindow {
 
     /// The card of the task over the picture.
     pub(super) fn show_card(&mut self, ui: &egui::Ui) {
-        let around = Around {
+        let around = CardContext {
             preparing: self.preparing(),
             begins: self.begins,
             has_home: self.training.is_some(),
@@ -212,7 +212,7 @@ impl SimulatorWindow {
             return;
         };
         let asked = cards::show(ui, attempt, &around);
-        let by_key = std::mem::take(&mut self.begins_anew).then_some(Asked::Begin);
+        let by_key = std::mem::take(&mut self.begins_anew).then_some(AttemptAction::Begin);
         if asked.is_some() {
             // A button that was clicked would have the keyboard, and Enter click it again.
             ui.memory_mut(|memory| {
@@ -223,38 +223,38 @@ impl SimulatorWindow {
         }
         match asked.or(by_key) {
             None => {}
-            Some(Asked::Show) => {
+            Some(AttemptAction::Show) => {
                 attempt.show(play);
                 self.picture.lay_down();
                 self.picture.lists_keys = false;
                 self.history.clear();
             }
-            Some(Asked::Begin)
+            Some(AttemptAction::Begin)
                 if (attempt.is_over() || attempt.was_shown) && self.choice.draws() =>
             {
                 let context = ui.ctx().clone();
                 self.attempt = None;
                 self.begins = true;
-                self.begin_anew(&context);
+                self.reset(&context);
             }
-            Some(Asked::Begin) => self.begin_attempt(),
-            Some(Asked::State) => self.state_diameter(),
-            Some(Asked::End) => self.end_attempt(),
-            Some(Asked::RecordElsewhere) => {
+            Some(AttemptAction::Begin) => self.begin_attempt(),
+            Some(AttemptAction::State) => self.state_diameter(),
+            Some(AttemptAction::End) => self.end_attempt(),
+            Some(AttemptAction::RecordElsewhere) => {
                 attempt.record_elsewhere(play);
                 if attempt.is_over() && attempt.unsaved.is_none() {
                     self.keep_result();
                 }
             }
-            Some(Asked::Compare) => {
+            Some(AttemptAction::Compare) => {
                 let folder = attempt.folder();
                 if let Some(folder) = folder {
                     let context = ui.ctx().clone();
                     self.compare_with_demonstration(&folder, &context);
                 }
             }
-            Some(Asked::Home) => self.go_home(),
-            Some(Asked::Again) => {
+            Some(AttemptAction::Home) => self.go_home(),
+            Some(AttemptAction::Again) => {
                 if let Some(folder) = attempt.folder() {
                     self.look_again(&folder);
                 }
