@@ -89,16 +89,6 @@ impl Recording {
         }
     }
 
-    /// The same recording with the six axes of its sensor.
-    ///
-    /// # Errors
-    /// When an axis has another number of values than the recording has samples, or one is not finite.
-    pub fn with_axes(mut self, axes: SensorAxes) -> Result<Self, Error> {
-        axes.check(self.samples.time_s.len())?;
-        self.axes = Some(axes);
-        Ok(self)
-    }
-
     /// The same recording with one more column.
     ///
     /// # Errors
