@@ -51,7 +51,7 @@ pub fn follow(
     (before, tip): (&Vec3, &Vec3),
 ) -> Option<ContactPoint> {
     let (moved, normal) = ((tip - before).norm(), from.normal);
-    let aim = settle(surface, field.vertex_normals(), from, tip).map_or_else(
+    let aim = project_contact_point(surface, field.vertex_normals(), from, tip).map_or_else(
         || {
             // Nothing to solve for: straight along the surface towards the tip.
             let towards = tip - from.point;
@@ -99,7 +99,7 @@ fn approach(
 
 /// The point whose normal, between unit `normals` at the vertices, passes through `tip` [m], if there is one
 /// near `from`.
-pub fn settle(
+pub fn project_contact_point(
     surface: &Surface,
     normals: &[Vec3],
     from: &ContactPoint,

@@ -205,7 +205,7 @@ impl SimulationState {
             moved.0.clear();
         }
         if let Some(whole) = whole {
-            whole.lay_to_rest();
+            whole.return_to_rest();
         }
         if let (Some(body), Some(organ)) = (body, &simulation.nonlinear) {
             body.begin_anew(organ);

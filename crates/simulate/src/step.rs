@@ -56,7 +56,7 @@ pub fn touch(
         let own = &mut state.tools[number];
         own.row.events = jumps | detect(simulation, tool, pose, tip, own);
         if let (Some(model), Some(cuts)) = (&simulation.cutting, &state.cuts) {
-            cutting::lead(simulation, model, cuts, number, own);
+            cutting::track_blade(simulation, model, cuts, number, own);
         }
     }
     respond(simulation, elapsed, state, workspace);
@@ -64,7 +64,7 @@ pub fn touch(
     grip::act(simulation, elapsed, state, workspace);
     for (number, tool) in simulation.tools.iter().enumerate() {
         let own = &mut state.tools[number];
-        let failed = feel(simulation, tool, time, elapsed, own);
+        let failed = render_force(simulation, tool, time, elapsed, own);
         neighbour::press(simulation, number, state);
         let own = &mut state.tools[number];
         record(simulation, tool, time, failed, own);
@@ -175,7 +175,7 @@ fn detect(
 impl ToolState {
     /// Relaxes while the tool was not there; how long its way into the tissue took [s]. What happens while a
     /// tool is away follows from its rows alone, so that a session can be played again.
-    fn come_back(&mut self, simulation: &Simulation, time: f64, elapsed: f64) -> f64 {
+    fn re_enter(&mut self, simulation: &Simulation, time: f64, elapsed: f64) -> f64 {
         if !std::mem::take(&mut self.is_away) {
             return elapsed;
         }
@@ -256,7 +256,7 @@ fn find_nodules(simulation: &Simulation, state: &mut SimulationState) {
 }
 
 /// 4. The force on the tool: elastic, then relaxed; only jaws are pulled.
-fn feel(
+fn render_force(
     simulation: &Simulation,
     tool: &Tool,
     time: f64,
@@ -264,7 +264,7 @@ fn feel(
     state: &mut ToolState,
 ) -> Events {
     let elapsed = match state.pose {
-        Some(_) => state.come_back(simulation, time, elapsed),
+        Some(_) => state.re_enter(simulation, time, elapsed),
         None => {
             state.is_away = true;
             0.0
@@ -339,7 +339,7 @@ fn answer(tool: &Tool, state: &mut ToolState) {
     state.limited = response.limits;
     state.limited.merge(&answer.limits);
     if !answer.force.iter().all(|component| component.is_finite()) {
-        // `feel` tells; the surface stays where it is.
+        // `render_force` tells; the surface stays where it is.
         state.response = None;
     }
 }

@@ -190,7 +190,7 @@ impl Client {
     fn read(&mut self, topics: &[(String, Content)]) -> bool {
         for _ in 0..MOST_READ {
             match self.socket.read() {
-                Ok(Message::Text(text)) => self.obey(&text, topics),
+                Ok(Message::Text(text)) => self.process_command(&text, topics),
                 Ok(Message::Binary(_)) => self.refuse("a binary message; send JSON as text"),
                 Ok(Message::Close(_)) | Err(Error::ConnectionClosed | Error::AlreadyClosed) => {
                     let _ = self.socket.flush();
@@ -209,7 +209,7 @@ impl Client {
         true
     }
 
-    fn obey(&mut self, text: &str, topics: &[(String, Content)]) {
+    fn process_command(&mut self, text: &str, topics: &[(String, Content)]) {
         let Ok(command) = serde_json::from_str::<Value>(text) else {
             return self.refuse("a message that is not JSON; send an object with `op`");
         };

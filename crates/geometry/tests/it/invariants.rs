@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 use palpate_geometry::{
     AabbTree, ContactPoint, Organ, PatchField, SimplifySettings, Surface, TriangleId, Vec3, follow,
-    settle, simplify,
+    project_contact_point, simplify,
 };
 
 use crate::agreement::real_surfaces;
@@ -236,7 +236,7 @@ fn a_place_on_a_coarser_mesh_does_not_leap() {
             normal: coarse.mesh().area_vector(near.triangle).normalize(),
             depth: 0.0,
         };
-        let under = settle(&coarse, coarse.vertex_normals(), &from, point);
+        let under = project_contact_point(&coarse, coarse.vertex_normals(), &from, point);
         (near.on.position, under.map(|under| under.point))
     };
     let step = 2e-5;

@@ -26,7 +26,7 @@ pub(super) fn is_down(tool: &Tool, state: &ToolState) -> bool {
 
 /// Leads the edge of a tool that cuts along the surface, as far as its resistance lets it, and has the tissue
 /// held there.
-pub(crate) fn lead(
+pub(crate) fn track_blade(
     simulation: &Simulation,
     model: &CuttingModel,
     cuts: &Cuts,

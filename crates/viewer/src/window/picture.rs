@@ -92,7 +92,7 @@ impl OrganView {
     pub(super) fn frame_anew(&mut self) {
         self.orbit = None;
         self.drawn = None;
-        self.lay_down();
+        self.put_tools_away();
     }
 
     /// Looks from where another picture looks.
@@ -101,7 +101,7 @@ impl OrganView {
     }
 
     /// All hands let go of their tools.
-    pub(super) fn lay_down(&mut self) {
+    pub(super) fn put_tools_away(&mut self) {
         self.gesture = Gesture::default();
         self.hands.clear();
     }

@@ -225,7 +225,7 @@ impl SimulatorWindow {
             None => {}
             Some(AttemptAction::Show) => {
                 attempt.show(play);
-                self.picture.lay_down();
+                self.picture.put_tools_away();
                 self.picture.lists_keys = false;
                 self.history.clear();
             }
@@ -321,7 +321,7 @@ impl SimulatorWindow {
             let training = self.training.as_ref();
             let session = training.map(|training| training.record.new_session(&attempt.task));
             attempt.begin(play, session);
-            self.picture.lay_down();
+            self.picture.put_tools_away();
             self.picture.lists_keys = false;
             self.history.clear();
         }
@@ -351,7 +351,7 @@ impl SimulatorWindow {
                 self.play = Some(again);
                 self.attempt = None;
                 self.history.clear();
-                self.picture.lay_down();
+                self.picture.put_tools_away();
                 self.picture.lists_keys = false;
             }
             Err(error) => self.notice = Some(error.to_string()),

@@ -444,7 +444,7 @@ impl IndentationRun {
                 slopes.solve(&self.model, &supports, &state, &mut self.workspace)?;
             }
             let statuses = (&mut touch[..], &mut released[..]);
-            if self.settle((depth, &state), statuses, slopes.as_mut())? {
+            if self.update_statuses((depth, &state), statuses, slopes.as_mut())? {
                 controls = first;
                 continue;
             }
