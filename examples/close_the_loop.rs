@@ -18,7 +18,7 @@ const RAMP: protocol::Stimulus = protocol::Stimulus::RampAndHold {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let tissue = Tissue::builtin(BuiltinTissue::PigEsophagus);
-    let specimen = VirtualSpecimen::of_tissue(&tissue, (1e-3, 5e-3), &mut |_| ())?;
+    let specimen = VirtualSpecimen::of_tissue(&tissue, 1e-3, 5e-3, &mut |_| ())?;
     let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
     let (device, clock) = ((machine, Imperfections::premium()), Clock::virtual_time());
     let mut rig = Rig::over(specimen, device, RigSettings::default(), (clock, 1))?;

@@ -31,7 +31,8 @@ pub(crate) unsafe fn borrowed<'a, T>(
 /// # Safety
 /// As of [`borrowed`], for an array of `count`.
 pub(crate) unsafe fn array<'a, T>(
-    (pointer, count): (*const T, usize),
+    pointer: *const T,
+    count: usize,
     name: &'static str,
 ) -> Result<&'a [T], Refused> {
     if count == 0 {

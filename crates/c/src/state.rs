@@ -152,7 +152,7 @@ pub unsafe extern "C" fn palpate_state_reset(state: *mut StateHandle) -> Status 
         // SAFETY: the header demands it of who calls.
         let state = unsafe { pointers::borrowed(state, "state") }?;
         let course = &mut state.own()?.course;
-        course.state.begin_anew(&state.simulation);
+        course.state.reset(&state.simulation);
         course.time = None;
         course.undo = false;
         Ok(())

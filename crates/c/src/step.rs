@@ -81,7 +81,7 @@ pub unsafe extern "C" fn palpate_step(
             return Err(Refused::OtherTools { known, given });
         }
         // SAFETY: the header demands it of who calls; there are as many as the scene has tools.
-        let poses = unsafe { pointers::array((poses, tools), "poses") }?;
+        let poses = unsafe { pointers::array(poses, tools, "poses") }?;
         let touches = match touches.is_null() {
             true => None,
             false => Some(Answer::at(touches, "touches")?),
@@ -90,7 +90,7 @@ pub unsafe extern "C" fn palpate_step(
         own.step(&state.simulation, a_time("time_s", time_s)?, poses)?;
         if let Some(touches) = touches {
             for number in 0..tools {
-                let touch = touch(&state.simulation, number, (&own.course.state, time_s));
+                let touch = touch(&state.simulation, number, &own.course.state, time_s);
                 // SAFETY: the header demands an array of so many.
                 unsafe { touches.put(number, touch) };
             }
@@ -172,11 +172,7 @@ fn unit(quaternion: [f64; 4]) -> Option<[f64; 4]> {
 }
 
 /// What tool `number` feels in a state after the step to `time` [s].
-fn touch(
-    simulation: &Simulation,
-    number: usize,
-    (state, time): (&SimulationState, f64),
-) -> ToolTouch {
+fn touch(simulation: &Simulation, number: usize, state: &SimulationState, time: f64) -> ToolTouch {
     let own: &ToolState = &state.tools[number];
     let near = affine_force(&simulation.tools()[number], own, time);
     let at = own

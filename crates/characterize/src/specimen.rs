@@ -171,12 +171,12 @@ pub fn characterize_organ(
             }
             let relaxation = found.relaxation.as_ref().map_err(Clone::clone)?;
             let mut curves = curves.of_law(law);
-            sought(&mut curves, &pressed, (relaxation, quick_draws))
+            sought(&mut curves, &pressed, relaxation, quick_draws)
         });
         found.laws.push((law, answer));
     }
     if settings.in_loop && pieces.is_empty() && !is_organ {
-        in_loop::refine(&mut found, (&pressed, body), settings, at_step);
+        in_loop::refine(&mut found, &pressed, body, settings, at_step);
     }
     found.speak(&pressed);
     found
@@ -185,7 +185,8 @@ pub fn characterize_organ(
 fn sought(
     curves: &mut Curves,
     pressed: &[Pressed],
-    (relaxation, draws): (&Relaxation, Option<Draws>),
+    relaxation: &Relaxation,
+    draws: Option<Draws>,
 ) -> Result<LawDescription, Error> {
     let law = curves.law();
     if matches!(curves.body(), Body::Tube { .. }) && law != SoughtLaw::NeoHookean {
@@ -312,7 +313,7 @@ fn records(pressed: &[Pressed], curve: Option<&UnitCurve>) -> Vec<RelaxationReco
     let felt = pressed.iter().filter(|each| each.is_felt());
     let each = felt.filter_map(|each| {
         let course = RelaxationRecord::new((&each.time, &each.depth, &each.force), largest, shape)?;
-        Some(course.with_zeros((&each.depth, each.zeros), largest, shape))
+        Some(course.with_zeros(&each.depth, each.zeros, largest, shape))
     });
     each.collect()
 }

@@ -8,7 +8,7 @@
 use std::time::Duration;
 
 use palpate_device_stand_ins::{HaplyStandIn, HaplyStandInSettings, StandInClock};
-use palpate_servo::{Hand, Trajectory, Vec3, VirtualDevice};
+use palpate_servo::{HandImpedance, Trajectory, Vec3, VirtualDevice};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let swing = Trajectory::Sine {
@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         amplitude: Vec3::y() * 0.025,
         frequency: 0.25,
     };
-    let hand = VirtualDevice::new(swing).with_hand(Hand::default())?;
+    let hand = VirtualDevice::new(swing).with_hand(HandImpedance::default())?;
     let settings = HaplyStandInSettings {
         clock: StandInClock::Wall,
         ports: [10_001, 10_020],

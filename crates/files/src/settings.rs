@@ -107,14 +107,6 @@ impl Settings {
         Ok(settings)
     }
 
-    /// Reads a text; `path` is its name in errors.
-    ///
-    /// # Errors
-    /// When it holds no settings.
-    pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
-        Self::of(&Document::parse(text, path)?)
-    }
-
     fn of(document: &Document) -> Result<Self, Error> {
         let keys: Keys<'_> = document.keys(Self::KEYS)?;
         let hand = keys.word("mouse_hand", MouseHand::WORDS)?;
@@ -190,7 +182,9 @@ mod tests {
             ("format = 1\nscale = \n", "line 2"),
             ("\u{0}", "settings.toml"),
         ] {
-            let told = Settings::parse(text, "settings.toml").unwrap_err();
+            let told = Document::parse(text, "settings.toml")
+                .and_then(|document| Settings::of(&document))
+                .unwrap_err();
             let told = told.to_string();
             assert!(
                 told.contains("settings.toml") && told.contains(word),

@@ -32,7 +32,7 @@ mod walk;
 
 use cut_path::CutPath;
 use error::CutError;
-use net::{Mark, Net, Origin, Side};
+use net::{Mark, Net, Side};
 use split::Limits;
 
 use crate::{NodeId, Surface, TriangleId, TriangleMesh, Vec3};
@@ -145,11 +145,6 @@ impl CutSurface {
     /// The triangle of the surface that this one is part of.
     pub fn parent(&self, triangle: TriangleId) -> TriangleId {
         self.net.facet(triangle).parent
-    }
-
-    /// Where a vertex lies on the surface that was there before any cut.
-    pub fn origin(&self, node: NodeId) -> Origin {
-        self.net.nodes[node.index()].origin
     }
 
     /// Where an opening pulls a vertex: a unit vector, or zero where nothing opens [-].

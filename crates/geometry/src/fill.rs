@@ -86,7 +86,7 @@ pub fn fill_graded(
 ) -> Result<TetrahedronMesh, TetrahedronError> {
     settings.check(surface)?;
     let tree = AabbTree::new(surface.mesh());
-    let lattice = GradedLattice::new((surface, &tree), settings.edge, longest_edge)?;
+    let lattice = GradedLattice::new(surface, &tree, settings.edge, longest_edge)?;
     stuffed(&lattice, surface, settings)
 }
 

@@ -67,7 +67,7 @@ pub use mesh::adjacency::Adjacency;
 pub use mesh::error::MeshError;
 pub use mesh::tetrahedra::{TetrahedronError, TetrahedronMesh, TetrahedronQuality};
 pub use mesh::triangles::{NodeId, TriangleId, TriangleMesh};
-pub use neighborhood_watch::{ContactPoint, FASTEST_TURN, follow, settle};
+pub use neighborhood_watch::{ContactPoint, FASTEST_TURN, follow, project_contact_point};
 pub use organ::{AnchorPlane, Organ, OrganDescription, OrganError};
 pub use patch_field::{Patch, PatchField};
 pub use proximity::{PointOnTriangle, closest_on_triangle};

@@ -51,7 +51,7 @@ pub fn follow(
     (before, tip): (&Vec3, &Vec3),
 ) -> Option<ContactPoint> {
     let (moved, normal) = ((tip - before).norm(), from.normal);
-    let aim = settle(surface, field.vertex_normals(), from, tip).map_or_else(
+    let aim = project_contact_point(surface, field.vertex_normals(), from, tip).map_or_else(
         || {
             // Nothing to solve for: straight along the surface towards the tip.
             let towards = tip - from.point;
@@ -64,7 +64,7 @@ pub fn follow(
         },
         Some,
     )?;
-    let reached = approach(surface, field, from, (&aim, moved))?;
+    let reached = approach(surface, field, from, &aim, moved)?;
     Some(ContactPoint {
         depth: reached.normal.dot(&(reached.point - tip)),
         ..reached
@@ -76,7 +76,8 @@ fn approach(
     surface: &Surface,
     field: &PatchField,
     from: &ContactPoint,
-    (aim, moved): (&ContactPoint, f64),
+    aim: &ContactPoint,
+    moved: f64,
 ) -> Option<ContactPoint> {
     let way = aim.point - from.point;
     let mut part = FASTEST_TRAVEL * moved / way.norm();
@@ -98,7 +99,7 @@ fn approach(
 
 /// The point whose normal, between unit `normals` at the vertices, passes through `tip` [m], if there is one
 /// near `from`.
-pub fn settle(
+pub fn project_contact_point(
     surface: &Surface,
     normals: &[Vec3],
     from: &ContactPoint,

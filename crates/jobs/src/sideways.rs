@@ -68,7 +68,6 @@ fn mean(values: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use palpate_files::recording::{RecordingHeader, Samples};
 
     /// A force that rises to 1 N, 0.3 N and 0.4 N of it sideways, over zeros that are somewhere.
     #[test]
@@ -76,23 +75,23 @@ mod tests {
         let rise: Vec<f64> = (0..400)
             .map(|i| (f64::from(i) - 200.0).clamp(0.0, 100.0) / 100.0)
             .collect();
-        let scaled = |part: f64, zero: f64| rise.iter().map(|r| part * r + zero).collect();
-        let samples = Samples {
-            time_s: (0..400).map(|i| 1e-3 * f64::from(i)).collect(),
-            depth_m: scaled(4e-3, 0.0),
-            force_n: scaled(1.0, 0.2),
+        let three = |i: usize, r: &f64| format!("{},{},{}", 1e-3 * i as f64, 4e-3 * r, r + 0.2);
+        let read = |names: &str, row: &dyn Fn(usize, &f64) -> String| {
+            let rows = rise.iter().enumerate().map(|(i, r)| row(i, r) + "\n");
+            let text = format!("# format = 1\n{names}\n{}", rows.collect::<String>());
+            Recording::parse(&text, "sideways.csv").unwrap()
         };
-        let recording = Recording::new(RecordingHeader::default(), samples).unwrap();
+        let recording = read("time_s,depth_m,force_n", &three);
         assert_eq!(Sideways::of(&recording), None);
-        let columns = [
-            scaled(0.3, 0.1),
-            scaled(-0.4, 0.1),
-            scaled(1.0, 0.0),
-            scaled(0.0, 0.5),
-            scaled(2e-3, -0.1),
-            scaled(0.0, 0.0),
-        ];
-        let recording = recording.with_axes(SensorAxes { columns }).unwrap();
+        let names = format!("time_s,depth_m,force_n,{}", SensorAxes::COLUMNS.join(","));
+        let recording = read(&names, &|i, r| {
+            let axes = [0.3 * r + 0.1, 0.1 - 0.4 * r, *r, 0.5, 2e-3 * r - 0.1, 0.0];
+            format!(
+                "{},{}",
+                three(i, r),
+                axes.map(|axis| axis.to_string()).join(",")
+            )
+        });
         let found = Sideways::of(&recording).unwrap();
         // The last of the largest is at the end, where the mean has half of its samples.
         let near = |a: f64, b: f64| (a - b).abs() < 1e-9;

@@ -14,18 +14,14 @@ pub(crate) fn contact_height(heights: &[f64], forces: &[f64]) -> Option<f64> {
     };
     let (coarse_heights, coarse_forces) = (means(heights), means(forces));
     let all = 1..coarse_heights.len().saturating_sub(1);
-    let near = BLOCK * best(&coarse_heights, &coarse_forces, (all, 1))?;
+    let near = BLOCK * best(&coarse_heights, &coarse_forces, all, 1)?;
     let last = heights.len().saturating_sub(SAMPLES_IN_CONTACT);
     let about = near.saturating_sub(2 * BLOCK).max(1)..(near + 3 * BLOCK).min(last);
-    best(heights, forces, (about, STRIDE)).map(|place| heights[place])
+    best(heights, forces, about, STRIDE).map(|place| heights[place])
 }
 
 /// The place among `candidates`, every so many of them, from which a rise comes nearest to the forces.
-fn best(
-    heights: &[f64],
-    forces: &[f64],
-    (candidates, stride): (Range<usize>, usize),
-) -> Option<usize> {
+fn best(heights: &[f64], forces: &[f64], candidates: Range<usize>, stride: usize) -> Option<usize> {
     let mut best: Option<(f64, usize)> = None;
     for place in candidates.step_by(stride) {
         let zero = forces[..place].iter().sum::<f64>() / place as f64;

@@ -23,7 +23,8 @@ pub fn stimulus_name(stimulus: &Stimulus) -> String {
 pub fn recording_name(
     specimen: &RecordingHeader,
     place: usize,
-    (stimulus, repeat): (&str, u64),
+    stimulus: &str,
+    repeat: u64,
 ) -> String {
     let organ = specimen.organ.as_deref().unwrap_or("specimen");
     let subject = specimen.subject.clone();

@@ -21,9 +21,7 @@ use line::Line;
 
 use crate::phantom::{Imperfections, MECHANICS_STEP, Machine, VirtualPhantom};
 use crate::sensing::{Sensing, Source};
-use crate::{
-    DepthTrajectory, Error, Indenter, Reference, RigSettings, VirtualForceSensor, VirtualSpecimen,
-};
+use crate::{DepthTrajectory, Error, Indenter, Reference, RigSettings, VirtualSpecimen};
 
 /// Samples that a device with a scheduler may be ahead of the rig.
 const LOG: usize = 64;
@@ -88,11 +86,7 @@ impl Rig {
             device: Box::new(device),
             controller: Box::new(indenter),
             reference,
-            sensor: Source::Virtual {
-                sensor: VirtualForceSensor::nano17(seed),
-                felt,
-                tip_distance: settings.tip_distance,
-            },
+            sensor: Source::of_virtual(felt, seed, &settings),
             header,
             breath_held,
             settings,
@@ -160,7 +154,7 @@ impl Rig {
     pub fn describe(&self, trajectory: &DepthTrajectory, repeat: u64) -> RecordingHeader {
         RecordingHeader {
             approach_normal: Some(self.line.normal.into()),
-            ..self.settings.describe(&self.header, (trajectory, repeat))
+            ..self.settings.describe(&self.header, trajectory, repeat)
         }
     }
 

@@ -126,26 +126,9 @@ impl RigSettings {
             NormalFrom::ByTouch => self.probe_distance,
         };
         let sideways = (place - normal * height).norm() + around;
-        let bounds = [
-            (
-                "along the normal",
-                height,
-                -self.approach_way,
-                self.approach_way,
-            ),
-            ("sideways", sideways, 0.0, self.lateral_limit),
-        ];
-        for (direction, found, least, most) in bounds {
-            if !(found >= least && found <= most) {
-                return Err(Error::OutOfReach {
-                    direction,
-                    to_mm: 1e3 * found,
-                    least_mm: 1e3 * least,
-                    most_mm: 1e3 * most,
-                });
-            }
-        }
-        Ok(())
+        let way = self.approach_way;
+        check_within("along the normal", height, [-way, way], 0.0)?;
+        check_within("sideways", sideways, [0.0, self.lateral_limit], 0.0)
     }
 
     /// How long tissue takes to come to rest when a breath is held [s].
@@ -182,4 +165,22 @@ impl RigSettings {
             _ => Ok(()),
         }
     }
+}
+
+/// Whether a place is within bounds [m] in a direction, but for `rounding` [m].
+pub(crate) fn check_within(
+    direction: &'static str,
+    found: f64,
+    [least, most]: [f64; 2],
+    rounding: f64,
+) -> Result<(), Error> {
+    if found >= least - rounding && found <= most + rounding {
+        return Ok(());
+    }
+    Err(Error::OutOfReach {
+        direction,
+        to_mm: 1e3 * found,
+        least_mm: 1e3 * least,
+        most_mm: 1e3 * most,
+    })
 }

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Rotation3};
 use palpate_servo::{ForceSensor, ForceTorque, SensorFault, Vec3, latest};
 
-use crate::VirtualForceSensor;
+use crate::{RigSettings, VirtualForceSensor};
 
 /// A sensor that is there, between a device and its indenter.
 pub struct MountedSensor {
@@ -24,6 +24,21 @@ pub(crate) enum Source {
         tip_distance: f64,
     },
     Real(MountedSensor),
+}
+
+impl Source {
+    /// A virtual sensor of what is `felt` at the tip.
+    pub(crate) fn of_virtual(
+        felt: latest::Receiver<ForceTorque>,
+        seed: u64,
+        settings: &RigSettings,
+    ) -> Self {
+        Self::Virtual {
+            sensor: VirtualForceSensor::nano17(seed),
+            felt,
+            tip_distance: settings.tip_distance,
+        }
+    }
 }
 
 /// A sensor on its indenter.

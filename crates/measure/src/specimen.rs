@@ -96,12 +96,13 @@ impl VirtualSpecimen {
     /// When the tissue makes no material, or no equilibrium is found down to there.
     pub fn of_tissue(
         tissue: &Tissue,
-        (radius, deepest): (f64, f64),
+        radius: f64,
+        deepest: f64,
         at_step: &mut dyn FnMut(f64),
     ) -> Result<Self, Error> {
         let material = Material::isotropic(tissue, "a virtual specimen")?;
         if tissue.elasticity.law() != LawName::Linear {
-            let curve = solved(&material, (radius, deepest), at_step)?;
+            let curve = solved(&material, radius, deepest, at_step)?;
             return Self::of_solved(tissue, radius, curve);
         }
         let (tip, bond) = (Tip::Flat { radius }, Friction::Bonded);
@@ -229,7 +230,8 @@ const PIECE: [f64; 2] = [56.42, 100.0];
 /// Force over depth by finite elements, on meshes that are refined until they are accurate.
 fn solved(
     material: &Material,
-    (radius, deepest): (f64, f64),
+    radius: f64,
+    deepest: f64,
     at_step: &mut dyn FnMut(f64),
 ) -> Result<IndentationCurve, Error> {
     let problem = IndentationProblem {

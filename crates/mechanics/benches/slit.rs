@@ -145,7 +145,7 @@ fn slit(criterion: &mut Criterion) {
     let mut load = slit.load();
     group.bench_function("load of a tip, 40 facets", |b| {
         b.iter(|| {
-            slit.put(&response, (tip.shares(), Some(&spot)), &mut load);
+            slit.put(&response, tip.shares(), Some(&spot), &mut load);
             black_box(slit.further(&load))
         });
     });

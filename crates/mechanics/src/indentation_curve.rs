@@ -94,40 +94,6 @@ impl IndentationCurve {
         self.value_and_slope(depth).1
     }
 
-    /// Depth [m] at which the force is `force` [N], by Newton's method inside a bracket. Zero for no
-    /// force.
-    pub fn depth(&self, force: f64) -> f64 {
-        let last = self.depths.len() - 1;
-        if force <= 0.0 || last == 0 {
-            return 0.0;
-        }
-        if force >= self.forces[last] {
-            return self.depths[last] + (force - self.forces[last]) / self.slopes[last];
-        }
-        let place = self.forces.partition_point(|&f| f <= force);
-        let (mut low, mut high) = (self.depths[place - 1], self.depths[place]);
-        let mut depth = 0.5 * (low + high);
-        for _ in 0..60 {
-            let (value, slope) = self.value_and_slope(depth);
-            if value < force {
-                low = depth;
-            } else {
-                high = depth;
-            }
-            let newton = depth + (force - value) / slope;
-            let next = if newton > low && newton < high {
-                newton
-            } else {
-                0.5 * (low + high)
-            };
-            if (next - depth).abs() <= 1e-15 * high {
-                return next;
-            }
-            depth = next;
-        }
-        depth
-    }
-
     /// Forces [N] at `times` [s] of a tissue that relaxes by `series`, when the depth goes linearly
     /// through `depths` [m]. Before the first time nothing was touched; a first depth above zero is a
     /// step.

@@ -104,7 +104,7 @@ const STIFFEST: f64 = 20.0;
 impl TipLaw {
     /// A tissue that is linear at every depth.
     pub fn linear(tip: Tip, bond: Friction, at_rest: LinearElastic) -> Self {
-        let stiffening = Stiffening::linear((tip, bond), at_rest.poissons_ratio());
+        let stiffening = Stiffening::linear(tip, bond, at_rest.poissons_ratio());
         Self::of(tip, bond, at_rest, stiffening)
     }
 
@@ -201,7 +201,7 @@ impl TipLaw {
             let own = half_space_tangential_stiffness(&self.at_rest, radius);
             let growth = self.tip.contact_radius_growth(depth);
             let change = along * along * (growth / own);
-            tip.put_tangents((&along, &change), &-displacement.xy());
+            tip.put_tangents(&along, &change, &-displacement.xy());
         }
         tip
     }
@@ -231,7 +231,7 @@ impl TipLaw {
             - normal.by_compliance * (up * shear.change * down).x;
         let by_sideways = -normal.stiffness * up * along;
         let mut tip = TipForce::along_normal(&normal);
-        tip.put_tangents((along, &shear.change), &(sideways - down * normal.force));
+        tip.put_tangents(along, &shear.change, &(sideways - down * normal.force));
         tip.stiffness[(2, 2)] = by_inward;
         tip.stiffness
             .fixed_view_mut::<1, 2>(2, 0)
@@ -360,11 +360,7 @@ impl TipForce {
     }
 
     /// Sets the force along the surface: its stiffness and the change of that with depth, times `way` [m].
-    fn put_tangents(
-        &mut self,
-        (along, change): (&Matrix2<f64>, &Matrix2<f64>),
-        way: &Vector2<f64>,
-    ) {
+    fn put_tangents(&mut self, along: &Matrix2<f64>, change: &Matrix2<f64>, way: &Vector2<f64>) {
         let force = along * way;
         (self.force.x, self.force.y) = (force.x, force.y);
         self.stiffness.fixed_view_mut::<2, 2>(0, 0).copy_from(along);

@@ -89,7 +89,7 @@ pub(crate) fn record(
     // From now on Ctrl-C ends the motion, and what was played is written whole.
     interrupt::is_asked();
     let names: Vec<_> = simulation.tools().iter().map(|t| t.name.clone()).collect();
-    let mut writer = SessionFolder::create(recording.folder, (recording.scene, simulation))?;
+    let mut writer = SessionFolder::create(recording.folder, recording.scene, simulation)?;
     let mut surfaces = Surfaces::new(folder, recording.surfaces);
     let mut traces = Traces::new(&names);
     let mut progress: Option<Progress> = None;

@@ -42,7 +42,7 @@ use palpate_jobs::label;
 pub(crate) fn isosurface<'py>(
     py: Python<'py>,
     path: PathBuf,
-    labels: Option<Vec<Wanted>>,
+    labels: Option<Vec<LabelChoice>>,
     triangles: usize,
     smoothing: usize,
     progress: Option<Py<PyAny>>,
@@ -62,7 +62,7 @@ pub(crate) fn isosurface<'py>(
                 .map(|wanted| wanted.among(&all))
                 .collect::<Result<_, _>>()?,
         };
-        surfaces(&map, &chosen, (&settings, told))
+        surfaces(&map, &chosen, &settings, told)
     })?;
     let dict = PyDict::new(py);
     for (name, mesh) in made {
@@ -73,12 +73,12 @@ pub(crate) fn isosurface<'py>(
 
 /// A label's name or number.
 #[derive(Debug, FromPyObject)]
-pub(crate) enum Wanted {
+pub(crate) enum LabelChoice {
     Number(u16),
     Name(String),
 }
 
-impl Wanted {
+impl LabelChoice {
     fn among<'l>(&self, labels: &'l [Label]) -> Result<&'l Label, Failure> {
         let words = match self {
             Self::Number(number) => number.to_string(),
@@ -91,7 +91,8 @@ impl Wanted {
 fn surfaces(
     map: &LabelMap,
     labels: &[&Label],
-    (settings, told): (&IsosurfaceSettings, &ProgressMessage),
+    settings: &IsosurfaceSettings,
+    told: &ProgressMessage,
 ) -> Result<Vec<(String, Mesh)>, Failure> {
     let mut made = Vec::new();
     for (number, label) in labels.iter().enumerate() {

@@ -32,7 +32,7 @@ pub struct Assignment {
 
 /// How far a trainee is with an assignment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Standing {
+pub struct AssignmentProgress {
     /// Attempts at the task.
     pub attempts: usize,
     /// Passed attempts until it was due.
@@ -43,12 +43,15 @@ pub struct Standing {
 
 impl Assignment {
     /// How far a trainee is with it, whose attempts are `attempts`.
-    pub fn standing<'a>(&self, attempts: impl Iterator<Item = &'a crate::Attempt>) -> Standing {
+    pub fn standing<'a>(
+        &self,
+        attempts: impl Iterator<Item = &'a crate::Attempt>,
+    ) -> AssignmentProgress {
         let own: Vec<_> = attempts.filter(|own| own.task == self.task).collect();
         let passed = own.iter();
         let passed = passed.filter(|own| own.passed == Some(true) && own.when <= self.due);
         let passed = passed.count();
-        Standing {
+        AssignmentProgress {
             attempts: own.len(),
             passed,
             is_done: passed >= self.passes as usize,

@@ -26,7 +26,7 @@ mod schema;
 mod spread;
 
 pub use attempt::{Added, Attempt, Better, Measure};
-pub use class::{Assignment, Cohort, Standing};
+pub use class::{Assignment, AssignmentProgress, Cohort};
 pub use error::Error;
 pub use learning::{CurvePoint, learning_curve};
 pub use proficiency::{IN_A_ROW, Judged, Judgement, Standard, Standards, proficient_since};

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use rusqlite::{Connection, OpenFlags};
 
-use crate::schema::{self, Found, VERSION};
+use crate::schema::{self, DatabaseState, VERSION};
 use crate::{Added, Attempt, Error, aside, rows};
 
 /// How long another program is waited for.
@@ -167,11 +167,11 @@ fn opened(path: &Path, begins: bool) -> Result<Connection, Error> {
     let looked = looked_at(path, begins);
     let path = path.to_owned();
     let error = match looked {
-        Ok((connection, Found::Record)) => return Ok(connection),
-        Ok((_, Found::Nothing)) => Error::Missing { path },
-        Ok((_, Found::Foreign)) => Error::Foreign { path },
-        Ok((_, Found::Damaged(reason))) => Error::Damaged { path, reason },
-        Ok((_, Found::Newer(found))) => Error::Newer {
+        Ok((connection, DatabaseState::Record)) => return Ok(connection),
+        Ok((_, DatabaseState::Nothing)) => Error::Missing { path },
+        Ok((_, DatabaseState::Foreign)) => Error::Foreign { path },
+        Ok((_, DatabaseState::Damaged(reason))) => Error::Damaged { path, reason },
+        Ok((_, DatabaseState::Newer(found))) => Error::Newer {
             path,
             found,
             known: VERSION,
@@ -189,7 +189,7 @@ fn opened(path: &Path, begins: bool) -> Result<Connection, Error> {
 }
 
 /// Opens a file and looks what it is; where it is nothing, a record is begun if that is wanted.
-fn looked_at(path: &Path, begins: bool) -> rusqlite::Result<(Connection, Found)> {
+fn looked_at(path: &Path, begins: bool) -> rusqlite::Result<(Connection, DatabaseState)> {
     let mut flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     if begins {
         flags |= OpenFlags::SQLITE_OPEN_CREATE;
@@ -203,14 +203,14 @@ fn looked_at(path: &Path, begins: bool) -> rusqlite::Result<(Connection, Found)>
     let mut found = schema::look_once(&mut connection)?;
     // A file of a few bytes passes for an empty database, and would be written over. The remains of a record whose
     // beginning was cancelled are long before and empty afterwards.
-    if found == Found::Nothing && was_long && is_long() {
-        found = Found::Damaged("it is no database".to_owned());
+    if found == DatabaseState::Nothing && was_long && is_long() {
+        found = DatabaseState::Damaged("it is no database".to_owned());
     }
-    if found == Found::Nothing && begins {
+    if found == DatabaseState::Nothing && begins {
         schema::begin(&mut connection)?;
         found = schema::look_once(&mut connection)?;
     }
-    if found == Found::Record && begins {
+    if found == DatabaseState::Record && begins {
         schema::upgrade(&mut connection)?;
     }
     Ok((connection, found))

@@ -70,7 +70,7 @@ DROP TABLE attempt_1;
 
 /// What a database is.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Found {
+pub(crate) enum DatabaseState {
     /// Nothing stands in it.
     Nothing,
     /// A record of this version or an earlier one, whole.
@@ -84,41 +84,41 @@ pub(crate) enum Found {
 }
 
 /// What there is, at one moment: a record that another program begins meanwhile is nothing or whole.
-pub(crate) fn look_once(connection: &mut Connection) -> rusqlite::Result<Found> {
+pub(crate) fn look_once(connection: &mut Connection) -> rusqlite::Result<DatabaseState> {
     look(&*connection.transaction()?)
 }
 
-fn look(connection: &Connection) -> rusqlite::Result<Found> {
+fn look(connection: &Connection) -> rusqlite::Result<DatabaseState> {
     let number = |sql: &str| connection.query_row(sql, [], |row| row.get::<_, i64>(0));
     let application = number("PRAGMA application_id")?;
     let version = version(connection)?;
     let objects = number("SELECT count(*) FROM sqlite_schema")?;
     if (application, version, objects) == (0, 0, 0) {
-        return Ok(Found::Nothing);
+        return Ok(DatabaseState::Nothing);
     }
     if application != APPLICATION {
-        return Ok(Found::Foreign);
+        return Ok(DatabaseState::Foreign);
     }
     if version > VERSION {
-        return Ok(Found::Newer(version));
+        return Ok(DatabaseState::Newer(version));
     }
     let said: String = connection.query_row("PRAGMA integrity_check(1)", [], |row| {
         row.get::<_, String>(0)
     })?;
     if said != "ok" {
-        return Ok(Found::Damaged(said.replace('\n', " ")));
+        return Ok(DatabaseState::Damaged(said.replace('\n', " ")));
     }
     let tables = "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name IN ('attempt', 'measure')";
     if version < 1 || number(tables)? != 2 {
-        return Ok(Found::Damaged("its tables are missing".to_owned()));
+        return Ok(DatabaseState::Damaged("its tables are missing".to_owned()));
     }
-    Ok(Found::Record)
+    Ok(DatabaseState::Record)
 }
 
 /// Makes a record of nothing, whole or not at all; somebody else may have been faster.
 pub(crate) fn begin(connection: &mut Connection) -> rusqlite::Result<()> {
     let transaction = Transaction::new(connection, TransactionBehavior::Immediate)?;
-    if look(&transaction)? == Found::Nothing {
+    if look(&transaction)? == DatabaseState::Nothing {
         transaction.execute_batch(TABLES)?;
         transaction.execute_batch(TEACHER)?;
         transaction.pragma_update(None, "application_id", APPLICATION)?;

@@ -42,7 +42,8 @@ pub(super) fn ramp_and_hold(depth: f64) -> History {
 
 /// What is recorded of `forces` [N] over `course`, made ready; the noise is that of `seed`.
 pub(super) fn recorded(
-    (organ, subject): (&str, usize),
+    organ: &str,
+    subject: usize,
     course: &History,
     forces: &[f64],
     seed: u64,

@@ -15,8 +15,8 @@ use std::time::Instant;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use palpate_servo::{
-    AffineForce, Controller, DeviceState, Extrapolator, Hand, HandOver, Histogram, ServoLoop,
-    ServoReader, ServoSettings, Trajectory, Vec3, VirtualDevice, latest,
+    AffineForce, Controller, DeviceState, Extrapolator, HandImpedance, HandOver, Histogram,
+    ServoLoop, ServoReader, ServoSettings, Trajectory, Vec3, VirtualDevice, latest,
 };
 
 const PERIOD: f64 = 1e-3;
@@ -54,7 +54,9 @@ impl Bench {
             amplitude: Vec3::z() * 4e-3,
             frequency: 2.0,
         };
-        let device = VirtualDevice::new(sine).with_hand(Hand::default()).unwrap();
+        let device = VirtualDevice::new(sine)
+            .with_hand(HandImpedance::default())
+            .unwrap();
         let controller = Rendered {
             answers: heard,
             extrapolator: Extrapolator::new(hand_over, 5.0 * PERIOD, PERIOD),

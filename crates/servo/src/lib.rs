@@ -61,7 +61,7 @@ pub use affine_force::AffineForce;
 pub use clock::Clock;
 pub use controller::Controller;
 pub use device::{
-    Capabilities, Command, Device, DeviceState, Disabled, Hand, Next, NoDevice, Pointer,
+    Capabilities, Command, Device, DeviceState, Disabled, HandImpedance, Next, NoDevice, Pointer,
     PointerHand, Scheduler, Tick, Trajectory, VirtualDevice, Waypoint,
 };
 pub use extrapolate::{Extrapolator, HandOver};
@@ -72,7 +72,7 @@ pub use limits::{DeadMan, Guard, Interventions, Limits, OutputForce, Stage};
 pub use memory::{MemoryLock, lock_memory};
 pub use pid::{Pid, PidGains};
 pub use priority::{Priority, lower_priority, raise_model_priority, raise_priority};
-pub use report::{LoopReport, measure_lateness};
+pub use report::LoopReport;
 pub use sample::Sample;
 pub use servo_loop::{ServoLoop, ServoReader};
 pub use servo_settings::ServoSettings;

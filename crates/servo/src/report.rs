@@ -1,10 +1,6 @@
 //! How good the touch was: what a loop measured of itself.
 
-use crate::clock::Clock;
-use crate::{
-    Controller, Disabled, Fault, Histogram, Interventions, NoDevice, Percentiles, Priority, Sample,
-    ServoLoop, ServoSettings, Vec3,
-};
+use crate::{Disabled, Fault, Histogram, Interventions, Percentiles, Priority, Sample, Vec3};
 
 /// What a servo loop measured of itself. Lateness and work say nothing on a virtual clock.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
@@ -106,31 +102,4 @@ impl Meter {
             ..LoopReport::default()
         }
     }
-}
-
-/// Runs a loop without a device at `rate` [Hz] for `duration` [s] on this machine, at the best priority
-/// that it gives: how late ticks are here.
-///
-/// # Errors
-/// When a number is not above zero, or there is no thread.
-pub fn measure_lateness(rate: f64, duration: f64) -> Result<LoopReport, Fault> {
-    let period = 1.0 / rate;
-    let spring = |state: &crate::DeviceState, _: f64| -state.position;
-    let controller: Box<dyn Controller> = Box::new(spring);
-    let settings = ServoSettings {
-        period,
-        ..ServoSettings::default()
-    };
-    let device = Box::new(NoDevice::new(Vec3::zeros()));
-    let (servo, _reader) = ServoLoop::new(device, controller, settings)?;
-    let ticks = (duration * rate).ceil() as u64;
-    let thread = std::thread::Builder::new().name("servo".to_owned());
-    let run = move || {
-        let mut servo = servo;
-        servo.raise_priority();
-        let mut clock = Clock::real();
-        servo.run(&mut clock, |tick| tick < ticks)
-    };
-    let handle = thread.spawn(run).map_err(|_| Fault::NoThread)?;
-    handle.join().map_err(|_| Fault::Panicked)
 }

@@ -131,11 +131,6 @@ impl ServoLoop {
         Ok((servo, reader))
     }
 
-    /// Time from tick to tick [s].
-    pub fn period(&self) -> f64 {
-        self.period
-    }
-
     /// The scheduler of the device, from whose thread it has to be ticked; none for one that any thread may tick.
     pub fn scheduler(&self) -> Option<Box<dyn Scheduler>> {
         self.device.scheduler()
@@ -238,7 +233,7 @@ impl ServoLoop {
         let mut sample = self.control(time, state, &permission);
         sample.held = held;
         self.meter.tick(&sample, lateness);
-        self.tell(sample);
+        self.publish(sample);
         if self.number.is_multiple_of(self.ticks_per_report()) {
             self.report.send(self.report());
         }
@@ -374,7 +369,7 @@ impl ServoLoop {
         Vec3::zeros()
     }
 
-    fn tell(&mut self, sample: Sample) {
+    fn publish(&mut self, sample: Sample) {
         self.last = Some(sample);
         self.latest.send(Some(sample));
         self.log.add(sample);
@@ -396,7 +391,7 @@ impl ServoLoop {
             (sample.held, sample.commanded, sample.sent) = (none, none, none);
             (sample.added, sample.compensation) = (none, none);
             sample.stage = Stage::Faulted(fault);
-            self.tell(sample);
+            self.publish(sample);
         }
         self.report.send(self.report());
         fault

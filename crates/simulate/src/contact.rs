@@ -13,7 +13,7 @@
 
 use nalgebra::{Matrix3, Rotation3};
 use palpate_geometry::{
-    AabbTree, ContactPoint, Nearest, PatchField, Surface, Vec3, follow, settle,
+    AabbTree, ContactPoint, Nearest, PatchField, Surface, Vec3, follow, project_contact_point,
 };
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_spheres::{LocalContact, Placement, Surroundings, first_direction};
@@ -184,7 +184,7 @@ fn detect_after(
     };
     let (below, signed) = depth_of_tip(ground, &contact_point, tip);
     let run = (contact_point.point - last.contact_point.point).norm();
-    let depth = creep(last, (tool.overhang() + below, signed), (tip, run));
+    let depth = limit_depth_rate(last, tool.overhang() + below, signed, tip, run);
     if depth > PASSED_THROUGH && signed > tool.overhang() {
         return None;
     }
@@ -235,23 +235,24 @@ fn go_on_elsewhere(
     tip: &Vec3,
 ) -> Option<Contact> {
     if tool.slides() {
-        contact.depth = creep(last, (contact.depth, contact.signed), (tip, 0.0));
+        contact.depth = limit_depth_rate(last, contact.depth, contact.signed, tip, 0.0);
     }
     (contact.depth > 0.0).then_some(contact)
 }
 
 /// Largest change of depth per travel of a tip along the surface, in parts of the depth [1/m]: 2.5 %
 /// in a tenth of a millimetre.
-const FASTEST_CREEP: f64 = 250.0;
+const LARGEST_DEPTH_RATE: f64 = 250.0;
 
 /// The depth that follows `last` when `measured` [m] is measured at `tip` [m]. Where the surface that is
 /// touched becomes another one the measure leaps; the depth goes there as fast as the tip comes nearer
 /// to the surface or goes away from it, and by a small part of itself along it: by half of that part while
 /// the touched point runs twice as fast as the tip, by `run` [m], for then the organ under it changes as well.
-fn creep(last: &Contact, (measured, signed): (f64, f64), (tip, run): (&Vec3, f64)) -> f64 {
+fn limit_depth_rate(last: &Contact, measured: f64, signed: f64, tip: &Vec3, run: f64) -> f64 {
     let travel = (tip - last.tip).norm();
     let slid = travel - 0.5 * (run - travel).clamp(0.0, travel);
-    let most = (signed - last.signed).abs() + FASTEST_CREEP * last.depth * slid + 0.05 * travel;
+    let most =
+        (signed - last.signed).abs() + LARGEST_DEPTH_RATE * last.depth * slid + 0.05 * travel;
     measured.clamp(last.depth - most, last.depth + most)
 }
 
@@ -300,7 +301,8 @@ fn begin(
     };
     // The nearest point of a mesh leaps at its edges; the point under the averaged normal does not.
     let normals = ground.patches.vertex_normals();
-    let contact_point = settle(ground.surface, normals, &found, tip).unwrap_or(found);
+    let contact_point =
+        project_contact_point(ground.surface, normals, &found, tip).unwrap_or(found);
     Some(Contact {
         contact_point,
         place: place(ground, tool, (&contact_point, depth), None),
@@ -356,7 +358,7 @@ pub(crate) fn place(
         curvature,
         triangle: contact_point.triangle,
         radius: tool.tip.beside(mean).contact_radius(depth),
-        surroundings: surroundings(ground, tool, (contact_point, &frame)),
+        surroundings: surroundings(ground, tool, contact_point, &frame),
         // As the calibrated model has it: held as a hemisphere of its volume is.
         thickness: ground.radius,
     }
@@ -366,7 +368,8 @@ pub(crate) fn place(
 fn surroundings(
     ground: &RestSurface<'_>,
     tool: &Tool,
-    (contact_point, frame): (&ContactPoint, &Matrix3<f64>),
+    contact_point: &ContactPoint,
+    frame: &Matrix3<f64>,
 ) -> Surroundings {
     let Some(at) = ground.further else {
         return tool.model.by_volume(ground.radius);

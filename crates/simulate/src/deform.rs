@@ -8,7 +8,8 @@ use crate::simulation::Simulation;
 use crate::state::{SimulationState, SimulationWorkspace};
 
 pub(crate) fn deform(
-    (simulation, time): (&Simulation, f64),
+    simulation: &Simulation,
+    time: f64,
     state: &mut SimulationState,
     workspace: &mut SimulationWorkspace,
 ) {
@@ -19,7 +20,7 @@ pub(crate) fn deform(
     workspace.refit.clear();
     let turn = workspace.next_turn();
     mark_for_refit(simulation, state, workspace, turn);
-    lay_to_rest(simulation, state);
+    return_to_rest(simulation, state);
     for number in 0..simulation.tools.len() {
         press(simulation, number, state, workspace);
     }
@@ -27,7 +28,7 @@ pub(crate) fn deform(
     state.tree.refit(&state.deformed, &workspace.refit);
 }
 
-fn lay_to_rest(simulation: &Simulation, state: &mut SimulationState) {
+fn return_to_rest(simulation: &Simulation, state: &mut SimulationState) {
     let rest = simulation.surface.mesh().vertices();
     for node in state.moved.0.drain(..) {
         state.deformed.move_vertex(node, rest[node.index()]);

@@ -91,5 +91,5 @@ pub use summary::{CutSummary, LayerCut, StepTimes, Summary};
 pub use target::check_target;
 pub use tool::Tool;
 pub use trocar::{ShaftFriction, Trocar};
-pub use tutor::{Ghost, Guidance, HeldTool, Stray, Tutor};
+pub use tutor::{Ghost, Tutor};
 pub use variant::draw_variant;

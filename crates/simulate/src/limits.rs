@@ -73,13 +73,13 @@ impl LimitCounts {
                 self.steps_limited(limit),
                 self.steps
             );
-            Some(sentence(limit, &reached, (tool, &when)))
+            Some(sentence(limit, &reached, tool, &when))
         });
         limits.chain(jumps).chain(gains)
     }
 }
 
-fn sentence(limit: Limit, reached: &Reached, (tool, when): (&str, &str)) -> String {
+fn sentence(limit: Limit, reached: &Reached, tool: &str, when: &str) -> String {
     let Reached { asked, used } = *reached;
     let lacks = too_low(used / asked);
     let times = match asked.is_finite() {

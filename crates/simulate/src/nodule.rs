@@ -25,10 +25,7 @@ use palpate_geometry::{AabbTree, Surface, Vec3};
 use crate::Error;
 
 /// Refuses balls whose middle is not in the organ.
-pub(crate) fn check(
-    nodules: &[Nodule],
-    (surface, tree): (&Surface, &AabbTree),
-) -> Result<(), Error> {
+pub(crate) fn check(nodules: &[Nodule], surface: &Surface, tree: &AabbTree) -> Result<(), Error> {
     for (number, nodule) in nodules.iter().enumerate() {
         let (_, outside) = surface.signed_distance(tree, &Vec3::from(nodule.center_m));
         if outside > 0.0 {

@@ -104,10 +104,10 @@ pub fn play<E: From<Error>>(
         };
         if observe(&frame)? == Flow::Stop {
             let interrupted = number + 1 < steps;
-            return Ok(tally.finish((simulation, &state, &workspace), interrupted));
+            return Ok(tally.finish(simulation, &state, &workspace, interrupted));
         }
     }
-    Ok(tally.finish((simulation, &state, &workspace), false))
+    Ok(tally.finish(simulation, &state, &workspace, false))
 }
 
 fn match_tools<'m>(

@@ -26,7 +26,8 @@ pub fn read_inclusion(inclusion: &InclusionPlace) -> Result<(RegionPlace, Vec<St
 pub(crate) fn read_regions(
     organ: &Organ,
     with_layers: bool,
-    (surface, tree): (&Surface, &AabbTree),
+    surface: &Surface,
+    tree: &AabbTree,
 ) -> Result<(RegionMap, Vec<String>), Error> {
     let layers = organ.layers.iter().filter(|_| with_layers);
     let mut places: Vec<RegionPlace> = layers

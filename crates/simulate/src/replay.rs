@@ -1,7 +1,7 @@
 //! A session played again: the same hands on the same organ give the same forces, to the last bit.
 //!
 //! A row has where its tool was; that it was gone (`lifted`), that a cut was taken back (`undo_cut`) and that all
-//! began anew (`begin_anew`) are events. Rows of one time are one step, as long as the time between them.
+//! began anew (`reset`) are events. Rows of one time are one step, as long as the time between them.
 //!
 //! *How we know*: `replay::what_was_felt_is_felt_again`, `replay::going_back_is_exact`,
 //! `replay::states_from_ahead_are_those_of_the_session`.
@@ -174,7 +174,7 @@ impl Replay {
         let mut before = self.played.checked_sub(1).map(|last| course.time(last));
         let happened = |event| rows.iter().any(|row| row.events.contains(event));
         if happened(Event::BeginAnew) {
-            self.state.begin_anew(&course.simulation);
+            self.state.reset(&course.simulation);
             before = None;
         }
         if happened(Event::UndoCut) {

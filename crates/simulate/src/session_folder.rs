@@ -132,7 +132,8 @@ impl SessionFolder {
     /// When there is a session in the folder that may not be replaced, or a file cannot be written.
     pub fn create(
         folder: Claim,
-        (scene, simulation): (&Scene, &Simulation),
+        scene: &Scene,
+        simulation: &Simulation,
     ) -> Result<SessionFolderWriter, Error> {
         let names: Vec<_> = simulation.tools().iter().map(|t| t.name.clone()).collect();
         let header = simulation.session_header();

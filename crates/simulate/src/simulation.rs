@@ -75,12 +75,12 @@ impl Simulation {
         warnings.extend(material.warnings.iter().cloned());
         let tree = AabbTree::new(surface.mesh());
         for tool in &scene.tools {
-            trocar::check(tool, (&surface, &tree))?;
+            trocar::check(tool, &surface, &tree)?;
         }
-        nodule::check(&scene.organ.nodules, (&surface, &tree))?;
+        nodule::check(&scene.organ.nodules, &surface, &tree)?;
         target::check_line(scene, &surface, &tree)?;
         let is_nonlinear = scene.model.kind == ModelKind::Nonlinear;
-        let (map, more) = read_regions(&scene.organ, is_nonlinear, (&surface, &tree))?;
+        let (map, more) = read_regions(&scene.organ, is_nonlinear, &surface, &tree)?;
         warnings.extend(more);
         let enclosed: Vec<Surface> = map.enclosed().cloned().collect();
         let regions = match scene.model.kind {
@@ -97,13 +97,13 @@ impl Simulation {
             .tools
             .iter()
             .zip(&touched)
-            .map(|(tool, (_, own))| Tool::new(tool, settings, &own.at_rest, (&surface, &tree)))
+            .map(|(tool, (_, own))| Tool::new(tool, settings, &own.at_rest, &surface, &tree))
             .collect::<Result<Vec<_>, _>>()?;
         let global = match scene.model.kind {
             ModelKind::Local | ModelKind::Nonlinear => None,
             ModelKind::Hybrid => {
                 let problem = GlobalProblem::new(scene, &surface, &material.at_rest)?;
-                let (global, more) = problem.solve((scene, &surface), resources, watch)?;
+                let (global, more) = problem.solve(scene, &surface, resources, watch)?;
                 warnings.extend(more);
                 tools
                     .iter_mut()

@@ -176,7 +176,7 @@ impl SimulationState {
 
     /// The organ at rest and whole, as if nothing had been touched yet. It allocates nothing, so that a model in real time
     /// may do it between two steps.
-    pub fn begin_anew(&mut self, simulation: &Simulation) {
+    pub fn reset(&mut self, simulation: &Simulation) {
         let Self {
             tools,
             deformed,
@@ -205,33 +205,21 @@ impl SimulationState {
             moved.0.clear();
         }
         if let Some(whole) = whole {
-            whole.lay_to_rest();
+            whole.return_to_rest();
         }
         if let (Some(body), Some(organ)) = (body, &simulation.nonlinear) {
             body.begin_anew(organ);
         }
         if let Some(cuts) = cuts {
-            cuts.begin_anew();
+            cuts.reset();
         }
         *energy = EnergyAccount::default();
         *shown_deformed = false;
         (*shown_at, *cuts_shown_at) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
     }
 
-    /// Other stiff balls than those of the scene: one model serves organs that differ in nothing else.
-    ///
-    /// # Errors
-    /// When the middle of one is not in the organ.
-    pub fn with_nodules(
-        mut self,
-        simulation: &Simulation,
-        nodules: &[Nodule],
-    ) -> Result<Self, Error> {
-        self.set_nodules(simulation, nodules)?;
-        Ok(self)
-    }
-
-    /// The same in place; after an error nothing has changed.
+    /// Replaces the stiff balls of the scene: one model serves organs that differ in nothing else. After an error
+    /// nothing has changed.
     ///
     /// # Errors
     /// When the middle of one is not in the organ.
@@ -240,7 +228,7 @@ impl SimulationState {
         simulation: &Simulation,
         nodules: &[Nodule],
     ) -> Result<(), Error> {
-        nodule::check(nodules, (&simulation.surface, &simulation.tree))?;
+        nodule::check(nodules, &simulation.surface, &simulation.tree)?;
         self.nodules.clear();
         self.nodules.extend_from_slice(nodules);
         Ok(())

@@ -52,11 +52,11 @@ pub fn touch(
         let pose = poses.get(number).copied().flatten();
         let own = &mut state.tools[number];
         let jumps = hand_speed::follow(simulation, pose.as_ref(), elapsed, own);
-        let tip = at_rest(simulation, (number, pose.as_ref()), state);
+        let tip = at_rest(simulation, number, pose.as_ref(), state);
         let own = &mut state.tools[number];
-        own.row.events = jumps | detect(simulation, tool, (pose, tip), own);
+        own.row.events = jumps | detect(simulation, tool, pose, tip, own);
         if let (Some(model), Some(cuts)) = (&simulation.cutting, &state.cuts) {
-            cutting::lead(simulation, (model, cuts), number, own);
+            cutting::track_blade(simulation, model, cuts, number, own);
         }
     }
     respond(simulation, elapsed, state, workspace);
@@ -64,10 +64,10 @@ pub fn touch(
     grip::act(simulation, elapsed, state, workspace);
     for (number, tool) in simulation.tools.iter().enumerate() {
         let own = &mut state.tools[number];
-        let failed = feel(simulation, tool, (time, elapsed), own);
+        let failed = render_force(simulation, tool, time, elapsed, own);
         neighbour::press(simulation, number, state);
         let own = &mut state.tools[number];
-        record(simulation, tool, (time, failed), own);
+        record(simulation, tool, time, failed, own);
         if own.touches() {
             own.limits.count(&own.limited);
         }
@@ -115,19 +115,20 @@ fn move_surface(
     workspace: &mut SimulationWorkspace,
 ) {
     if let (Some(global), Some(workspace)) = (&simulation.global, &mut workspace.global) {
-        global.deform((simulation, time), state, workspace);
+        global.deform(simulation, time, state, workspace);
     } else if let (Some(organ), Some(workspace)) = (&simulation.nonlinear, &mut workspace.nonlinear)
     {
         organ.deform((simulation, time), state, workspace);
     } else {
-        deform::deform((simulation, time), state, workspace);
+        deform::deform(simulation, time, state, workspace);
     }
 }
 
 /// Where a tip is beside the organ at rest [m], which only the nonlinear model moves under it; none where it is clear.
 fn at_rest(
     simulation: &Simulation,
-    (number, pose): (usize, Option<&Pose>),
+    number: usize,
+    pose: Option<&Pose>,
     state: &SimulationState,
 ) -> Option<Vec3> {
     let tip = Vec3::from(pose?.position_m);
@@ -141,7 +142,8 @@ fn at_rest(
 fn detect(
     simulation: &Simulation,
     tool: &Tool,
-    (pose, tip): (Option<Pose>, Option<Vec3>),
+    pose: Option<Pose>,
+    tip: Option<Vec3>,
     state: &mut ToolState,
 ) -> Events {
     let touched = state.touches();
@@ -173,7 +175,7 @@ fn detect(
 impl ToolState {
     /// Relaxes while the tool was not there; how long its way into the tissue took [s]. What happens while a
     /// tool is away follows from its rows alone, so that a session can be played again.
-    fn come_back(&mut self, simulation: &Simulation, (time, elapsed): (f64, f64)) -> f64 {
+    fn re_enter(&mut self, simulation: &Simulation, time: f64, elapsed: f64) -> f64 {
         if !std::mem::take(&mut self.is_away) {
             return elapsed;
         }
@@ -254,14 +256,15 @@ fn find_nodules(simulation: &Simulation, state: &mut SimulationState) {
 }
 
 /// 4. The force on the tool: elastic, then relaxed; only jaws are pulled.
-fn feel(
+fn render_force(
     simulation: &Simulation,
     tool: &Tool,
-    (time, elapsed): (f64, f64),
+    time: f64,
+    elapsed: f64,
     state: &mut ToolState,
 ) -> Events {
     let elapsed = match state.pose {
-        Some(_) => state.come_back(simulation, (time, elapsed)),
+        Some(_) => state.re_enter(simulation, time, elapsed),
         None => {
             state.is_away = true;
             0.0
@@ -336,17 +339,12 @@ fn answer(tool: &Tool, state: &mut ToolState) {
     state.limited = response.limits;
     state.limited.merge(&answer.limits);
     if !answer.force.iter().all(|component| component.is_finite()) {
-        // `feel` tells; the surface stays where it is.
+        // `render_force` tells; the surface stays where it is.
         state.response = None;
     }
 }
 
-fn record(
-    simulation: &Simulation,
-    tool: &Tool,
-    (time, failed): (f64, Events),
-    state: &mut ToolState,
-) {
+fn record(simulation: &Simulation, tool: &Tool, time: f64, failed: Events, state: &mut ToolState) {
     let Some(pose) = &state.pose else {
         return;
     };

@@ -121,7 +121,9 @@ impl Tally {
 
     pub(crate) fn finish(
         mut self,
-        (simulation, state, workspace): (&Simulation, &SimulationState, &SimulationWorkspace),
+        simulation: &Simulation,
+        state: &SimulationState,
+        workspace: &SimulationWorkspace,
         interrupted: bool,
     ) -> Summary {
         let mut warnings = simulation.warnings().to_vec();

@@ -32,7 +32,7 @@ pub(crate) fn stiffen(
         let stiffening = match known {
             Some(known) => known,
             None => {
-                let stiffening = of(tissue, material, (tip, bond), at_step)?;
+                let stiffening = of(tissue, material, tip, bond, at_step)?;
                 found.push((tip, bond, tissue.elasticity, stiffening.clone()));
                 stiffening
             }
@@ -52,11 +52,12 @@ pub(crate) fn stiffen(
 fn of(
     tissue: &Tissue,
     material: &Material,
-    (tip, bond): (Tip, Friction),
+    tip: Tip,
+    bond: Friction,
     at_step: &mut dyn FnMut(f64),
 ) -> Result<Stiffening, Error> {
     match tissue.elasticity.law() {
         LawName::NeoHookean => Ok(Stiffening::neo_hookean(tip, bond)),
-        _ => Ok(Stiffening::of(material, (tip, bond), at_step)?),
+        _ => Ok(Stiffening::of(material, tip, bond, at_step)?),
     }
 }

@@ -5,8 +5,7 @@ use palpate_files::scene::{self, ToolKind};
 use palpate_geometry::{AabbTree, PatchField, Surface, TriangleMesh, Vec3, read_mesh};
 use palpate_mechanics::contact::{Friction, Tip};
 use palpate_mechanics::finite_spheres::{
-    Assembly, Calibration, FiniteSphereModel, FiniteSphereSettings, Form, Integration, Placement,
-    Solver,
+    Calibration, FiniteSphereModel, FiniteSphereSettings, Integration, Placement, Solver,
 };
 use palpate_mechanics::surface_response::TipField;
 use palpate_mechanics::{LinearElastic, TipLaw};
@@ -60,7 +59,8 @@ impl Tool {
         tool: &scene::Tool,
         settings: FiniteSphereSettings,
         law: &LinearElastic,
-        (surface, tree): (&Surface, &AabbTree),
+        surface: &Surface,
+        tree: &AabbTree,
     ) -> Result<Self, Error> {
         let bond = match tool.tip.contact {
             scene::TipContact::Stick => Friction::Bonded,
@@ -144,24 +144,15 @@ fn look(tool: &scene::Tool) -> Result<Option<Arc<TriangleMesh>>, Error> {
 pub(crate) fn settings(local: &scene::LocalSettings) -> FiniteSphereSettings {
     FiniteSphereSettings {
         particles: local.particles,
-        form: match local.form {
-            scene::Form::Weak => Form::Weak,
-            scene::Form::Strong => Form::Strong,
-        },
-        placement: match local.placement {
-            scene::Placement::Template => Placement::Template,
-            scene::Placement::Source => Placement::Source,
-        },
+        form: local.form,
+        placement: local.placement,
         solver: match local.solver {
             scene::Solver::Direct => Solver::Direct,
             scene::Solver::Gmres => Solver::Gmres {
                 tolerance: GMRES_TOLERANCE,
             },
         },
-        assembly: match local.assembly {
-            scene::Assembly::EveryStep => Assembly::EveryStep,
-            scene::Assembly::Reused => Assembly::Reused,
-        },
+        assembly: local.assembly,
         calibration: match local.calibration {
             scene::Calibration::Fitted => Calibration::Fitted,
             scene::Calibration::None => Calibration::None,

@@ -169,7 +169,7 @@ impl ShaftFriction {
 }
 
 /// A trocar lies outside the organ.
-pub(crate) fn check(tool: &Tool, (surface, tree): (&Surface, &AabbTree)) -> Result<(), Error> {
+pub(crate) fn check(tool: &Tool, surface: &Surface, tree: &AabbTree) -> Result<(), Error> {
     let Some(place) = tool.trocar_m else {
         return Ok(());
     };

@@ -1,5 +1,5 @@
-//! An expert's session beside a trainee: how far the trainee has come on the expert's way, where the expert's
-//! tools were a little later, and whether the force is one that the expert used there.
+//! An expert's session that a trainee follows: how far the trainee has come along the expert's path, and where the
+//! expert's tools were a little later.
 //!
 //! The expert's way is followed forth, never back: of the expert's next seconds that moment counts at which
 //! all tools were nearest to the trainee's, a little dearer the later it is. So a trainee may take more time
@@ -12,9 +12,6 @@
 use palpate_files::{Event, Session};
 use palpate_geometry::Vec3;
 
-use crate::SimulationState;
-use crate::interactive::Snapshot;
-
 /// Seconds of the expert's that are looked through from where the trainee is [s].
 const AHEAD: f64 = 3.0;
 
@@ -23,11 +20,6 @@ const LEAD: f64 = 0.5;
 
 /// What a second further on costs, as if the tools were so far apart [m/s].
 const DEARER: f64 = 2e-3;
-
-/// The expert's forces within this time make the band [s], which has so much room below and above [-] [N].
-const AROUND: f64 = 0.5;
-const ROOM: f64 = 0.3;
-const LEAST_ROOM: f64 = 0.05;
 
 /// Between the expert's moments that are kept [s].
 const APART: f64 = 0.02;
@@ -43,7 +35,7 @@ pub struct Tutor {
 #[derive(Debug, Clone)]
 struct Moment {
     time: f64,
-    tools: Vec<Option<(Ghost, f64)>>,
+    tools: Vec<Option<Ghost>>,
 }
 
 /// Where an expert's tool was.
@@ -56,31 +48,6 @@ pub struct Ghost {
     /// From 0, open, to 1, shut [-].
     pub grip: f64,
 }
-
-/// What an expert has to say.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Guidance {
-    /// The part of the expert's time that the trainee has come to [-].
-    pub progress: f64,
-    /// Where the expert's tools were a little later, one per tool of the scene.
-    pub ghosts: Vec<Option<Ghost>>,
-    /// The forces that the expert used there [N]: least and largest, with some room.
-    pub bands: Vec<Option<[f64; 2]>>,
-    /// Which tools press otherwise.
-    pub strays: Vec<Option<Stray>>,
-}
-
-/// How a force leaves its band.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Stray {
-    /// Harder than the expert.
-    Above,
-    /// More gently than the expert.
-    Below,
-}
-
-/// A trainee's tool: its tip [m] and the force on it [N]; none while nobody holds it.
-pub type HeldTool = Option<([f64; 3], f64)>;
 
 impl Tutor {
     /// An expert's `session` for a scene with tools of those names; none if it has no row of any of them.
@@ -101,13 +68,10 @@ impl Tutor {
                     tools: vec![None; tools.len()],
                 });
             }
-            let held = (!row.events.contains(Event::Lifted)).then(|| {
-                let ghost = Ghost {
-                    position: row.position_m,
-                    orientation: row.orientation,
-                    grip: row.grip,
-                };
-                (ghost, Vec3::from(row.force_n).norm())
+            let held = (!row.events.contains(Event::Lifted)).then_some(Ghost {
+                position: row.position_m,
+                orientation: row.orientation,
+                grip: row.grip,
             });
             if let Some(moment) = moments.last_mut() {
                 // The first row of a moment counts.
@@ -119,95 +83,35 @@ impl Tutor {
     }
 
     /// From the beginning again.
-    pub fn begin_anew(&mut self) {
+    pub fn reset(&mut self) {
         self.at = 0;
     }
 
-    /// Follows the trainee's tools, in the order of the scene.
-    pub fn follow(&mut self, held: &[HeldTool]) -> Guidance {
+    /// Where the expert's tools were a little after the moment to which the trainee's have come. `tips` [m] are in
+    /// the order of the scene's tools; none while nobody holds one.
+    pub fn follow(&mut self, tips: &[Option<[f64; 3]>]) -> Vec<Option<Ghost>> {
         let now = self.moments[self.at].time;
         let ahead = self.moments[self.at..].iter();
         let near = ahead.take_while(|moment| moment.time <= now + AHEAD);
-        let costs = near.map(|moment| moment.distance(held) + DEARER * (moment.time - now));
+        let costs = near.map(|moment| moment.distance(tips) + DEARER * (moment.time - now));
         let nearest = costs
             .enumerate()
             .min_by(|(_, one), (_, other)| one.total_cmp(other));
         self.at += nearest.map_or(0, |(further, _)| further);
         let now = self.moments[self.at].time;
-        let (first, last) = (
-            self.moments[0].time,
-            self.moments[self.moments.len() - 1].time,
-        );
         let later = self.moments[self.at..]
             .iter()
             .find(|moment| moment.time >= now + LEAD);
         let later = later.unwrap_or(&self.moments[self.moments.len() - 1]);
-        let bands: Vec<_> = (0..held.len()).map(|tool| self.band(tool, now)).collect();
-        let strays = held.iter().zip(&bands).map(|(held, band)| {
-            let ((_, force), [low, high]) = ((*held)?, (*band)?);
-            match force {
-                force if force > high => Some(Stray::Above),
-                force if force < low => Some(Stray::Below),
-                _ => None,
-            }
-        });
-        Guidance {
-            progress: if last > first {
-                (now - first) / (last - first)
-            } else {
-                1.0
-            },
-            ghosts: later
-                .tools
-                .iter()
-                .map(|tool| tool.map(|(ghost, _)| ghost))
-                .collect(),
-            strays: strays.collect(),
-            bands,
-        }
-    }
-
-    /// As [`Self::follow`], of what there is to see.
-    pub fn follow_snapshot(&mut self, seen: &Snapshot) -> Guidance {
-        let held = seen
-            .tools
-            .iter()
-            .map(|tool| Some((tool.pose?.position_m, tool.force.norm())));
-        self.follow(&held.collect::<Vec<_>>())
-    }
-
-    /// As [`Self::follow`], of a state.
-    pub fn follow_state(&mut self, state: &SimulationState) -> Guidance {
-        let held = state
-            .tools
-            .iter()
-            .map(|tool| Some((tool.pose?.position_m, tool.force.norm())));
-        self.follow(&held.collect::<Vec<_>>())
-    }
-
-    fn band(&self, tool: usize, now: f64) -> Option<[f64; 2]> {
-        let around = self
-            .moments
-            .iter()
-            .filter(|moment| (moment.time - now).abs() <= AROUND);
-        let forces = around.filter_map(|moment| Some(moment.tools.get(tool)?.as_ref()?.1));
-        let found = forces.fold(None, |band: Option<[f64; 2]>, force| {
-            let [low, high] = band.unwrap_or([force, force]);
-            Some([low.min(force), high.max(force)])
-        });
-        found.map(|[low, high]| {
-            let low = (1.0 - ROOM) * low - LEAST_ROOM;
-            [low.max(0.0), (1.0 + ROOM) * high + LEAST_ROOM]
-        })
+        later.tools.clone()
     }
 }
 
 impl Moment {
     /// How far the tools are from a trainee's [m]; a tool that only one of them holds does not count.
-    fn distance(&self, held: &[HeldTool]) -> f64 {
-        let both = self.tools.iter().zip(held).filter_map(|(own, held)| {
-            let ((ghost, _), (position, _)) = (own.as_ref()?, held.as_ref()?);
-            Some((Vec3::from(ghost.position) - Vec3::from(*position)).norm_squared())
+    fn distance(&self, tips: &[Option<[f64; 3]>]) -> f64 {
+        let both = self.tools.iter().zip(tips).filter_map(|(own, tip)| {
+            Some((Vec3::from(own.as_ref()?.position) - Vec3::from(*tip.as_ref()?)).norm_squared())
         });
         both.sum::<f64>().sqrt()
     }

@@ -60,7 +60,7 @@ impl Camera {
 
     /// From the scene to clip coordinates of a picture of the given width over height, between the
     /// distances `near` and `far` [m]; depth goes from 0 to 1.
-    pub(crate) fn view_projection(&self, aspect: f64, (near, far): (f64, f64)) -> Matrix4<f64> {
+    pub(crate) fn view_projection(&self, aspect: f64, near: f64, far: f64) -> Matrix4<f64> {
         let turn = self.eye_frame();
         let shift = -(turn * self.eye);
         let mut view = turn.to_homogeneous();

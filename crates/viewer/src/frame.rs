@@ -83,7 +83,7 @@ impl Studio {
             opened: OpenedSnapshot::default(),
             beside: Vec::new(),
             view: View {
-                camera: scene_camera(&scene.view, (mesh, None), aspect),
+                camera: scene_camera(&scene.view, mesh, None, aspect),
                 shading: scene.view.shading,
                 looks: Looks::ALL,
                 reach: (high - low).norm(),
@@ -227,7 +227,8 @@ impl FrameWriter {
     pub fn new(
         scene: &Scene,
         simulation: &Simulation,
-        (folder, wanted): (&Path, u64),
+        folder: &Path,
+        wanted: u64,
     ) -> Result<Self, Error> {
         Ok(Self {
             studio: Studio::new(scene, simulation, FRAME_SIZE)?,
@@ -239,11 +240,11 @@ impl FrameWriter {
 
     /// From the side of the organ where `place` [m] is, unless the scene says where the eye is.
     #[must_use]
-    pub fn facing(mut self, (scene, simulation): (&Scene, &Simulation), place: &Vec3) -> Self {
+    pub fn facing(mut self, scene: &Scene, simulation: &Simulation, place: &Vec3) -> Self {
         let (width, height) = FRAME_SIZE;
         let mesh = simulation.surface().mesh();
         let aspect = f64::from(width) / f64::from(height);
-        self.studio.view.camera = scene_camera(&scene.view, (mesh, Some(place)), aspect);
+        self.studio.view.camera = scene_camera(&scene.view, mesh, Some(place), aspect);
         self
     }
 

@@ -19,7 +19,7 @@ pub struct OpenedSurface {
 
 impl OpenedSurface {
     /// Of `cut` in `surface`, whose vertices are at `moved` [m], with openings up to `width` wide [m].
-    pub fn new(cut: &CutSurface, (surface, moved): (&Surface, &[Vec3]), width: f64) -> Self {
+    pub fn new(cut: &CutSurface, surface: &Surface, moved: &[Vec3], width: f64) -> Self {
         let rims = rims(cut);
         let mut places = Vec::new();
         cut.place(surface, moved, 0.0, &mut places);

@@ -63,7 +63,7 @@ impl Orbit {
     }
 
     /// The same organ with `place` [m] before it: from there if it would be hidden, and else as it is.
-    fn before_place(self, place: &Vec3, (mesh, aspect): (&TriangleMesh, f64)) -> Self {
+    fn before_place(self, place: &Vec3, mesh: &TriangleMesh, aspect: f64) -> Self {
         let out = place - self.target;
         let [_, _, back] = self.camera().axes();
         if out.dot(&back) >= 0.0 {
@@ -116,7 +116,7 @@ impl Orbit {
     }
 
     /// Where the line of sight meets the organ, from the target towards the eye [m]; zero where it does not.
-    pub fn before(&self, (mesh, tree): (&TriangleMesh, &AabbTree)) -> f64 {
+    pub fn before(&self, mesh: &TriangleMesh, tree: &AabbTree) -> f64 {
         let [_, _, back] = self.camera().axes();
         let (low, high) = mesh.bounds();
         let far = self.distance + (high - low).norm();
@@ -146,12 +146,13 @@ impl Orbit {
 /// The camera that a scene asks for; what it does not say frames `mesh`, from the side of `place` [m].
 pub fn scene_camera(
     view: &scene::View,
-    (mesh, place): (&TriangleMesh, Option<&Vec3>),
+    mesh: &TriangleMesh,
+    place: Option<&Vec3>,
     aspect: f64,
 ) -> Camera {
     let orbit = Orbit::framing(mesh, view.field_of_view_rad, aspect);
     let framing = match place {
-        Some(place) => orbit.before_place(place, (mesh, aspect)).camera(),
+        Some(place) => orbit.before_place(place, mesh, aspect).camera(),
         None => orbit.camera(),
     };
     let target = view.target_m.map_or(framing.target, Vec3::from);
@@ -168,7 +169,7 @@ pub fn scene_camera(
 
 /// The endoscope that a scene asks for: from its eye if it says where that is, else before the organ.
 pub fn scene_endoscope(view: &scene::View, mesh: &TriangleMesh, aspect: f64) -> Camera {
-    let camera = scene_camera(view, (mesh, None), aspect);
+    let camera = scene_camera(view, mesh, None, aspect);
     if view.eye_m.is_some() {
         let distance = camera.distance();
         return Camera {
@@ -183,7 +184,7 @@ pub fn scene_endoscope(view: &scene::View, mesh: &TriangleMesh, aspect: f64) -> 
         target: camera.target,
         ..Orbit::framing(mesh, view.field_of_view_rad, aspect)
     };
-    orbit.endoscope(orbit.before((mesh, &AabbTree::new(mesh))))
+    orbit.endoscope(orbit.before(mesh, &AabbTree::new(mesh)))
 }
 
 #[cfg(test)]
@@ -197,7 +198,7 @@ mod tests {
         let mesh = Organ::Kidney.surface_mesh(400).unwrap();
         let first = Orbit::framing(&mesh, 0.785, 1.6);
         for vertex in mesh.vertices() {
-            let orbit = first.before_place(vertex, (&mesh, 1.6));
+            let orbit = first.before_place(vertex, &mesh, 1.6);
             let [_, _, back] = orbit.camera().axes();
             assert!((vertex - orbit.target).dot(&back) >= 0.0, "{vertex}");
             let camera = orbit.camera();

@@ -276,7 +276,7 @@ pub(super) fn at(samples: &Oriented, time: f64) -> Result<Contact, Error> {
 }
 
 /// Says how the contact was found.
-pub(super) fn tell(contact: &Contact, clean: &CleanRecording, warnings: &mut Vec<String>) {
+pub(super) fn add_warnings(contact: &Contact, clean: &CleanRecording, warnings: &mut Vec<String>) {
     if let Some(error) = contact.depth_error_m {
         warnings.push(format!(
             "the first contact was found at {:.4} s, at {:.3e} +- {error:.1e} m",

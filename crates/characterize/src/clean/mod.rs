@@ -134,7 +134,7 @@ pub fn clean(recording: &Recording, settings: &CleanSettings) -> Result<CleanRec
     let samples = Oriented::new(recording, &mut warnings);
     check(&samples)?;
     let sampling = Sampling::of(&samples.time);
-    sampling.tell(&mut warnings);
+    sampling.add_warnings(&mut warnings);
     let contact = find_contact(recording, &samples, settings)?;
     let shifted = |values: &[f64], by: f64| values.iter().map(|value| value - by).collect();
     let mut clean = CleanRecording {
@@ -155,7 +155,7 @@ pub fn clean(recording: &Recording, settings: &CleanSettings) -> Result<CleanRec
     clean.segments = segments::find(&clean.time, &clean.depth, contact.sample);
     clean.handling.ripple = Ripple::find(&clean.time, &clean.force, &clean.segments);
     clean.smooth(settings)?;
-    clean.tell(recording, settings);
+    clean.add_warnings(recording, settings);
     Ok(clean)
 }
 
@@ -239,11 +239,11 @@ impl CleanRecording {
         self.time[segment.end.min(last)] - self.time[segment.first]
     }
 
-    fn tell(&mut self, recording: &Recording, settings: &CleanSettings) {
+    fn add_warnings(&mut self, recording: &Recording, settings: &CleanSettings) {
         let mut warnings = std::mem::take(&mut self.warnings);
-        contact::tell(&self.handling.contact, self, &mut warnings);
-        stimulus::tell(self, &mut warnings);
-        plausible::tell(self, recording, &mut warnings);
+        contact::add_warnings(&self.handling.contact, self, &mut warnings);
+        stimulus::add_warnings(self, &mut warnings);
+        plausible::add_warnings(self, recording, &mut warnings);
         if let Some(ripple) = &self.handling.ripple {
             let done = if settings.removes_ripple {
                 "it was taken out of the filtered force"

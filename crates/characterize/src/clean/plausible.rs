@@ -26,7 +26,11 @@ const FEW: usize = 20;
 /// Least noise, over the largest force, that shows a sensor to be awake [-].
 const AWAKE: f64 = 1e-4;
 
-pub(super) fn tell(clean: &CleanRecording, recording: &Recording, warnings: &mut Vec<String>) {
+pub(super) fn add_warnings(
+    clean: &CleanRecording,
+    recording: &Recording,
+    warnings: &mut Vec<String>,
+) {
     let deepest = clean.depth.iter().copied().fold(0.0, f64::max);
     let strongest = clean.force.iter().copied().fold(0.0, f64::max);
     if let Some(wrong) = wrong_unit(clean, deepest, strongest) {

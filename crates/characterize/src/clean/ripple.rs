@@ -67,7 +67,7 @@ impl Ripple {
         if length(hold) < SHORTEST || rate < SLOWEST {
             return None;
         }
-        let hold = Held::new(&time[samples.clone()], &force[samples.clone()]);
+        let hold = HoldForce::new(&time[samples.clone()], &force[samples.clone()]);
         let frequency = hold
             .averaged((rate / ENOUGH_RATE).floor() as usize)
             .line()?;
@@ -94,12 +94,12 @@ impl Ripple {
 }
 
 /// The force of a hold.
-struct Held {
+struct HoldForce {
     time: Vec<f64>,
     force: Vec<f64>,
 }
 
-impl Held {
+impl HoldForce {
     fn new(time: &[f64], force: &[f64]) -> Self {
         Self {
             time: time.to_vec(),

@@ -41,7 +41,7 @@ impl Sampling {
         }
     }
 
-    pub(super) fn tell(&self, warnings: &mut Vec<String>) {
+    pub(super) fn add_warnings(&self, warnings: &mut Vec<String>) {
         if self.gaps > 0 {
             warnings.push(format!(
                 "samples are missing in {} places, for up to {:.3} s; the curve is taken as straight there",

@@ -11,7 +11,7 @@ const ALIKE: f64 = 0.1;
 const DEEPEST: f64 = 0.01;
 const FASTEST: f64 = 8.0;
 
-pub(super) fn tell(clean: &CleanRecording, warnings: &mut Vec<String>) {
+pub(super) fn add_warnings(clean: &CleanRecording, warnings: &mut Vec<String>) {
     tell_kind(clean, warnings);
     let mut compare = |what: &str, said: Option<f64>, seen: Option<f64>, slack: f64| {
         let (Some(said), Some(seen)) = (said, seen) else {

@@ -133,13 +133,13 @@ impl Expecting {
             let records = indentations.iter().filter_map(|each| {
                 let course =
                     RelaxationRecord::new((each.time, each.depth, each.force), largest, shape)?;
-                Some(course.with_zeros((each.depth, each.zeros), largest, shape))
+                Some(course.with_zeros(each.depth, each.zeros, largest, shape))
             });
             let records: Vec<RelaxationRecord> = records.collect();
             let size = |depth: &f64| modulus * curve.force.force(*depth) / largest;
             let sizes: Vec<f64> = presses.depths.iter().map(size).collect();
             let weights = of_noise(instrument.noise / largest);
-            let found = expected_relaxation(&records, (series, &sizes), &weights)?;
+            let found = expected_relaxation(&records, series, &sizes, &weights)?;
             for (place, (terms, quantiles)) in (1..).zip(found.terms.iter().zip(&found.quantiles)) {
                 let names = [format!("g_{place}"), format!("tau_{place}_s")];
                 for ((name, known), quantile) in names.into_iter().zip(terms).zip(quantiles) {

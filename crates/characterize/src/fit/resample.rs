@@ -27,19 +27,6 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// The mean of a parameter [its unit].
-    pub fn mean(&self, parameter: usize) -> f64 {
-        let sum: f64 = self.values.iter().map(|values| values[parameter]).sum();
-        sum / self.values.len() as f64
-    }
-
-    /// The standard deviation of a parameter [its unit].
-    pub fn deviation(&self, parameter: usize) -> f64 {
-        let mean = self.mean(parameter);
-        let squares = self.values.iter().map(|v| (v[parameter] - mean).powi(2));
-        (squares.sum::<f64>() / (self.values.len() as f64 - 1.0)).sqrt()
-    }
-
     /// What holds the middle part `level` of a parameter's values [its unit].
     pub fn interval(&self, parameter: usize, level: f64) -> [f64; 2] {
         let values = self.values.iter().map(|values| values[parameter]);

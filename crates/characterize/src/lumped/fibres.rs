@@ -207,7 +207,7 @@ fn modulus(unit: &[f64], pieces: &[Measured], known: KnownFibres) -> Option<(f64
     let (mut stresses, mut changes) = (vec![0.0; count], DMatrix::zeros(count, unit.len()));
     let mut values = unit.to_vec();
     values[ANGLE] = squared_sine(unit[ANGLE]);
-    write(&values, (pieces, known), (&mut stresses, &mut changes))?;
+    write(&values, pieces, known, &mut stresses, &mut changes)?;
     let (mut products, mut squares) = (0.0, 0.0);
     let known = pieces.iter().flat_map(|own| &own.stresses);
     for (residual, known) in stresses.iter().zip(known) {
@@ -278,7 +278,7 @@ fn bounded(values: &[f64], least: f64, known: KnownFibres) -> Vec<Parameter> {
 fn least(start: &[Parameter], pieces: &[Measured], known: KnownFibres) -> Result<Fit, Error> {
     let samples = pieces.iter().map(|own| own.stresses.len()).sum();
     let evaluate = |values: &[f64], residuals: &mut [f64], jacobian: &mut DMatrix<f64>| {
-        write(values, (pieces, known), (residuals, jacobian))
+        write(values, pieces, known, residuals, jacobian)
     };
     least_squares_with_jacobian(start, samples, &Settings::default(), evaluate)
 }
@@ -286,8 +286,10 @@ fn least(start: &[Parameter], pieces: &[Measured], known: KnownFibres) -> Result
 /// Residuals [Pa] of the law with these parameters, sin² γ among them, and their derivatives; none where it has no stress.
 fn write(
     values: &[f64],
-    (pieces, known): (&[Measured], KnownFibres),
-    (residuals, jacobian): (&mut [f64], &mut DMatrix<f64>),
+    pieces: &[Measured],
+    known: KnownFibres,
+    residuals: &mut [f64],
+    jacobian: &mut DMatrix<f64>,
 ) -> Option<()> {
     let fibres = Fibres {
         k1: values[1],

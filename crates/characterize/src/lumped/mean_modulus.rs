@@ -1,8 +1,6 @@
-use palpate_files::Estimate;
 use palpate_files::recording::{IndenterShape, RecordingHeader, Specimen, StimulusKind};
 
 use crate::analyze::{Hold, holds};
-use crate::fit::{Fit, Parameter, Settings, correlated_uncertainty, least_squares};
 use crate::{CleanRecording, Error};
 
 /// The end of an indenter, for a half-space of linear tissue without friction.
@@ -126,38 +124,4 @@ pub fn mean_elastic_modulus(recordings: &[CleanRecording]) -> Result<MeanModulus
         depth_m: all.iter().map(|(_, hold)| hold.depth_m).sum::<f64>() / count,
         holds: moduli.len(),
     })
-}
-
-/// Young's modulus [Pa] of incompressible tissue from a whole loading curve: `depths` [m] and `forces` [N].
-///
-/// # Errors
-/// Without samples in contact, or when the specimen is `hollow`.
-pub fn fit_modulus(
-    contact: Contact,
-    hollow: bool,
-    depths: &[f64],
-    forces: &[f64],
-) -> Result<(Estimate, Fit), Error> {
-    let deepest =
-        (0..depths.len().min(forces.len())).max_by(|&i, &j| depths[i].total_cmp(&depths[j]));
-    let [depth, force] = deepest.map_or([0.0; 2], |i| [depths[i], forces[i]]);
-    let start = mean_modulus(contact, hollow, depth, force)?;
-    let parameter = Parameter::new("youngs_modulus_pa", start.abs()).within(0.0, f64::INFINITY);
-    let fit = least_squares(
-        &[parameter],
-        depths.len().min(forces.len()),
-        &Settings::default(),
-        |values, residuals| {
-            for (residual, (&depth, force)) in residuals.iter_mut().zip(depths.iter().zip(forces)) {
-                *residual = contact.unit_force(depth) * values[0] / 0.75 - force;
-            }
-            Some(())
-        },
-    )?;
-    let known = correlated_uncertainty(&fit, &[fit.residuals.len()]);
-    let modulus = Estimate {
-        value: fit.parameters[0].value,
-        standard_error: known.standard_error(0),
-    };
-    Ok((modulus, fit))
 }

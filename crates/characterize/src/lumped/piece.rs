@@ -158,14 +158,6 @@ impl From<PieceTest> for Homogeneous {
 }
 
 impl PieceTest {
-    /// The amount at rest: a stretch, or an amount of shear [-].
-    pub fn at_rest(self) -> f64 {
-        match self {
-            Self::Uniaxial | Self::PlanarTension => 1.0,
-            Self::SimpleShear => 0.0,
-        }
-    }
-
     /// Nominal stress [Pa] of an isotropic incompressible law at the `stretch` or amount of shear [-].
     fn stress(self, law: &dyn Law, stretch: f64) -> Result<f64, palpate_mechanics::Error> {
         if self == Self::Uniaxial {

@@ -47,7 +47,7 @@ const TOLERANCE: f64 = 1e-8;
 /// # Errors
 /// When nothing is pressed or felt, or the samples are fewer than the parameters.
 pub fn fit_springs(indentations: &[Indentation<'_>]) -> Result<SpringsFit, Error> {
-    let felt = Felt::of(indentations)?;
+    let felt = StartingSizes::of(indentations)?;
     let one = best(indentations, &felt.starts(None))?;
     let two = best(indentations, &felt.starts(Some(&one)))?;
     let lengths: Vec<usize> = indentations.iter().map(|each| each.time.len()).collect();
@@ -77,7 +77,7 @@ pub fn fit_springs(indentations: &[Indentation<'_>]) -> Result<SpringsFit, Error
 }
 
 /// Sizes that fits start from.
-struct Felt {
+struct StartingSizes {
     /// The largest depth [mm].
     depth: f64,
     /// The largest force [N].
@@ -88,7 +88,7 @@ struct Felt {
     duration: f64,
 }
 
-impl Felt {
+impl StartingSizes {
     fn of(indentations: &[Indentation<'_>]) -> Result<Self, Error> {
         let most = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let deepest = indentations

@@ -39,7 +39,8 @@ const HALVINGS: usize = 4;
 /// place holds the reason.
 pub(super) fn refine(
     found: &mut Characterization,
-    (pressed, body): (&[Pressed], Result<Body, Error>),
+    pressed: &[Pressed],
+    body: Result<Body, Error>,
     settings: &CharacterizeSettings,
     at_step: &mut dyn FnMut(&'static str),
 ) {
@@ -122,7 +123,7 @@ impl Specimen<'_> {
             let elastic = curves.of(f64::INFINITY, &of.shape)?;
             let records = records(&divided, Some(&elastic));
             let mut relaxing = relaxation(&records, settings.relaxation)?;
-            let mut law = |draws: Option<Draws>| sought(&mut curves, &divided, (&relaxing, draws));
+            let mut law = |draws: Option<Draws>| sought(&mut curves, &divided, &relaxing, draws);
             let description = law(None)?;
             let next = Tissue::of(&relaxing, &description);
             if next.is_like(&of) {
@@ -184,8 +185,8 @@ impl Specimen<'_> {
         let depths: Vec<f64> = places.iter().map(|&i| pressed.depth[i]).collect();
         let mut ascending = depths.clone();
         ascending.sort_by(f64::total_cmp);
-        let elastic = self.run(tissue, &PronySeries::default(), (&ascending, &ascending))?;
-        let full = self.run(tissue, &tissue.series, (&times, &depths))?;
+        let elastic = self.run(tissue, &PronySeries::default(), &ascending, &ascending)?;
+        let full = self.run(tissue, &tissue.series, &times, &depths)?;
         let product = IndentationCurve::through(&ascending, &elastic);
         let product = product.relaxed(&tissue.series, &times, &depths);
         let factor = depths.iter().zip(full.iter().zip(product));
@@ -203,7 +204,8 @@ impl Specimen<'_> {
         &self,
         tissue: &Tissue,
         prony: &PronySeries,
-        (times, depths): (&[f64], &[f64]),
+        times: &[f64],
+        depths: &[f64],
     ) -> Result<Vec<f64>, Error> {
         let Body::Block { block, indenter } = self.body else {
             return Err(Error::NoLoop);

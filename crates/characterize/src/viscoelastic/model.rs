@@ -56,7 +56,8 @@ impl RelaxationRecord {
     /// The same, of a recording whose zeros are known with these errors; the rest as for [`Self::new`].
     pub fn with_zeros(
         mut self,
-        (depth, zeros): (&[f64], ZeroErrors),
+        depth: &[f64],
+        zeros: ZeroErrors,
         largest_force: f64,
         shape: impl Fn(f64) -> f64,
     ) -> Self {
@@ -186,7 +187,7 @@ impl Model<'_> {
         for (number, course) in self.records.iter().enumerate() {
             let size = parameters[1 + 2 * self.terms + number];
             let (elastic, by_mu) = course.elastic(parameters[0]);
-            let (force, columns) = relaxed(&course.time, (&elastic, &by_mu), &series);
+            let (force, columns) = relaxed(&course.time, &elastic, &by_mu, &series);
             let rows = course.force.len();
             for row in 0..rows {
                 residuals[start + row] = size * force[row] - course.force[row];
@@ -225,7 +226,8 @@ impl Model<'_> {
             if course.by_contact.iter().any(|change| *change != 0.0) {
                 let (force, _) = relaxed(
                     &course.time,
-                    (&course.by_contact, &course.by_contact),
+                    &course.by_contact,
+                    &course.by_contact,
                     &series,
                 );
                 own(force.iter().map(|change| size * change).collect());
@@ -251,7 +253,8 @@ pub(crate) fn terms(parameters: &[f64], terms: usize) -> Vec<(f64, f64)> {
 /// Relaxed force of a course of size one, and its change with μ and with each ρᵢ and ln τᵢ.
 fn relaxed(
     time: &[f64],
-    (elastic, by_mu): (&[f64], &[f64]),
+    elastic: &[f64],
+    by_mu: &[f64],
     series: &[(f64, f64)],
 ) -> (Vec<f64>, Vec<Vec<f64>>) {
     let left: f64 = 1.0 - series.iter().map(|(g, _)| g).sum::<f64>();

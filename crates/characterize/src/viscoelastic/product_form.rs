@@ -31,27 +31,6 @@ impl ProductForm {
             terms: terms.collect(),
         }
     }
-
-    /// The Prony series that is the same: pairs of gᵢ [-] and τᵢ [s]. A gᵢ is negative where the zeros and
-    /// poles do not alternate, which no tissue that only relaxes has.
-    pub fn prony_terms(&self) -> Vec<(f64, f64)> {
-        let instantaneous: f64 = self.terms.iter().map(|(alpha, _)| alpha).product();
-        let residue = |place: usize| {
-            let (alpha, tau) = self.terms[place];
-            let others = self
-                .terms
-                .iter()
-                .enumerate()
-                .filter(|(other, _)| *other != place);
-            let rest: f64 = others
-                .map(|(_, (a, t))| (1.0 - a * t / tau) / (1.0 - t / tau))
-                .product();
-            (alpha - 1.0) * rest / instantaneous
-        };
-        (0..self.terms.len())
-            .map(|place| (residue(place), self.terms[place].1))
-            .collect()
-    }
 }
 
 /// Terms that have a weight, ascending in τ, those of one time added.

@@ -198,7 +198,8 @@ pub(super) fn values_of(fit: &Fit) -> Vec<f64> {
 /// When the series is none.
 pub(crate) fn expected_relaxation(
     records: &[RelaxationRecord],
-    (series, sizes): (&PronySeries, &[f64]),
+    series: &PronySeries,
+    sizes: &[f64],
     weights: &[f64],
 ) -> Result<Relaxation, Error> {
     let count = series.terms().len();

@@ -35,8 +35,8 @@ impl PressedRelaxation {
         let records = std::slice::from_ref(record);
         let afresh = afresh || before.is_none();
         let start = |count: usize| before.map(|own| &own.fits[count - 1]);
-        let one = sought(records, (1, None), start(1), afresh)?;
-        let two = sought(records, (2, Some(&one)), start(2), afresh)?;
+        let one = sought(records, 1, None, start(1), afresh)?;
+        let two = sought(records, 2, Some(&one), start(2), afresh)?;
         // One on its bound does not make the others better known.
         let known = |fit: &Fit| {
             let free = fit.unbounded();
@@ -67,7 +67,8 @@ impl PressedRelaxation {
 /// The fit of so many terms, from where one `before` it ended and, `afresh`, from everywhere and from that of one `fewer`.
 fn sought(
     records: &[RelaxationRecord],
-    (count, fewer): (usize, Option<&Fit>),
+    count: usize,
+    fewer: Option<&Fit>,
     before: Option<&Fit>,
     afresh: bool,
 ) -> Result<Fit, Error> {

@@ -2,7 +2,7 @@
 
 use palpate_characterize::fit::Random;
 use palpate_characterize::lumped::{
-    Contact, DepthHistory, KelvinFit, fit_kelvin, fit_modulus, mean_elastic_modulus, mean_modulus,
+    Contact, DepthHistory, KelvinFit, fit_kelvin, mean_elastic_modulus, mean_modulus,
 };
 use palpate_characterize::{CleanRecording, CleanSettings, Error, clean};
 use palpate_files::recording::Specimen;
@@ -62,19 +62,6 @@ fn every_indenter_finds_its_modulus() {
         }),
     ];
     for (contact, law) in cases {
-        let mut random = Random::new(2);
-        let depths: Vec<f64> = (0..200).map(|i| 1e-5 * f64::from(i)).collect();
-        let forces: Vec<f64> = depths
-            .iter()
-            .map(|&d| law(d) + 1e-3 * random.normal())
-            .collect();
-        let (modulus, _) = fit_modulus(contact, false, &depths, &forces).unwrap();
-        let error = modulus.standard_error.unwrap();
-        assert!(
-            (modulus.value - e).abs() < 4.0 * error,
-            "{contact:?}: {modulus:?}"
-        );
-        assert!(error < 0.03 * e, "{contact:?}: {modulus:?}");
         let secant = mean_modulus(contact, false, 1e-3, law(1e-3)).unwrap();
         assert!((secant / e - 1.0).abs() < 1e-12, "{contact:?}: {secant}");
     }
@@ -89,8 +76,6 @@ fn a_tube_has_no_mean_modulus() {
     );
     let nothing = mean_modulus(contact, false, 0.0, 0.1);
     assert!(matches!(nothing, Err(Error::NoContact { .. })));
-    let empty = fit_modulus(contact, false, &[], &[]);
-    assert!(matches!(empty, Err(Error::NoContact { .. })));
 }
 
 /// A recording of a linear half-space that relaxes by a fifth, pressed by a flat punch of 1 mm radius.

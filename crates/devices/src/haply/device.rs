@@ -3,7 +3,7 @@ use std::time::{Duration, Instant};
 use palpate_servo::{Capabilities, Command, DeadMan, Device, DeviceState, Disabled, Fault, Vec3};
 
 use super::channel::Channel;
-use super::message::{Generation, Listed, Snapshot, State, force_command};
+use super::message::{Generation, Listed, ServiceInventory, State, force_command};
 use super::{Event, HaplyAddress};
 use crate::OpenError;
 use crate::found::{Found, Origin};
@@ -89,10 +89,10 @@ pub fn list(address: &HaplyAddress) -> Result<Vec<Found>, OpenError> {
     Ok(found.collect())
 }
 
-fn meet(address: &HaplyAddress) -> Result<(Channel, Snapshot), OpenError> {
+fn meet(address: &HaplyAddress) -> Result<(Channel, ServiceInventory), OpenError> {
     let mut channel = Channel::open(&address.host, address.port)?;
     let first = channel.receive(Instant::now() + FIRST_WITHIN);
-    let snapshot = first.and_then(|text| Snapshot::parse(&text));
+    let snapshot = first.and_then(|text| ServiceInventory::parse(&text));
     let snapshot = snapshot.map_err(|fault| OpenError::NotTheService {
         address: address.to_string(),
         what: match fault {

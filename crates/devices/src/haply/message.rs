@@ -133,7 +133,7 @@ pub struct Listed {
 
 /// The first message: everything that the service has.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Snapshot {
+pub struct ServiceInventory {
     /// Devices with forces.
     pub robots: Vec<Listed>,
     /// Grips, those without a cable first.
@@ -144,7 +144,7 @@ pub struct Snapshot {
     pub generation: Generation,
 }
 
-impl Snapshot {
+impl ServiceInventory {
     /// Reads a first message.
     ///
     /// # Errors

@@ -20,4 +20,4 @@ mod timed_stream;
 pub use address::HaplyAddress;
 pub use device::{HaplyDevice, list};
 pub use event::Event;
-pub use message::{Generation, Snapshot, State, force_command};
+pub use message::{Generation, ServiceInventory, State, force_command};

@@ -33,7 +33,8 @@ const NEWTON: u64 = 0x0B << 54 | 1 << 50;
 /// too long are cut off.
 pub fn append(
     bytes: &mut Vec<u8>,
-    (kind, device): (&str, &str),
+    kind: &str,
+    device: &str,
     time: SystemTime,
     write: impl FnOnce(&mut Vec<u8>),
 ) {

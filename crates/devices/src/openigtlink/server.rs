@@ -5,7 +5,7 @@ use std::time::{Instant, SystemTime};
 use super::message::{self, Status, append};
 use super::{Request, Requests};
 use crate::publisher::{
-    MOST_CLIENTS, Picture, SURFACE_PERIOD, Serve, SharedSource, ShownTool, fill, locked,
+    MOST_CLIENTS, PublishedState, SURFACE_PERIOD, Serve, SharedSource, ShownTool, fill, locked,
 };
 
 /// Where readers of this protocol look.
@@ -26,7 +26,7 @@ pub(crate) struct Server {
     listener: TcpListener,
     source: SharedSource,
     clients: Vec<Client>,
-    picture: Picture,
+    picture: PublishedState,
     /// What every client gets in this period.
     bytes: Vec<u8>,
 }
@@ -62,7 +62,7 @@ impl Server {
             listener,
             source,
             clients: Vec::new(),
-            picture: Picture::default(),
+            picture: PublishedState::default(),
             bytes: Vec::new(),
         }
     }
@@ -91,15 +91,15 @@ impl Server {
         let bytes = &mut self.bytes;
         for tool in &self.picture.tools {
             if let Some(place) = tool.place {
-                append(bytes, ("TRANSFORM", &tool.name), time, |body| {
+                append(bytes, "TRANSFORM", &tool.name, time, |body| {
                     message::transform(body, &place, &tool.orientation);
                 });
             }
-            append(bytes, ("SENSOR", &tool.name), time, |body| {
+            append(bytes, "SENSOR", &tool.name, time, |body| {
                 message::force(body, &tool.force);
             });
         }
-        append(bytes, ("STATUS", SYSTEM), time, |body| {
+        append(bytes, "STATUS", SYSTEM, time, |body| {
             status(&self.picture, body)
         });
     }
@@ -118,14 +118,9 @@ impl Server {
                 && let Some(source) = locked(source).as_mut()
             {
                 let surface = source.surface();
-                append(
-                    &mut answer,
-                    ("POLYDATA", ORGAN),
-                    SystemTime::now(),
-                    |body| {
-                        message::surface(body, &surface);
-                    },
-                );
+                append(&mut answer, "POLYDATA", ORGAN, SystemTime::now(), |body| {
+                    message::surface(body, &surface);
+                });
             }
             answer
         });
@@ -133,13 +128,11 @@ impl Server {
     }
 }
 
-fn answer_to(request: &Request, picture: &Picture, bytes: &mut Vec<u8>) {
+fn answer_to(request: &Request, picture: &PublishedState, bytes: &mut Vec<u8>) {
     let time = SystemTime::now();
     match request.kind.as_str() {
-        "GET_STATUS" => append(bytes, ("STATUS", SYSTEM), time, |body| {
-            status(picture, body)
-        }),
-        "GET_CAPABIL" => append(bytes, ("CAPABILITY", SYSTEM), time, |body| {
+        "GET_STATUS" => append(bytes, "STATUS", SYSTEM, time, |body| status(picture, body)),
+        "GET_CAPABIL" => append(bytes, "CAPABILITY", SYSTEM, time, |body| {
             message::capability(body, &KINDS);
         }),
         // Transforms and forces come by themselves, surfaces when they are due.
@@ -147,7 +140,7 @@ fn answer_to(request: &Request, picture: &Picture, bytes: &mut Vec<u8>) {
     }
 }
 
-fn status(picture: &Picture, body: &mut Vec<u8>) {
+fn status(picture: &PublishedState, body: &mut Vec<u8>) {
     let fault = |tool: &ShownTool| Some(format!("{}: {}", tool.name, tool.fault?));
     let fault = picture.tools.iter().find_map(fault);
     match fault {

@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-pub use picture::{Picture, ShownSurface, ShownTool};
+pub use picture::{PublishedState, ShownSurface, ShownTool};
 
 use crate::{openigtlink, rosbridge};
 
@@ -36,14 +36,16 @@ pub enum Protocol {
 
 /// Where states come from.
 pub(crate) trait Source: Send {
-    fn fill(&mut self, picture: &mut Picture);
+    fn fill(&mut self, picture: &mut PublishedState);
     fn surface(&mut self) -> ShownSurface;
 }
 
 struct Both<P, S>(P, S);
 
-impl<P: FnMut(&mut Picture) + Send, S: FnMut() -> ShownSurface + Send> Source for Both<P, S> {
-    fn fill(&mut self, picture: &mut Picture) {
+impl<P: FnMut(&mut PublishedState) + Send, S: FnMut() -> ShownSurface + Send> Source
+    for Both<P, S>
+{
+    fn fill(&mut self, picture: &mut PublishedState) {
         self.0(picture);
     }
 
@@ -114,7 +116,7 @@ impl Publisher {
     /// Both are called on the server's thread.
     pub fn show(
         &self,
-        picture: impl FnMut(&mut Picture) + Send + 'static,
+        picture: impl FnMut(&mut PublishedState) + Send + 'static,
         surface: impl FnMut() -> ShownSurface + Send + 'static,
     ) {
         *locked(&self.0.source) = Some(Box::new(Both(picture, surface)));
@@ -164,7 +166,7 @@ fn run(mut server: Box<dyn Serve>, ended: &AtomicBool) {
 }
 
 /// The state that a server sends next.
-pub(crate) fn fill(source: &SharedSource, picture: &mut Picture) {
+pub(crate) fn fill(source: &SharedSource, picture: &mut PublishedState) {
     if let Some(source) = locked(source).as_mut() {
         source.fill(picture);
     }

@@ -3,7 +3,7 @@ use palpate_servo::{Fault, Vec3};
 
 /// What there is to show.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Picture {
+pub struct PublishedState {
     /// The tools.
     pub tools: Vec<ShownTool>,
     /// Whether nothing moves, because somebody wants it so.

@@ -5,7 +5,7 @@ use std::time::{Duration, SystemTime};
 use palpate_servo::Vec3;
 use serde_json::{Value, json};
 
-use crate::publisher::{Picture, ShownSurface, ShownTool};
+use crate::publisher::{PublishedState, ShownSurface, ShownTool};
 
 /// The frame of all messages: the axes of the scene.
 pub const FRAME: &str = "scene";
@@ -42,7 +42,7 @@ impl Content {
 }
 
 /// All topics.
-pub fn topics(picture: &Picture) -> Vec<(String, Content)> {
+pub fn topics(picture: &PublishedState) -> Vec<(String, Content)> {
     let tools = picture.tools.iter().enumerate();
     let of_tools = tools.flat_map(|(number, tool)| {
         let name = ros_name(&tool.name);
@@ -106,7 +106,7 @@ pub fn mesh(surface: &ShownSurface) -> Value {
 }
 
 /// `std_msgs/String`: `ok`, `paused`, or the tool whose device has no force, and why.
-pub fn status(picture: &Picture) -> Value {
+pub fn status(picture: &PublishedState) -> Value {
     let fault = |tool: &ShownTool| Some(format!("{}: {}", tool.name, tool.fault?));
     let paused = || picture.paused.then(|| "paused".to_owned());
     let fault = picture.tools.iter().find_map(fault);

@@ -10,7 +10,9 @@ use tungstenite::protocol::WebSocketConfig;
 use tungstenite::{Error, Message, ServerHandshake, Utf8Bytes, WebSocket};
 
 use super::message::{self, Content};
-use crate::publisher::{MOST_CLIENTS, Picture, SURFACE_PERIOD, Serve, SharedSource, fill, locked};
+use crate::publisher::{
+    MOST_CLIENTS, PublishedState, SURFACE_PERIOD, Serve, SharedSource, fill, locked,
+};
 
 /// The largest message of a client [B].
 const LARGEST: usize = 1 << 16;
@@ -32,7 +34,7 @@ pub(crate) struct Server {
     source: SharedSource,
     arriving: Vec<Arriving>,
     clients: Vec<Client>,
-    picture: Picture,
+    picture: PublishedState,
 }
 
 type Role = ServerHandshake<TcpStream, NoCallback>;
@@ -66,7 +68,7 @@ impl Server {
             source,
             arriving: Vec::new(),
             clients: Vec::new(),
-            picture: Picture::default(),
+            picture: PublishedState::default(),
         }
     }
 
@@ -147,7 +149,7 @@ impl Serve for Server {
 
 fn content_of(
     content: Content,
-    picture: &Picture,
+    picture: &PublishedState,
     source: &SharedSource,
     time: SystemTime,
 ) -> Option<Value> {
@@ -188,7 +190,7 @@ impl Client {
     fn read(&mut self, topics: &[(String, Content)]) -> bool {
         for _ in 0..MOST_READ {
             match self.socket.read() {
-                Ok(Message::Text(text)) => self.obey(&text, topics),
+                Ok(Message::Text(text)) => self.process_command(&text, topics),
                 Ok(Message::Binary(_)) => self.refuse("a binary message; send JSON as text"),
                 Ok(Message::Close(_)) | Err(Error::ConnectionClosed | Error::AlreadyClosed) => {
                     let _ = self.socket.flush();
@@ -207,7 +209,7 @@ impl Client {
         true
     }
 
-    fn obey(&mut self, text: &str, topics: &[(String, Content)]) {
+    fn process_command(&mut self, text: &str, topics: &[(String, Content)]) {
         let Ok(command) = serde_json::from_str::<Value>(text) else {
             return self.refuse("a message that is not JSON; send an object with `op`");
         };

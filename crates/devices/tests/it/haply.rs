@@ -7,7 +7,7 @@ use palpate_device_stand_ins::{
     HaplyStandIn, HaplyStandInSettings, Mechanics, Misbehaviour, StandInGrip,
 };
 use palpate_devices::haply::{
-    Generation, HaplyAddress, HaplyDevice, Snapshot, State, force_command, list,
+    Generation, HaplyAddress, HaplyDevice, ServiceInventory, State, force_command, list,
 };
 use palpate_servo::{
     Command, DeadMan, Device, Disabled, Fault, Histogram, NoDevice, Stage, Trajectory, Vec3,
@@ -31,13 +31,13 @@ const FIRST: &str = r#"{"session_id": 3,
 
 #[test]
 fn a_first_message_is_read() {
-    let snapshot = Snapshot::parse(FIRST).unwrap();
+    let snapshot = ServiceInventory::parse(FIRST).unwrap();
     assert_eq!(snapshot.generation, Generation::Vector);
     assert_eq!(snapshot.robots[0].kind, "inverse3x");
     assert_eq!(snapshot.robots[0].handedness.as_deref(), Some("left"));
     assert_eq!(snapshot.grips, ["g"]);
     let older = FIRST.replace("basis", "base").replace("filters", "other");
-    let older = Snapshot::parse(&older).unwrap();
+    let older = ServiceInventory::parse(&older).unwrap();
     assert_eq!(older.generation, Generation::Values);
 }
 

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use palpate_device_stand_ins::{HaplyStandIn, HaplyStandInSettings, Misbehaviour};
-use palpate_devices::haply::{Event, HaplyDevice, Snapshot, State};
+use palpate_devices::haply::{Event, HaplyDevice, ServiceInventory, State};
 use palpate_servo::{Command, Device, NoDevice, Vec3};
 use proptest::prelude::*;
 
@@ -26,7 +26,7 @@ pub(crate) fn tries() -> ProptestConfig {
 }
 
 fn read_all(text: &str) -> Result<(), TestCaseError> {
-    let _ = Snapshot::parse(text);
+    let _ = ServiceInventory::parse(text);
     if let Ok(event) = Event::parse(text) {
         let _ = event.fault("0");
     }

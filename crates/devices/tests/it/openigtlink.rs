@@ -10,7 +10,7 @@ use std::time::{Duration, Instant, SystemTime};
 use nalgebra::UnitQuaternion;
 use palpate_devices::openigtlink::message::{HEADER, append};
 use palpate_devices::openigtlink::{Requests, checksum};
-use palpate_devices::publisher::{Picture, Protocol, Publisher, ShownSurface, ShownTool};
+use palpate_devices::publisher::{Protocol, PublishedState, Publisher, ShownSurface, ShownTool};
 use palpate_servo::{Fault, Vec3};
 use proptest::prelude::*;
 
@@ -62,7 +62,7 @@ fn tetrahedron() -> ShownSurface {
 fn room(fault: Option<Fault>) -> Publisher {
     let anywhere = SocketAddr::from((Ipv4Addr::LOCALHOST, 0));
     let room = Publisher::open(anywhere, Protocol::OpenIgtLink).unwrap();
-    let fill = move |picture: &mut Picture| picture.tools = vec![tool(fault)];
+    let fill = move |picture: &mut PublishedState| picture.tools = vec![tool(fault)];
     room.show(fill, tetrahedron);
     room
 }
@@ -106,7 +106,7 @@ fn until(stream: &mut TcpStream, kind: &str) -> Message {
 
 fn ask(stream: &mut TcpStream, kind: &str) {
     let mut bytes = Vec::new();
-    append(&mut bytes, (kind, ""), SystemTime::now(), |_| ());
+    append(&mut bytes, kind, "", SystemTime::now(), |_| ());
     stream.write_all(&bytes).unwrap();
 }
 
@@ -253,7 +253,7 @@ proptest! {
     fn damaged_requests(at in 0..3 * HEADER, byte in any::<u8>()) {
         let mut bytes = Vec::new();
         for _ in 0..3 {
-            append(&mut bytes, ("GET_STATUS", "x"), SystemTime::now(), |body| body.push(1));
+            append(&mut bytes, "GET_STATUS", "x", SystemTime::now(), |body| body.push(1));
         }
         bytes[at] = byte;
         let mut requests = Requests::default();

@@ -4,7 +4,7 @@ use std::net::{Ipv4Addr, SocketAddr, TcpStream};
 use std::time::{Duration, Instant};
 
 use nalgebra::UnitQuaternion;
-use palpate_devices::publisher::{Picture, Protocol, Publisher, ShownSurface, ShownTool};
+use palpate_devices::publisher::{Protocol, PublishedState, Publisher, ShownSurface, ShownTool};
 use palpate_servo::{Fault, Vec3};
 use serde_json::{Value, json};
 use tungstenite::stream::MaybeTlsStream;
@@ -30,7 +30,7 @@ fn server(fault: Option<Fault>) -> Publisher {
         triangles: vec![[0, 2, 1]],
     };
     server.show(
-        move |picture: &mut Picture| picture.tools = vec![tool.clone()],
+        move |picture: &mut PublishedState| picture.tools = vec![tool.clone()],
         move || surface.clone(),
     );
     server

@@ -4,12 +4,12 @@ use crate::hands::PATIENT;
 use palpate_device_stand_ins::{HaplyStandIn, HaplyStandInSettings, Misbehaviour};
 use palpate_devices::haply::HaplyDevice;
 use palpate_devices::self_test;
-use palpate_servo::{Clock, Fault, Hand, Trajectory, Vec3, VirtualDevice, Waypoint};
+use palpate_servo::{Clock, Fault, HandImpedance, Trajectory, Vec3, VirtualDevice, Waypoint};
 
 fn held() -> HaplyStandIn {
     let still = Trajectory::way(vec![Waypoint::new(0.0, Vec3::zeros())]).unwrap();
     let hand = VirtualDevice::new(still)
-        .with_hand(Hand::default())
+        .with_hand(HandImpedance::default())
         .unwrap();
     HaplyStandIn::start(vec![Box::new(hand)], HaplyStandInSettings::default()).unwrap()
 }

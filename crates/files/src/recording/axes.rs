@@ -55,33 +55,6 @@ impl SensorAxes {
         both.fold(0.0, |most, (x, y)| most.max(x.hypot(*y)))
     }
 
-    /// The largest torque [N m].
-    pub fn largest_torque_n_m(&self) -> f64 {
-        let [_, _, _, tx, ty, tz] = &self.columns;
-        let all = tx.iter().zip(ty).zip(tz);
-        all.fold(0.0, |most, ((x, y), z)| most.max(x.hypot(*y).hypot(*z)))
-    }
-
-    pub(super) fn check(&self, samples: usize) -> Result<(), Error> {
-        for ((name, values), domain) in Self::COLUMNS.iter().zip(&self.columns).zip(Self::DOMAINS) {
-            let wrong = |what: String, found: String, expected: String| Error::BadContent {
-                what,
-                found,
-                expected: expected.into(),
-            };
-            if values.len() != samples {
-                let found = format!("{} numbers for {samples} times", values.len());
-                return Err(wrong((*name).into(), found, "one for each time".into()));
-            }
-            if let Some(sample) = values.iter().position(|value| !domain.contains(*value)) {
-                let found = values[sample].to_string();
-                let what = format!("{name} of sample {sample}");
-                return Err(wrong(what, found, domain.expected()));
-            }
-        }
-        Ok(())
-    }
-
     /// The six columns of a table; none unless all are there, for one alone is somebody's own.
     pub(super) fn columns_of(table: &TableText<'_>) -> Result<Option<[Column; 6]>, Error> {
         let mut found = Vec::with_capacity(6);

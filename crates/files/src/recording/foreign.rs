@@ -112,13 +112,9 @@ impl Recording {
             ));
         }
         Ok(Self {
-            header,
-            samples: read.samples,
             axes: read.axes,
             extra_columns: read.extra_columns,
-            remarks,
-            origin: Origin::Foreign,
-            incomplete: None,
+            ..Self::read_as(Origin::Foreign, header, read.samples, remarks)
         })
     }
 }

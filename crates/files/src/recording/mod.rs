@@ -68,25 +68,25 @@ impl Recording {
     /// not grow.
     pub fn new(header: RecordingHeader, samples: Samples) -> Result<Self, Error> {
         samples.check()?;
-        Ok(Self {
+        Ok(Self::read_as(Origin::Project, header, samples, Vec::new()))
+    }
+
+    /// A whole recording of the three columns alone.
+    fn read_as(
+        origin: Origin,
+        header: RecordingHeader,
+        samples: Samples,
+        remarks: Vec<String>,
+    ) -> Self {
+        Self {
             header,
             samples,
             axes: None,
             extra_columns: Vec::new(),
-            remarks: Vec::new(),
-            origin: Origin::Project,
+            remarks,
+            origin,
             incomplete: None,
-        })
-    }
-
-    /// The same recording with the six axes of its sensor.
-    ///
-    /// # Errors
-    /// When an axis has another number of values than the recording has samples, or one is not finite.
-    pub fn with_axes(mut self, axes: SensorAxes) -> Result<Self, Error> {
-        axes.check(self.samples.time_s.len())?;
-        self.axes = Some(axes);
-        Ok(self)
+        }
     }
 
     /// The same recording with one more column.

@@ -68,14 +68,6 @@ impl Samples {
 }
 
 impl ExtraColumn {
-    /// A column of numbers [unit of the name].
-    pub fn from_numbers(name: &str, values: &[f64]) -> Self {
-        Self {
-            name: name.to_owned(),
-            values: values.iter().map(|value| format!("{value:?}")).collect(),
-        }
-    }
-
     /// The fields as numbers [unit of the name]; none when one is no number.
     pub fn numbers(&self) -> Option<Vec<f64>> {
         self.values.iter().map(|text| text.parse().ok()).collect()

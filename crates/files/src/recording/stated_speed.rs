@@ -44,15 +44,8 @@ pub(super) fn parse(
             "{still} rows in which the distance did not change were left out, for no time can be told from them"
         ));
     }
-    Ok(Some(Recording {
-        header,
-        samples,
-        axes: None,
-        extra_columns: Vec::new(),
-        remarks,
-        origin: Origin::Foreign,
-        incomplete: None,
-    }))
+    let recording = Recording::read_as(Origin::Foreign, header, samples, remarks);
+    Ok(Some(recording))
 }
 
 /// The names of distance and force, their units, and whether a row states these.

@@ -46,22 +46,14 @@ pub(super) fn parse(
         "`{stretch}` and `{stress}` in {} were read as the stretching of a cube of one metre, a row a second",
         unit.spelling
     );
-    Ok(Some(Recording {
-        header,
-        samples: samples(
-            &table,
-            &Pulls {
-                length: (stretch, named("m"), HEIGHT),
-                load: (stress, unit, named("Pa")),
-                depth: |height| 1.0 - height,
-            },
-        )?,
-        axes: None,
-        extra_columns: Vec::new(),
-        remarks: vec![remark],
-        origin: Origin::Project,
-        incomplete: None,
-    }))
+    let pulls = Pulls {
+        length: (stretch, named("m"), HEIGHT),
+        load: (stress, unit, named("Pa")),
+        depth: |height| 1.0 - height,
+    };
+    let samples = samples(&table, &pulls)?;
+    let recording = Recording::read_as(Origin::Project, header, samples, vec![remark]);
+    Ok(Some(recording))
 }
 
 /// A height over that at rest [-].
@@ -92,22 +84,14 @@ fn clamped(text: &str, path: &Path, columns: &ForeignColumns) -> Result<Option<R
         "`{depth}` in {} and `{force}` in {} were read as the {deformed}, a row a second",
         length.spelling, load.spelling
     );
-    Ok(Some(Recording {
-        header,
-        samples: samples(
-            &table,
-            &Pulls {
-                length: (depth, length, DISPLACEMENT),
-                load: (force, load, named("N")),
-                depth: |way| -way,
-            },
-        )?,
-        axes: None,
-        extra_columns: Vec::new(),
-        remarks: vec![remark],
-        origin: Origin::Project,
-        incomplete: None,
-    }))
+    let pulls = Pulls {
+        length: (depth, length, DISPLACEMENT),
+        load: (force, load, named("N")),
+        depth: |way| -way,
+    };
+    let samples = samples(&table, &pulls)?;
+    let recording = Recording::read_as(Origin::Project, header, samples, vec![remark]);
+    Ok(Some(recording))
 }
 
 fn named(name: &str) -> &'static Unit {

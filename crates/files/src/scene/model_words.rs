@@ -120,14 +120,3 @@ pub enum IntegrationPoints {
     /// 957 points.
     Many,
 }
-
-impl IntegrationPoints {
-    /// How many points they are.
-    pub fn count(self) -> usize {
-        match self {
-            Self::Few => 130,
-            Self::Standard => 415,
-            Self::Many => 957,
-        }
-    }
-}

@@ -43,19 +43,6 @@ words! {
     }
 }
 
-impl LengthUnit {
-    /// The length of one unit [m].
-    pub fn metres(self) -> f64 {
-        match self {
-            Self::Metre => 1.0,
-            Self::Centimetre => 1e-2,
-            Self::Millimetre => 1e-3,
-            Self::Micrometre => 1e-6,
-            Self::Inch => 0.0254,
-        }
-    }
-}
-
 /// Where a surface comes from.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {

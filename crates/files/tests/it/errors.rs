@@ -470,7 +470,10 @@ fn contents_that_no_file_can_hold() {
     );
     assert_eq!(new(&[]), "a recording is empty; give at least one sample");
     let mut recording = Recording::new(RecordingHeader::default(), samples(&[0.0, 1.0])).unwrap();
-    let taken = ExtraColumn::from_numbers("force_mn", &[0.0, 0.0]);
+    let taken = ExtraColumn {
+        name: "force_mn".to_owned(),
+        values: vec!["0".to_owned(); 2],
+    };
     assert!(recording.clone().with_extra_column(taken).is_err());
     recording.header.indenter_radius_m = Some(0.0);
     assert_eq!(

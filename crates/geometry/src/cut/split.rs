@@ -58,8 +58,8 @@ pub(super) fn split_edge(
         return None;
     }
     let middle = push_node(net, surface, triangle, &place);
-    let second = halve(net, (triangle, edge), middle);
-    let mate_second = halve(net, (mate, back), middle);
+    let second = halve(net, triangle, edge, middle);
+    let mate_second = halve(net, mate, back, middle);
     for (id, k, other) in [
         (triangle, edge, mate_second),
         (second, 0, mate),
@@ -81,7 +81,7 @@ pub(super) fn split_edge(
 
 /// Cuts a triangle from the middle of its edge to the opposite corner. It keeps the first half; the
 /// second, which is returned, begins with the middle.
-fn halve(net: &mut Net, (id, edge): (TriangleId, usize), middle: NodeId) -> TriangleId {
+fn halve(net: &mut Net, id: TriangleId, edge: usize, middle: NodeId) -> TriangleId {
     let (mut corners, mut facet) = (net.mesh.corners(id), *net.facet(id));
     let (b, c) = ((edge + 1) % 3, (edge + 2) % 3);
     let second = net.push_triangle(

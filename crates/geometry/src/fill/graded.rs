@@ -23,7 +23,8 @@ pub(super) struct GradedLattice {
 impl GradedLattice {
     /// Of cells of this `edge` [m], with edges no longer than `longest_edge` says [m].
     pub(super) fn new(
-        (surface, tree): (&Surface, &AabbTree),
+        surface: &Surface,
+        tree: &AabbTree,
         edge: f64,
         longest_edge: impl Fn(&Vec3) -> f64,
     ) -> Result<Self, TetrahedronError> {
@@ -37,12 +38,12 @@ impl GradedLattice {
             tetrahedra,
             cuts: Vec::new(),
         };
-        lattice.find_cuts((surface, tree), &edges);
+        lattice.find_cuts(surface, tree, &edges);
         lattice.warp();
         Ok(lattice)
     }
 
-    fn find_cuts(&mut self, (surface, tree): (&Surface, &AabbTree), edges: &[[NodeId; 2]]) {
+    fn find_cuts(&mut self, surface: &Surface, tree: &AabbTree, edges: &[[NodeId; 2]]) {
         for &[a, b] in edges {
             let ends = match [a, b].map(|end| self.places[end.index()]) {
                 [Place::Inside, Place::Outside] => [a, b],

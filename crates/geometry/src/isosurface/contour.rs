@@ -41,7 +41,7 @@ pub(super) fn contour(block: &Block, most: usize) -> Option<(Vec<Vec3>, Vec<[Nod
                     let nodes = ring.iter().map(|&(a, b)| {
                         let middle =
                             Vec3::new(x as f64, y as f64, z as f64) + 0.5 * (offset(a) + offset(b));
-                        surface.vertex((corner(a), corner(b)), middle)
+                        surface.vertex(corner(a), corner(b), middle)
                     });
                     let nodes: Vec<NodeId> = nodes.collect();
                     surface.close(&nodes);
@@ -64,7 +64,7 @@ struct Contour {
 
 impl Contour {
     /// The vertex on an edge of the grid, made when it is met first.
-    fn vertex(&mut self, (a, b): (usize, usize), position: Vec3) -> NodeId {
+    fn vertex(&mut self, a: usize, b: usize, position: Vec3) -> NodeId {
         let new = NodeId(self.vertices.len() as u32);
         let number = *self.numbers.entry((a.min(b), a.max(b))).or_insert(new);
         if number == new {

@@ -47,23 +47,6 @@ impl Adjacency {
         self.across(triangle).into_iter().flatten()
     }
 
-    /// The triangles that share a vertex with `triangle`, itself left out, in ascending order.
-    pub fn vertex_neighborhood(
-        &self,
-        mesh: &TriangleMesh,
-        triangle: TriangleId,
-    ) -> Vec<TriangleId> {
-        let mut ring: Vec<_> = mesh
-            .corners(triangle)
-            .into_iter()
-            .flat_map(|node| self.around(node).iter().copied())
-            .filter(|&other| other != triangle)
-            .collect();
-        ring.sort_unstable();
-        ring.dedup();
-        ring
-    }
-
     fn only_other_triangle(
         &self,
         mesh: &TriangleMesh,

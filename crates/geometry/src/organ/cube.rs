@@ -55,18 +55,6 @@ mod tests {
     }
 
     #[test]
-    fn only_the_bottom_is_held() {
-        let mesh = surface_mesh(10_000).unwrap();
-        let plane = anchor()[0];
-        let held: f64 = mesh
-            .triangle_ids()
-            .filter(|&t| plane.holds(&(mesh.positions(t).iter().sum::<Vec3>() / 3.0)))
-            .map(|t| mesh.area_vector(t).norm())
-            .sum();
-        assert!((held - 0.01).abs() < 1e-12);
-    }
-
-    #[test]
     fn the_nearest_square_is_chosen() {
         assert_eq!(nearest_square(12, 12, 1), 1);
         assert_eq!(nearest_square(100, 12, 1), 3);

@@ -51,7 +51,7 @@ pub(super) fn anchor() -> Vec<AnchorPlane> {
 
 /// Rows of vertices around the hiatus: outward above, around the rim, inward below, around the hiatus.
 pub(super) fn surface_mesh(triangles: usize) -> Result<TriangleMesh, MeshError> {
-    let profile = Profile::new(outline, (RIM_WEIGHT, Vec2::x()));
+    let profile = Profile::new(outline, RIM_WEIGHT, Vec2::x());
     let (rows, steps) = grid_size(triangles, profile.conformal_length());
     let mut vertices = Vec::with_capacity(rows * steps);
     for row in 0..rows {

@@ -55,7 +55,7 @@ pub(super) fn anchor() -> Vec<AnchorPlane> {
 /// Rows of vertices around the wall, each turned by half a step against the last. Rows are spaced
 /// in proportion to their radius, so that triangles are equilateral up to the curvature.
 pub(super) fn surface_mesh(triangles: usize) -> Result<TriangleMesh, MeshError> {
-    let profile = Profile::new(outline, (RIM_WEIGHT, Vec2::y()));
+    let profile = Profile::new(outline, RIM_WEIGHT, Vec2::y());
     let (rows, steps) = grid_size(triangles, profile.conformal_length());
     let mut vertices = Vec::with_capacity(rows * steps);
     for row in 0..rows {

@@ -190,6 +190,7 @@ impl std::str::FromStr for Organ {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Vec3;
 
     #[test]
     fn every_name_parses_back() {
@@ -214,5 +215,19 @@ mod tests {
             message.contains("liver") && message.contains("200"),
             "{message}"
         );
+    }
+
+    #[test]
+    fn only_the_bottom_of_cube_and_slab_is_held() {
+        for organ in [Organ::Cube, Organ::Slab] {
+            let mesh = organ.surface_mesh(10_000).unwrap();
+            let plane = organ.anchor()[0];
+            let held: f64 = mesh
+                .triangle_ids()
+                .filter(|&t| plane.holds(&(mesh.positions(t).iter().sum::<Vec3>() / 3.0)))
+                .map(|t| mesh.area_vector(t).norm())
+                .sum();
+            assert!((held - 0.01).abs() < 1e-12, "{organ}");
+        }
     }
 }

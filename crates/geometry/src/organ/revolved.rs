@@ -22,7 +22,7 @@ pub(super) struct Profile {
 impl Profile {
     /// Of the outline that has a point for each parameter from 0 to 4 and `begins` in that direction. Rims are
     /// kept round by `rim_weight` rows per radian of turn, against rows per radius of length [-].
-    pub(super) fn new(outline: fn(f64) -> Vec2, (rim_weight, begins): (f64, Vec2)) -> Self {
+    pub(super) fn new(outline: fn(f64) -> Vec2, rim_weight: f64, begins: Vec2) -> Self {
         let mut lengths = vec![0.0];
         let mut last = outline(0.0);
         let mut last_direction = begins;

@@ -1,4 +1,4 @@
-use super::shell::{Shell, dihedral_quality, move_if_sound};
+use super::shell::{SearchedSurface, dihedral_quality, move_if_sound};
 use crate::mesh::edges::{by_edge, sides};
 use crate::{NodeId, Surface, TetrahedronError, TetrahedronMesh, Vec3};
 
@@ -54,7 +54,7 @@ pub fn resolve_levels(
     surface: Option<&Surface>,
     levels: &[Level<'_>],
 ) -> Result<(TetrahedronMesh, Vec<Resolved>), TetrahedronError> {
-    let shell = surface.map(Shell::new);
+    let shell = surface.map(SearchedSurface::new);
     let mut mesh = mesh;
     let mut pinned = mesh.between_regions();
     let mut resolved: Vec<Resolved> = Vec::new();
@@ -76,7 +76,7 @@ struct Resolving<'a> {
     /// Edges of the boundary, in ascending order, and the normals of its triangles around each vertex.
     boundary: Vec<[NodeId; 2]>,
     normals: Vec<Vec<Vec3>>,
-    shell: Option<&'a Shell<'a>>,
+    shell: Option<&'a SearchedSurface<'a>>,
     level: &'a Level<'a>,
     /// Heights of the vertices over the level [m]; exactly zero on it.
     heights: Vec<f64>,
@@ -96,7 +96,7 @@ struct Move {
 impl<'a> Resolving<'a> {
     fn new(
         mesh: TetrahedronMesh,
-        shell: Option<&'a Shell<'a>>,
+        shell: Option<&'a SearchedSurface<'a>>,
         level: &'a Level<'a>,
         pinned: Vec<bool>,
     ) -> Self {

@@ -1,6 +1,6 @@
 use super::bisection::Bisection;
 use super::relax::relax;
-use super::shell::{Shell, move_if_sound};
+use super::shell::{SearchedSurface, move_if_sound};
 use crate::{Surface, TetrahedronError, TetrahedronMesh, Vec3};
 
 /// Angles below this are not made by moving a vertex [rad].
@@ -29,7 +29,7 @@ pub fn refine_to(
         let centroid = 0.25 * (a + b + c + d);
         longest > longest_edge(&centroid) || positions.iter().any(|p| longest > longest_edge(p))
     };
-    let shell = surface.map(Shell::new);
+    let shell = surface.map(SearchedSurface::new);
     let mut bisection = Bisection::new(mesh);
     let mut off_surface = Vec::new();
     let (mut rounds, mut relaxed) = (0, 0);
@@ -72,7 +72,7 @@ pub fn refine_to(
 }
 
 /// Moves a vertex onto the surface. Whether it is there.
-fn pull(bisection: &mut Bisection, shell: &Shell<'_>, node: u32) -> bool {
+fn pull(bisection: &mut Bisection, shell: &SearchedSurface<'_>, node: u32) -> bool {
     let target = shell.nearest(&bisection.vertices[node as usize]);
     let star: Vec<[u32; 4]> = bisection.around[node as usize]
         .iter()

@@ -5,7 +5,7 @@
 //! the worst angle around the vertex grows.
 
 use super::bisection::Bisection;
-use super::shell::{Shell, dihedral_quality};
+use super::shell::{SearchedSurface, dihedral_quality};
 use crate::Vec3;
 
 /// Tetrahedra less open than this are worked on [rad].
@@ -18,7 +18,7 @@ const SWEEPS: usize = 6;
 const STEPS: [f64; 4] = [0.3, 0.15, 0.07, 0.03];
 
 /// Without a shell the boundary stays.
-pub(super) fn relax(bisection: &mut Bisection, shell: Option<&Shell<'_>>) {
+pub(super) fn relax(bisection: &mut Bisection, shell: Option<&SearchedSurface<'_>>) {
     let on_boundary = bisection.on_boundary();
     // A vertex between regions would change their shapes.
     let between = bisection.between_regions();
@@ -43,7 +43,7 @@ pub(super) fn relax(bisection: &mut Bisection, shell: Option<&Shell<'_>>) {
 }
 
 /// Moves one vertex to a better place nearby. Whether there was one.
-fn open(bisection: &mut Bisection, node: u32, shell: Option<&Shell<'_>>) -> bool {
+fn open(bisection: &mut Bisection, node: u32, shell: Option<&SearchedSurface<'_>>) -> bool {
     let star: Vec<[u32; 4]> = bisection.around[node as usize]
         .iter()
         .map(|&t| bisection.nodes(t))

@@ -4,12 +4,12 @@ use crate::mesh::tetrahedra::{dihedral_angles, six_fold_volume};
 use crate::{AabbTree, Surface, Vec3};
 
 /// A surface and its tree.
-pub(super) struct Shell<'a> {
+pub(super) struct SearchedSurface<'a> {
     surface: &'a Surface,
     tree: AabbTree,
 }
 
-impl<'a> Shell<'a> {
+impl<'a> SearchedSurface<'a> {
     pub(super) fn new(surface: &'a Surface) -> Self {
         let tree = AabbTree::new(surface.mesh());
         Self { surface, tree }

@@ -33,10 +33,10 @@ pub(super) fn relax(
         progress(round as f64 / (ROUNDS + 1) as f64)?;
         flip_all(net, &mut guard);
         slide_all(net, &mut guard, &free);
-        fit_all(net, &mut guard, (reference, &free));
+        fit_all(net, &mut guard, reference, &free);
     }
     progress(ROUNDS as f64 / (ROUNDS + 1) as f64)?;
-    fit_all(net, &mut guard, (reference, &free));
+    fit_all(net, &mut guard, reference, &free);
     ControlFlow::Continue(())
 }
 
@@ -100,7 +100,7 @@ fn slide_all(net: &mut Net, guard: &mut Guard, free: &[u32]) {
     }
 }
 
-fn fit_all(net: &mut Net, guard: &mut Guard, (reference, free): (&Reference<'_>, &[u32])) {
+fn fit_all(net: &mut Net, guard: &mut Guard, reference: &Reference<'_>, free: &[u32]) {
     let gaps = reference.mean_gaps(net);
     for &vertex in free {
         let normals = net.around(vertex).iter();

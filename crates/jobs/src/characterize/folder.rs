@@ -25,7 +25,7 @@ pub struct StudyFolder {
 }
 
 /// Where one specimen is kept.
-pub(crate) struct Kept {
+pub(crate) struct SpecimenFile {
     json: PathBuf,
     digest: String,
 }
@@ -64,9 +64,9 @@ impl StudyFolder {
     ///
     /// # Errors
     /// When the study would replace a file that is not its own, and may not, or the folder cannot be marked.
-    pub(crate) fn begin(&self, kept: &[Kept]) -> Result<Vec<Option<Finished>>, Error> {
+    pub(crate) fn begin(&self, kept: &[SpecimenFile]) -> Result<Vec<Option<Finished>>, Error> {
         let mark = self.path.join(MARK);
-        let finished: Vec<_> = kept.iter().map(Kept::read).collect();
+        let finished: Vec<_> = kept.iter().map(SpecimenFile::read).collect();
         if self.overwrite == Overwrite::Refused {
             let missing = kept.iter().zip(&finished).filter(|(_, own)| own.is_none());
             let missing: Vec<_> = missing.map(|(kept, _)| kept).collect();
@@ -90,7 +90,7 @@ impl StudyFolder {
         groups: &[Vec<ReadRecording>],
         place: usize,
         settings: &CharacterizeSettings,
-    ) -> Kept {
+    ) -> SpecimenFile {
         let name = |group: &[ReadRecording]| {
             file_name(&Specimen::title(&group[0].clean.header, &group[0].path))
         };
@@ -100,7 +100,7 @@ impl StudyFolder {
             0 => own,
             earlier => format!("{own}-{}", earlier + 1),
         };
-        Kept {
+        SpecimenFile {
             json: self.path.join(format!("{stem}.json")),
             digest: digest(&groups[place], settings),
         }
@@ -112,7 +112,7 @@ impl StudyFolder {
     }
 }
 
-impl Kept {
+impl SpecimenFile {
     /// What was finished before of the same recordings, in the same way.
     fn read(&self) -> Option<Finished> {
         let text = read_text(&self.json, MOST_OF_TABLE).ok()?;

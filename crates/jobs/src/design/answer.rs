@@ -69,9 +69,11 @@ impl From<&Presses> for PressesAnswer {
 
 impl Answer {
     pub(super) fn new(
-        (presses, before): (&Presses, &[ExpectedParameter]),
+        presses: &Presses,
+        before: &[ExpectedParameter],
         found: &Designed,
-        (criterion, wanted): (Criterion, &[String]),
+        criterion: Criterion,
+        wanted: &[String],
     ) -> Self {
         let told = |own: &ExpectedParameter| {
             let earlier = before.iter().find(|earlier| earlier.name == own.name);

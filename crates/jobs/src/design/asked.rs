@@ -10,7 +10,7 @@ use crate::{Error, Recordings};
 /// What is asked for as JSON.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Asked {
+struct RequestDocument {
     tissue: Option<PathBuf>,
     recordings: Recordings,
     law: Option<String>,
@@ -25,7 +25,7 @@ impl Request {
     /// # Errors
     /// When the text is none, or a law or a criterion is not known.
     pub fn parse(text: &str) -> Result<Self, Error> {
-        let asked: Asked = serde_json::from_str(text).map_err(Error::input)?;
+        let asked: RequestDocument = serde_json::from_str(text).map_err(Error::input)?;
         let law = asked.law.as_deref();
         let law = law.map(|name| Choice::law_named(name, None)).transpose()?;
         Ok(Self {

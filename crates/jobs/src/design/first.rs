@@ -34,7 +34,7 @@ pub(super) fn of_recordings(
     let before = presses(&cleaned)?;
     let guess = guess(&tissue)?;
     let own = Expecting::new(guess.clone(), DEEPEST.max(before.deepest() / before.radius))?;
-    let instrument = noise_as_found((&own, specimen), &before, instrument(&cleaned))?;
+    let instrument = noise_as_found(&own, specimen, &before, instrument(&cleaned))?;
     Ok(Start {
         factors: factors(specimen),
         guess,
@@ -122,7 +122,8 @@ fn instrument(recordings: &[&CleanRecording]) -> Instrument {
 /// Intervals of `specimen` and those expected under the same presses: noise and zeros are multiplied by one factor until
 /// the two agree in the geometric mean, for noise that lasts tells more than that between two samples.
 fn noise_as_found(
-    (own, specimen): (&Expecting, &Specimen),
+    own: &Expecting,
+    specimen: &Specimen,
     presses: &Presses,
     instrument: Instrument,
 ) -> Result<Instrument, Error> {

@@ -117,11 +117,7 @@ pub fn design(request: &Request, watch: &dyn Watch) -> Result<Designed, Error> {
         &mut |part| watch.at(part),
     )?;
     let (before, ..) = first.expected(&start.before, &start.instrument)?;
-    let answer = Answer::new(
-        (&start.before, &before),
-        &found,
-        (request.criterion, &wanted),
-    );
+    let answer = Answer::new(&start.before, &before, &found, request.criterion, &wanted);
     Ok(Designed {
         protocol: protocol(&start.tissue, &found.presses, &limits, &answer),
         answer,

@@ -34,7 +34,7 @@ pub(crate) fn of_tissue(
 ) -> Result<VirtualSpecimen, Error> {
     let linear = tissue.elasticity.law() == LawName::Linear;
     let Some(folder) = preparation::folder().filter(|_| !linear) else {
-        return VirtualSpecimen::of_tissue(tissue, (radius, deepest), at_step);
+        return VirtualSpecimen::of_tissue(tissue, radius, deepest, at_step);
     };
     let from = format!(
         "{METHOD} {:?} {:?} {radius:?} {deepest:?}",
@@ -45,7 +45,7 @@ pub(crate) fn of_tissue(
     if let Some(curve) = read(&file, &key) {
         return VirtualSpecimen::of_solved(tissue, radius, curve);
     }
-    let specimen = VirtualSpecimen::of_tissue(tissue, (radius, deepest), at_step)?;
+    let specimen = VirtualSpecimen::of_tissue(tissue, radius, deepest, at_step)?;
     if let Some(curve) = specimen.solved() {
         keep(&file, &print(&key, curve));
     }

@@ -70,7 +70,7 @@ impl Measuring {
         let mut names: Vec<String> = Vec::new();
         for (place, specimen) in (1..).zip(&self.specimens) {
             for (stimulus, repeat, _) in &self.stimuli {
-                let name = recording_name(specimen.header(), place, (stimulus, *repeat));
+                let name = recording_name(specimen.header(), place, stimulus, *repeat);
                 names.push(unique(name, &names));
             }
         }
@@ -84,7 +84,7 @@ impl Measuring {
         let mut files = files.paths.iter();
         for (place, specimen) in self.specimens.iter().enumerate() {
             let clock = self.plan.clock();
-            let mut rig = AnyRig::by(self.plan.rig((specimen.clone(), place), clock)?)?;
+            let mut rig = AnyRig::by(self.plan.rig(specimen.clone(), place, clock)?)?;
             if self.go_to_place(&mut rig, place, watch)? == Ended::Stopped {
                 return Ok(recorded);
             }
@@ -103,7 +103,7 @@ impl Measuring {
                     }
                     AnyRig::Live(live) => {
                         let settings = &self.plan.settings;
-                        let header = settings.describe(live.header(), (trajectory, *repeat));
+                        let header = settings.describe(live.header(), trajectory, *repeat);
                         let mut online = Estimating::of(&header, trajectory, target);
                         let done = live.record((trajectory, header), (file, &mut online), watch);
                         (done, online)

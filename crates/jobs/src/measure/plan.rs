@@ -188,7 +188,7 @@ impl Plan {
     }
 
     /// A rig over the specimen at `place`, on `clock`, that faces it as the protocol says.
-    pub fn rig(&self, (specimen, place): (OnRig, usize), clock: Clock) -> Result<Rig, Error> {
+    pub fn rig(&self, specimen: OnRig, place: usize, clock: Clock) -> Result<Rig, Error> {
         let mut rig = self.made(specimen, place, clock)?;
         let normal = Vec3::from(self.specimens[place].place.normal);
         rig.face(&normal)?;

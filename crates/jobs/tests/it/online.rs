@@ -22,7 +22,7 @@ const TIMES: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
 fn solved() -> (Tissue, IndentationCurve) {
     let tissue = Tissue::builtin(BuiltinTissue::PigLiver);
     let specimen =
-        VirtualSpecimen::of_tissue(&tissue, (RADIUS, DEPTH + 1.5e-3), &mut |_| ()).unwrap();
+        VirtualSpecimen::of_tissue(&tissue, RADIUS, DEPTH + 1.5e-3, &mut |_| ()).unwrap();
     let curve = specimen.solved().unwrap().clone();
     (tissue, curve)
 }

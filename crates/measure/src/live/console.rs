@@ -30,7 +30,7 @@ pub enum RigCommand {
 
 /// The end from which a rig is operated.
 pub struct Console {
-    commands: log::Writer<Given>,
+    commands: log::Writer<StampedCommand>,
     switches: Switches,
     supervisor: Supervisor,
     /// Whether its end takes all forces off at once: a hand may be on the device.
@@ -39,7 +39,7 @@ pub struct Console {
 
 /// A command, and how often everything was stopped before it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Given {
+pub(super) struct StampedCommand {
     pub(super) stops: u64,
     pub(super) command: RigCommand,
 }
@@ -60,7 +60,7 @@ impl Console {
     pub(super) fn new(
         supervisor: Supervisor,
         is_real: bool,
-    ) -> (Self, log::Reader<Given>, Switches) {
+    ) -> (Self, log::Reader<StampedCommand>, Switches) {
         let (commands, reader) = log::ring(ORDERS);
         let switches = Switches::default();
         let console = Self {
@@ -75,7 +75,7 @@ impl Console {
     /// Queues a command.
     pub fn send(&mut self, command: RigCommand) {
         let stops = self.switches.stops();
-        self.commands.add(Given { stops, command });
+        self.commands.add(StampedCommand { stops, command });
     }
 
     /// Ends what is being done, out of the tissue, and drops the queued commands.

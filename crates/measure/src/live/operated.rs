@@ -1,6 +1,6 @@
 use palpate_servo::{Fault, Vec3, log};
 
-use super::console::{Given, Switches};
+use super::console::{StampedCommand, Switches};
 use super::{Console, RigCommand};
 use crate::{Ended, Error, Rig, RigSample};
 
@@ -26,9 +26,9 @@ pub enum RigEvent {
 /// A rig that carries out commands.
 pub struct Operated {
     rig: Rig,
-    commands: log::Reader<Given>,
+    commands: log::Reader<StampedCommand>,
     /// A command that was read while another was carried out.
-    next: Option<Given>,
+    next: Option<StampedCommand>,
     told: log::Writer<RigEvent>,
     switches: Switches,
     fault: Option<Fault>,
@@ -84,7 +84,7 @@ impl Operated {
         true
     }
 
-    fn next_order(&mut self) -> Option<Given> {
+    fn next_order(&mut self) -> Option<StampedCommand> {
         loop {
             let given = self.next.take().or_else(|| self.commands.next_value())?;
             if given.stops == self.switches.stops() {
@@ -94,7 +94,7 @@ impl Operated {
         }
     }
 
-    fn carry_out(&mut self, given: Given, watch: &mut dyn FnMut(&RigSample)) {
+    fn carry_out(&mut self, given: StampedCommand, watch: &mut dyn FnMut(&RigSample)) {
         let command = given.command;
         self.told.add(RigEvent::Begun(command));
         let Self {

@@ -2,6 +2,7 @@ use palpate_servo::{Fault, Stage, Vec3};
 
 use super::{Ended, Line, Listener, Phase, Reference, Rig, RigSample};
 use crate::Error;
+use crate::rig_settings::check_within;
 
 /// What rounding may make of a way [m].
 const ROUNDED: f64 = 1e-9;
@@ -80,7 +81,7 @@ impl Rig {
         let from = self.line.at(self.aim);
         let way = to - from;
         if !self.leads_sideways(&way) {
-            return self.go((self.line.height(to), speed), phase, listener);
+            return self.go(self.line.height(to), speed, phase, listener);
         }
         self.forget_contact();
         let ticks = (way.norm() / speed / self.settings.period).ceil().max(1.0) as u64;
@@ -150,29 +151,10 @@ impl Rig {
         };
         let to_line = Line::through(to, self.line.normal);
         // Where it is already is never out of reach.
-        let bounds = [
-            (
-                "along the normal",
-                self.line.height(to),
-                [lowest.min(self.aim), settings.approach_way.max(self.aim)],
-            ),
-            (
-                "sideways",
-                to_line.side.norm(),
-                [0.0, settings.lateral_limit.max(self.line.side.norm())],
-            ),
-        ];
-        for (direction, found, [least, most]) in bounds {
-            if !(found >= least - ROUNDED && found <= most + ROUNDED) {
-                return Err(Error::OutOfReach {
-                    direction,
-                    to_mm: 1e3 * found,
-                    least_mm: 1e3 * least,
-                    most_mm: 1e3 * most,
-                });
-            }
-        }
-        Ok(())
+        let along = [lowest.min(self.aim), settings.approach_way.max(self.aim)];
+        check_within("along the normal", self.line.height(to), along, ROUNDED)?;
+        let sideways = [0.0, settings.lateral_limit.max(self.line.side.norm())];
+        check_within("sideways", to_line.side.norm(), sideways, ROUNDED)
     }
 
     /// Lets forces on again after a fault; until they are, the rig is [`limp`](Self::limp).

@@ -120,7 +120,7 @@ impl Rig {
         let mut ended = self.stay(self.settings.calm(), listener)?;
         for (above, speed) in [(clearance, withdrawal_speed), (STANDOFF, approach_speed)] {
             if ended == Ended::Whole {
-                ended = self.go((contact + above, speed), Phase::Waiting, listener)?;
+                ended = self.go(contact + above, speed, Phase::Waiting, listener)?;
             }
         }
         if ended == Ended::Stopped {
@@ -196,7 +196,7 @@ impl Rig {
         let above = self.contact.map_or(self.retreat, |contact| contact + waits);
         let above = above.max(self.aim);
         let speed = self.settings.withdrawal_speed;
-        self.go((above, speed), Phase::Withdrawing, listener)
+        self.go(above, speed, Phase::Withdrawing, listener)
     }
 
     /// What was done, with the indenter out of the tissue when that failed.
@@ -215,7 +215,8 @@ impl Rig {
     /// Goes along the normal to a height [m] with a speed [m/s].
     pub(super) fn go(
         &mut self,
-        (height, speed): (f64, f64),
+        height: f64,
+        speed: f64,
         phase: Phase,
         listener: Listener<'_>,
     ) -> Result<Ended, Error> {
@@ -241,7 +242,8 @@ impl RigSettings {
     pub fn describe(
         &self,
         specimen: &RecordingHeader,
-        (trajectory, repeat): (&DepthTrajectory, u64),
+        trajectory: &DepthTrajectory,
+        repeat: u64,
     ) -> RecordingHeader {
         let mut header = specimen.clone();
         trajectory.describe(&mut header);

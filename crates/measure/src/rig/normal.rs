@@ -90,7 +90,7 @@ impl Rig {
         }
         let contact = self.contact.ok_or(Error::NotApproached)?;
         let speed = self.settings.withdrawal_speed;
-        match self.go((from, speed), Phase::Jogging, listener)? {
+        match self.go(from, speed, Phase::Jogging, listener)? {
             Ended::Whole => Ok(Some(contact)),
             Ended::Stopped | Ended::Enough => Ok(None),
         }

@@ -15,7 +15,7 @@ use palpate_servo::{Clock, Controller, Device, DeviceState, ForceTorque, Vec3, l
 
 use super::{Parts, Rig};
 use crate::sensing::{MountedSensor, Source};
-use crate::{Error, Indenter, Reference, RigSettings, VirtualForceSensor, VirtualSpecimen};
+use crate::{Error, Indenter, Reference, RigSettings, VirtualSpecimen};
 
 impl Rig {
     /// A rig whose indenter `device` carries, over a specimen that is not there.
@@ -44,11 +44,7 @@ impl Rig {
             device,
             controller: Box::new(controller),
             reference,
-            sensor: Source::Virtual {
-                sensor: VirtualForceSensor::nano17(seed),
-                felt,
-                tip_distance: settings.tip_distance,
-            },
+            sensor: Source::of_virtual(felt, seed, &settings),
             header,
             breath_held,
             settings,

@@ -50,12 +50,6 @@ impl RigSample {
         let whole = self.axes.map_or(0.0, |axes| axes.force.norm());
         whole.max(self.force.abs())
     }
-
-    /// The force beside the indenter's axis [N]; none for a sensor of one axis.
-    pub fn lateral_force(&self) -> Option<f64> {
-        let axes = self.axes?;
-        Some(axes.force.x.hypot(axes.force.y))
-    }
 }
 
 /// How a stimulus ended.

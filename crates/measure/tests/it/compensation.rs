@@ -9,8 +9,8 @@ use palpate_measure::phantom::{
 };
 use palpate_servo::dynamics::{Compensation, Linkage, largest_mass};
 use palpate_servo::{
-    Clock, Device, DeviceState, Hand, Limits, Sample, ServoLoop, ServoSettings, Trajectory, Vec3,
-    VirtualDevice, Waypoint,
+    Clock, Device, DeviceState, HandImpedance, Limits, Sample, ServoLoop, ServoSettings,
+    Trajectory, Vec3, VirtualDevice, Waypoint,
 };
 
 const PERIOD: f64 = 1e-3;
@@ -245,7 +245,7 @@ fn joints_are_found_from_the_place_of_the_handle() {
 }
 
 /// Whether a hand that is pushed once comes to rest when `mass` [kg] of it is compensated.
-fn comes_to_rest(hand: Hand, cutoff: f64, mass: f64) -> bool {
+fn comes_to_rest(hand: HandImpedance, cutoff: f64, mass: f64) -> bool {
     let places = [(0.0, 0.0), (0.1, 0.0), (0.11, 1e-5)];
     let places = places.map(|(time, x)| Waypoint::new(time, Vec3::x() * x));
     let device = VirtualDevice::new(Trajectory::way(places.to_vec()).unwrap())
@@ -273,7 +273,7 @@ fn comes_to_rest(hand: Hand, cutoff: f64, mass: f64) -> bool {
 fn inertia_is_compensated_up_to_the_stated_limit() {
     for (damping, stiffness) in [(5.0, 500.0), (3.0, 1500.0)] {
         for cutoff in [10.0, 30.0, 100.0] {
-            let hand = Hand {
+            let hand = HandImpedance {
                 mass: 0.18,
                 damping,
                 stiffness,

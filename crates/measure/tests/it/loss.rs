@@ -13,7 +13,7 @@ use crate::rig::{RADIUS, rig_on, tissue, usual};
 
 /// The samples of a whole run whose device is lost at a time [s], what the rig said, and what it says next.
 fn lost_at(time: f64) -> (Vec<RigSample>, Option<Error>, Option<Error>, Recording) {
-    let specimen = VirtualSpecimen::of_tissue(&tissue(), (RADIUS, 8e-3), &mut |_| ()).unwrap();
+    let specimen = VirtualSpecimen::of_tissue(&tissue(), RADIUS, 8e-3, &mut |_| ()).unwrap();
     let imperfections = Imperfections {
         lost_at: time,
         ..Imperfections::premium()

@@ -13,7 +13,7 @@ static COUNTING: AllocDisabler = AllocDisabler;
 /// approach makes room for all that it will see, once.
 #[test]
 fn a_tick_of_the_rig_allocates_nothing() {
-    let specimen = VirtualSpecimen::of_tissue(&tissue(), (RADIUS, 8e-3), &mut |_| ()).unwrap();
+    let specimen = VirtualSpecimen::of_tissue(&tissue(), RADIUS, 8e-3, &mut |_| ()).unwrap();
     let settings = RigSettings::default();
     let mut rig = rig_on(Imperfections::premium(), specimen.alive(3), settings, 1);
     let trajectory = usual();

@@ -27,7 +27,7 @@ pub(crate) fn tissue() -> Tissue {
 
 /// A wide piece of it.
 pub(crate) fn soft() -> VirtualSpecimen {
-    VirtualSpecimen::of_tissue(&tissue(), (RADIUS, 8e-3), &mut |_| ()).unwrap()
+    VirtualSpecimen::of_tissue(&tissue(), RADIUS, 8e-3, &mut |_| ()).unwrap()
 }
 
 /// A rig over `specimen`, on a virtual clock.

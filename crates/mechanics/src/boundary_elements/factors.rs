@@ -37,7 +37,7 @@ impl<T: Precision> Factors<T> {
             let width = PANEL.min(size - start);
             let (left, right) = matrix.split_at_mut((start + width) * size);
             let (left, panel) = left.split_at_mut(start * size);
-            let moved = eliminate(panel, (size, start, width));
+            let moved = eliminate(panel, size, start, width);
             on_all_cores(left.chunks_mut(size * BLOCK), |block| {
                 move_rows(block, size, &moved);
             });
@@ -77,7 +77,9 @@ impl<T: Precision> Factors<T> {
 /// Factors the columns of `panel` from the row `start` on; answers which rows moved, as (to, from).
 fn eliminate<T: Precision>(
     panel: &mut [T],
-    (size, start, width): (usize, usize, usize),
+    size: usize,
+    start: usize,
+    width: usize,
 ) -> Vec<(usize, usize)> {
     let below = size - start;
     let mut forward = vec![0_usize; below];

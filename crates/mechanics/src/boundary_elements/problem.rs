@@ -104,7 +104,8 @@ impl BoundaryProblem<'_> {
         let mut parts = ResponseParts::zeros(
             self.poissons_ratio,
             touchable.collect(),
-            (triangles, self.held),
+            triangles,
+            self.held,
             Sampling::Centroids,
         )?;
         let system = zeros(self.size() * self.size())?;

@@ -86,11 +86,6 @@ impl EnhancedPatch {
         self.carrier.places()
     }
 
-    /// The triangles over the points, counter-clockwise seen from outside.
-    pub fn triangles(&self) -> &[[u32; 3]] {
-        &self.triangles
-    }
-
     /// The point of the patch at rest that is nearest to `place` [m]; that itself where there is no patch.
     pub fn nearest(&self, place: &Vec3) -> Vec3 {
         let on = self.triangles.iter().map(|points| {

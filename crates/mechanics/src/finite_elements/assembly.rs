@@ -83,7 +83,8 @@ pub(super) fn assemble(
 pub(super) fn add_sensitivity(
     model: &FiniteElementModel,
     unknowns: &[f64],
-    (law, parameter): (&Arc<dyn Law>, usize),
+    law: &Arc<dyn Law>,
+    parameter: usize,
     residual: &mut [f64],
 ) {
     let local = model.local_unknowns();

@@ -157,7 +157,7 @@ fn estimate(solved: &[Solved], expected: f64) -> Estimate {
     Estimate {
         error: worst.map_or(f64::INFINITY, |index| index.error),
         observed_order: worst.and_then(|index| match index.order {
-            Order::Observed(order) => Some(order),
+            ObservedOrder::Observed(order) => Some(order),
             _ => None,
         }),
         warnings: warnings.collect(),
@@ -166,7 +166,7 @@ fn estimate(solved: &[Solved], expected: f64) -> Estimate {
 
 /// What the last meshes show of the order of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Order {
+enum ObservedOrder {
     /// Not all meshes have it.
     Missing,
     /// One mesh shows nothing.
@@ -189,7 +189,7 @@ enum Order {
 struct Index {
     name: &'static str,
     error: f64,
-    order: Order,
+    order: ObservedOrder,
 }
 
 impl Index {
@@ -200,7 +200,7 @@ impl Index {
             return Self {
                 name,
                 error: f64::INFINITY,
-                order: Order::OneMesh,
+                order: ObservedOrder::OneMesh,
             };
         };
         let latest = &solved[solved.len().saturating_sub(3)..];
@@ -209,7 +209,7 @@ impl Index {
             return Self {
                 name,
                 error: 0.0,
-                order: Order::Missing,
+                order: ObservedOrder::Missing,
             };
         }
         let (fine, middle) = (&solved[fine], &solved[middle]);
@@ -222,9 +222,9 @@ impl Index {
         let assumed = ASSUMED * last_change.largest / falls(expected);
         let Some(coarse) = solved.len().checked_sub(3).map(|place| &solved[place]) else {
             let order = if last_change.largest <= SOLVED_TO {
-                Order::Solved
+                ObservedOrder::Solved
             } else {
-                Order::TwoMeshes
+                ObservedOrder::TwoMeshes
             };
             return Self {
                 name,
@@ -237,20 +237,23 @@ impl Index {
         let whole = changes(coarse, fine).largest.max(largest);
         let order = observe(
             [coarse.size, middle.size, fine.size],
-            (&first_change, &last_change),
+            &first_change,
+            &last_change,
             expected,
         );
         let error = match order {
-            Order::Observed(order) => OBSERVED * last_change.largest / falls(order.min(expected)),
-            Order::Solved => ASSUMED * largest,
-            Order::Oscillates => OBSERVED * whole / falls(expected).min(1.0),
-            Order::Slow => ASSUMED * whole,
+            ObservedOrder::Observed(order) => {
+                OBSERVED * last_change.largest / falls(order.min(expected))
+            }
+            ObservedOrder::Solved => ASSUMED * largest,
+            ObservedOrder::Oscillates => OBSERVED * whole / falls(expected).min(1.0),
+            ObservedOrder::Slow => ASSUMED * whole,
             // The first change, had it gone on falling with the expected order.
-            Order::Fast(_) => {
+            ObservedOrder::Fast(_) => {
                 let [h3, h2, h1] = [coarse, middle, fine].map(|mesh| mesh.size.powf(expected));
                 assumed.max(OBSERVED * first_change.largest * h1 / (h3 - h2))
             }
-            Order::Missing | Order::OneMesh | Order::TwoMeshes => assumed,
+            ObservedOrder::Missing | ObservedOrder::OneMesh | ObservedOrder::TwoMeshes => assumed,
         };
         Self { name, error, order }
     }
@@ -260,32 +263,32 @@ impl Index {
         let mut text = String::new();
         let (name, percent) = (self.name, 100.0 * self.error);
         let written = match self.order {
-            Order::Observed(_) | Order::Solved => return None,
-            Order::Missing => write!(
+            ObservedOrder::Observed(_) | ObservedOrder::Solved => return None,
+            ObservedOrder::Missing => write!(
                 text,
                 "there is a {name} on some meshes and none on others; the estimated error leaves it out"
             ),
-            Order::OneMesh => write!(
+            ObservedOrder::OneMesh => write!(
                 text,
                 "the {name} was solved on one mesh, which shows no error"
             ),
-            Order::TwoMeshes => write!(
+            ObservedOrder::TwoMeshes => write!(
                 text,
                 "the error of the {name}, {percent:.2} %, is from two meshes: it assumes an order of \
                  convergence of {expected} and a safety factor of {ASSUMED}"
             ),
-            Order::Oscillates => write!(
+            ObservedOrder::Oscillates => write!(
                 text,
                 "the {name} goes up and down from mesh to mesh, so that no order of convergence is \
                  observed: its error, {percent:.2} %, comes from the largest difference between three meshes"
             ),
-            Order::Slow => write!(
+            ObservedOrder::Slow => write!(
                 text,
                 "the {name} hardly converges: its change from mesh to mesh does not shrink as it should; \
                  its error, {percent:.2} %, is {ASSUMED} times the largest difference between three \
                  meshes and may be larger"
             ),
-            Order::Fast(order) => write!(
+            ObservedOrder::Fast(order) => write!(
                 text,
                 "the {name} seems to converge with order {order:.1} where {expected} is expected, which \
                  is chance on meshes as coarse as these: its error, {percent:.2} %, is an upper figure"
@@ -327,13 +330,13 @@ fn norm(values: &[f64]) -> f64 {
 }
 
 /// What the changes between three meshes of these sizes, the coarsest first, show.
-fn observe(sizes: [f64; 3], (first, last): (&Changes, &Changes), expected: f64) -> Order {
+fn observe(sizes: [f64; 3], first: &Changes, last: &Changes, expected: f64) -> ObservedOrder {
     if first.largest.max(last.largest) <= SOLVED_TO {
-        return Order::Solved;
+        return ObservedOrder::Solved;
     }
     let both: f64 = first.each.iter().zip(&last.each).map(|(a, b)| a * b).sum();
     if both < 0.0 {
-        return Order::Oscillates;
+        return ObservedOrder::Oscillates;
     }
     let shrinks = norm(&first.each) / norm(&last.each);
     let would = |order: f64| {
@@ -344,7 +347,7 @@ fn observe(sizes: [f64; 3], (first, last): (&Changes, &Changes), expected: f64) 
     let highest = (1.0 + 3.0 * (ratio.powf(expected) - 1.0)).ln() / ratio.ln();
     let highest = highest.min(2.0 * expected);
     if shrinks.is_nan() || shrinks < would(0.5 * expected) {
-        return Order::Slow;
+        return ObservedOrder::Slow;
     }
     let (mut low, mut high) = (0.5 * expected, HIGHEST_ORDER);
     for _ in 0..60 {
@@ -356,9 +359,9 @@ fn observe(sizes: [f64; 3], (first, last): (&Changes, &Changes), expected: f64) 
         }
     }
     if low <= highest {
-        Order::Observed(low)
+        ObservedOrder::Observed(low)
     } else {
-        Order::Fast(low)
+        ObservedOrder::Fast(low)
     }
 }
 

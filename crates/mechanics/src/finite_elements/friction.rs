@@ -50,7 +50,7 @@ pub(super) fn solve(
             .multiply(&workspace.tangent, step, &mut product);
         let each = slipping.iter();
         each.map(|contact| {
-            contact.force_ratio * normal_force_change(model, contact, workspace, (step, &product))
+            contact.force_ratio * normal_force_change(model, contact, workspace, step, &product)
         })
         .collect()
     };
@@ -91,7 +91,8 @@ fn normal_force_change(
     model: &FiniteElementModel,
     contact: &Sliding,
     workspace: &FiniteElementWorkspace,
-    (step, product): (&[f64], &[f64]),
+    step: &[f64],
+    product: &[f64],
 ) -> f64 {
     let place = newton::beside(model, contact, &workspace.trial);
     let at = |values: &[f64]| {

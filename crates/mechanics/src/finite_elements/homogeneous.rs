@@ -85,7 +85,7 @@ fn find(law: &dyn Law, how: Homogeneous, amount: f64, free: Option<[f64; 2]>) ->
             if step.norm() <= ARRIVED {
                 break;
             }
-            (free, state) = search(law, amount, (free, &state), step)?;
+            (free, state) = search(law, amount, free, &state, step)?;
             steps += 1;
             if steps > STEPS {
                 return None;
@@ -113,7 +113,8 @@ fn find(law: &dyn Law, how: Homogeneous, amount: f64, free: Option<[f64; 2]>) ->
 fn search(
     law: &dyn Law,
     amount: f64,
-    (from, state): ([f64; 2], &State),
+    from: [f64; 2],
+    state: &State,
     step: Vector2<f64>,
 ) -> Option<([f64; 2], State)> {
     let mut part = 1.0;

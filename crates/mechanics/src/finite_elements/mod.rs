@@ -43,5 +43,5 @@ pub use model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace, 
 pub use newton::{Equilibrium, Failure};
 pub use path::{Path, PathPoint};
 pub use punched::{PunchedLines, PunchedMesh};
-pub use relaxation::{Memory, RelaxationStep};
+pub use relaxation::{RelaxationHistory, RelaxationStep};
 pub use supports::{RigidSurface, Sliding, Supports};

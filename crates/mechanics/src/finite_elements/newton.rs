@@ -7,7 +7,7 @@
 use super::assembly::{self, PRESSURE_REGULARIZATION};
 use super::friction;
 use super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
-use super::supports::{Beside, Sliding, Supports};
+use super::supports::{Sliding, Supports, SurfaceDistance};
 
 /// Why an equilibrium was not found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -79,7 +79,7 @@ pub(super) fn equilibrate(
     workspace: &mut FiniteElementWorkspace,
 ) -> Result<Equilibrium, Failure> {
     assemble(model, supports, &state.unknowns, workspace)?;
-    correct(SolverControls::FULL, model, supports, (state, workspace))
+    correct(SolverControls::FULL, model, supports, state, workspace)
 }
 
 /// [`equilibrate`] with this `effort`, from a `state` whose residual and tangent are assembled.
@@ -87,7 +87,8 @@ pub(super) fn correct(
     controls: SolverControls,
     model: &FiniteElementModel,
     supports: &Supports<'_>,
-    (state, workspace): (&mut FiniteElementState, &mut FiniteElementWorkspace),
+    state: &mut FiniteElementState,
+    workspace: &mut FiniteElementWorkspace,
 ) -> Result<Equilibrium, Failure> {
     if supports.leave_free(model) {
         return Err(Failure::Singular);
@@ -384,7 +385,11 @@ fn advance(
 }
 
 /// Where a sliding node lies beside its surface.
-pub(super) fn beside(model: &FiniteElementModel, contact: &Sliding, unknowns: &[f64]) -> Beside {
+pub(super) fn beside(
+    model: &FiniteElementModel,
+    contact: &Sliding,
+    unknowns: &[f64],
+) -> SurfaceDistance {
     let place = &model.mesh.nodes[contact.node];
     contact.surface.beside(
         place.x + unknowns[2 * contact.node],
@@ -400,7 +405,7 @@ fn turn_node(
     workspace: &mut FiniteElementWorkspace,
     right: &mut [f64],
 ) {
-    let Beside {
+    let SurfaceDistance {
         normal: n,
         curvature,
         ..

@@ -110,17 +110,6 @@ impl<'a> Path<'a> {
         self.before.as_ref()
     }
 
-    /// Makes no step longer than `arc` [m], the root of the sum of squares over all displacements.
-    pub fn limit_arc(&mut self, arc: f64) {
-        self.arcs[1] = arc;
-        self.arc = self.arc.min(arc);
-    }
-
-    /// Length of the next step [m].
-    pub fn arc(&self) -> f64 {
-        self.arc
-    }
-
     /// Goes one step on.
     ///
     /// # Errors

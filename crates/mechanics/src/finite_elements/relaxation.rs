@@ -21,7 +21,7 @@ use crate::{PronySeries, Strain};
 
 /// What a body remembers of its stress.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Memory {
+pub struct RelaxationHistory {
     terms: usize,
     /// Elastic stress of distortion [Pa] at the last time; element by element, point by point.
     stress: Vec<Matrix3<f64>>,
@@ -108,7 +108,7 @@ impl PointHistory<'_> {
     }
 }
 
-impl Memory {
+impl RelaxationHistory {
     /// A body that was at rest for long.
     pub fn at_rest(model: &FiniteElementModel, series: &PronySeries) -> Self {
         let (points, pressures) = (model.mapping.weights.len(), model.pressures());

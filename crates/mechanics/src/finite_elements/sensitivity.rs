@@ -17,7 +17,7 @@ pub(super) fn residual_sensitivity(
     parameter: usize,
 ) -> Vec<f64> {
     let mut residual = vec![0.0; model.size()];
-    assembly::add_sensitivity(model, &state.unknowns, (law, parameter), &mut residual);
+    assembly::add_sensitivity(model, &state.unknowns, law, parameter, &mut residual);
     residual
 }
 

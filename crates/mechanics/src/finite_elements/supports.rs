@@ -69,7 +69,7 @@ pub enum RigidSurface {
 
 /// Where a point lies beside a rigid surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Beside {
+pub(super) struct SurfaceDistance {
     /// Signed distance [m], positive outside.
     pub distance: f64,
     /// Its gradient [-]: radial and axial component.
@@ -103,21 +103,21 @@ impl RigidSurface {
     }
 
     /// The point at radius `r` and height `z` [m].
-    pub(super) fn beside(&self, r: f64, z: f64) -> Beside {
+    pub(super) fn beside(&self, r: f64, z: f64) -> SurfaceDistance {
         match *self {
-            Self::Plane { height } => Beside {
+            Self::Plane { height } => SurfaceDistance {
                 distance: height - z,
                 normal: [0.0, -1.0],
                 curvature: 0.0,
             },
-            Self::Cylinder { radius } => Beside {
+            Self::Cylinder { radius } => SurfaceDistance {
                 distance: r - radius,
                 normal: [1.0, 0.0],
                 curvature: 0.0,
             },
             Self::Sphere { center, radius } => {
                 let (z, from_center) = (z - center, r.hypot(z - center));
-                Beside {
+                SurfaceDistance {
                     distance: from_center - radius,
                     normal: [r / from_center, z / from_center],
                     curvature: 1.0 / from_center,
@@ -125,7 +125,7 @@ impl RigidSurface {
             }
             Self::Cone { apex, half_angle } => {
                 let (sine, cosine) = half_angle.sin_cos();
-                Beside {
+                SurfaceDistance {
                     distance: r * cosine - (z - apex) * sine,
                     normal: [cosine, -sine],
                     curvature: 0.0,
@@ -135,7 +135,7 @@ impl RigidSurface {
     }
 }
 
-impl Beside {
+impl SurfaceDistance {
     /// Components of a vector (r, z) along the normal and along the tangent (−n_z, n_r).
     pub(super) fn components(&self, vector: [f64; 2]) -> [f64; 2] {
         let (n, [r, z]) = (self.normal, vector);

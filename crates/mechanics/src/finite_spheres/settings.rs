@@ -1,3 +1,5 @@
+pub use palpate_files::scene::{Assembly, Form, Placement};
+
 /// What can be chosen of the local model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FiniteSphereSettings {
@@ -28,25 +30,6 @@ pub enum Calibration {
     ParticlesAlone,
 }
 
-/// How the equations are made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Form {
-    /// Galerkin's condition: symmetric, and robust to where the particles are.
-    Weak,
-    /// Collocation at the particles, as in the source.
-    Strong,
-}
-
-/// Where the particles sit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Placement {
-    /// Even shells under a surface of the contact's curvature.
-    Template,
-    /// Along the directions from a triangle's centroid to its vertices, projected on the mesh
-    /// (section 3.4).
-    Source,
-}
-
 /// How the equations are solved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Solver {
@@ -57,15 +40,6 @@ pub enum Solver {
         /// Relative residual to reach [-].
         tolerance: f64,
     },
-}
-
-/// How often the equations are made and solved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Assembly {
-    /// At every step, nothing precomputed.
-    EveryStep,
-    /// Once for a range of curvatures, then interpolated (template placement only).
-    Reused,
 }
 
 /// How many integration points a model of two shells has.

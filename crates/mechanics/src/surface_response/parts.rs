@@ -81,7 +81,8 @@ impl<T: Precision> ResponseParts<T> {
     pub(crate) fn zeros(
         poissons_ratio: f64,
         touchable: Vec<TouchableTriangle>,
-        (triangles, held): (usize, &[TriangleId]),
+        triangles: usize,
+        held: &[TriangleId],
         sampling: Sampling,
     ) -> Result<Self, Error> {
         let columns = 3 * touchable.len();

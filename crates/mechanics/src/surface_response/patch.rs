@@ -84,7 +84,7 @@ impl<T: Precision> SurfaceResponse<T> {
                     Reciprocity::AsSolved => self.influence(row.triangle, column.triangle),
                 };
                 match contact.bond {
-                    Friction::Bonded => put(matrix, size, (i, j), &block),
+                    Friction::Bonded => put(matrix, size, i, j, &block),
                     Friction::Frictionless => {
                         let along = self.touchable()[column.triangle.index()].normal;
                         matrix[size * i + j] = normal.dot(&(block * along));
@@ -113,7 +113,7 @@ impl<T: Precision> SurfaceResponse<T> {
     }
 }
 
-fn put(matrix: &mut [f64], size: usize, (i, j): (usize, usize), block: &Matrix3<f64>) {
+fn put(matrix: &mut [f64], size: usize, i: usize, j: usize, block: &Matrix3<f64>) {
     for a in 0..3 {
         for b in 0..3 {
             matrix[size * (3 * i + a) + 3 * j + b] = block[(a, b)];

@@ -122,15 +122,10 @@ impl TipField {
             let spread = Spread::about(surface, NodeId(vertex as u32), radius);
             load.shares = spread.shares(response);
             load.further = further(response, surface, &spread);
-            load.around = seen_from(response, surface, (&spread, &load.shares));
+            load.around = seen_from(response, surface, &spread, &load.shares);
             load.reach = spread.reach;
         });
         Ok(Self { radius, vertices })
-    }
-
-    /// Radius of the tip's touching area [m].
-    pub fn radius(&self) -> f64 {
-        self.radius
     }
 
     /// The load of a tip at the point of `triangle` with the weights `barycentric` [-].
@@ -298,7 +293,8 @@ impl Spread {
 fn seen_from<T: Precision>(
     response: &SurfaceResponse<T>,
     surface: &Surface,
-    (spread, shares): (&Spread, &[Share]),
+    spread: &Spread,
+    shares: &[Share],
 ) -> Vec<(TriangleId, f32)> {
     let (mesh, sampling) = (surface.mesh(), response.parts().sampling);
     let source = |share: &Share| {

@@ -16,6 +16,7 @@ mod carried_field;
 mod condensed;
 mod contacts;
 mod convergence;
+#[path = "../../../geometry/tests/it/data.rs"]
 mod data;
 mod dead_loads;
 mod elastic_base;

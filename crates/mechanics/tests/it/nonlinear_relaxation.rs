@@ -6,7 +6,7 @@ use nalgebra::Matrix3;
 use palpate_geometry::TetrahedronMesh;
 use palpate_mechanics::finite_elements::{
     ElementMesh, FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
-    Memory, Supports, equilibrate,
+    RelaxationHistory, Supports, equilibrate,
 };
 use palpate_mechanics::nonlinear::{
     Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace, advance,
@@ -125,7 +125,7 @@ fn one_of_two_parts_in_series_relaxes() {
 }
 
 /// A bar of 100 x 20 x 20 mm whose end is moved aside by 50 mm, or pulled by 30 mm, in 0.25 s and held for 10 s. Judge:
-/// finite elements with internal variables of their own (`finite_elements::Memory`) and a continuous pressure, loaded with
+/// finite elements with internal variables of their own (`finite_elements::RelaxationHistory`) and a continuous pressure, loaded with
 /// the forces that were found: their end is where it was held. Tolerance 3 % of the way, of which elements and laws have 1.5
 /// without relaxation (`nonlinear::a_bent_bar_is_that_of_finite_elements`). Poisson's ratio is 0.49: the two laws differ
 /// where volume changes.
@@ -151,7 +151,7 @@ fn a_held_bar_relaxes_as_finite_elements() {
         let model = FiniteElementModel::new(elements, Arc::new(law), Formulation::Mixed).unwrap();
         let mut state = FiniteElementState::at_rest(&model);
         let mut workspace = FiniteElementWorkspace::new(&model).unwrap();
-        let mut memory = Memory::at_rest(&model, &series);
+        let mut memory = RelaxationHistory::at_rest(&model, &series);
         let ramp = (1..=25).map(|n| 2 * n);
         let hold = [
             55, 60, 70, 80, 100, 130, 170, 230, 300, 400, 600, 900, 1400, 2000,

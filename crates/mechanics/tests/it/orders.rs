@@ -9,12 +9,12 @@ use palpate_mechanics::finite_elements::indentation::{
     self, Base, Block, IndentationProblem, Indenter, IndenterShape, Side,
 };
 use palpate_mechanics::finite_elements::solid::SolidAnswer;
-use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, inflate};
-use palpate_mechanics::{Law, LinearElastic, NeoHookean};
+use palpate_mechanics::finite_elements::tube::{Ends, inflate};
+use palpate_mechanics::{LinearElastic, NeoHookean};
 
 use crate::path::closed_form;
 use crate::solid::{HALF, at, cube};
-use crate::tube::{INNER, OUTER};
+use crate::tube::{INNER, OUTER, tube};
 
 /// Half of the true error to five times it, or above with a warning.
 fn assert_honest<T>(found: &Estimated<T>, error: f64, what: &str) {
@@ -28,18 +28,6 @@ fn assert_honest<T>(found: &Estimated<T>, error: f64, what: &str) {
         ratio <= 5.0 || !found.warnings.is_empty(),
         "{what}: {ratio}"
     );
-}
-
-fn tube(length: f64, ends: Ends, law: impl Law + 'static) -> TubeProblem {
-    TubeProblem {
-        tube: Tube {
-            length,
-            inner_radius: INNER,
-            outer_radius: OUTER,
-        },
-        law: Arc::new(law),
-        ends,
-    }
 }
 
 /// Judges: Lamé's cylinder, and the closed form of an incompressible tube in plane strain.

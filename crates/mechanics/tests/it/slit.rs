@@ -242,7 +242,7 @@ impl Kidney {
             triangle: TouchId(touch),
             weight: 1.0,
         };
-        slit.put(&self.response, ([share].into_iter(), None), &mut load);
+        slit.put(&self.response, [share].into_iter(), None, &mut load);
         load
     }
 }
@@ -440,7 +440,8 @@ fn a_step_of_a_cut_allocates_nothing() {
             slit.open(&kidney.body(), facet).unwrap();
             slit.put(
                 &kidney.response,
-                ([share].into_iter(), Some(&spot)),
+                [share].into_iter(),
+                Some(&spot),
                 &mut load,
             );
             sum += slit.further(&load).norm();

@@ -189,7 +189,7 @@ impl Table {
             radius: a,
         };
         let mut load = slit.load();
-        slit.put(&self.response, (tip.shares(), Some(&spot)), &mut load);
+        slit.put(&self.response, tip.shares(), Some(&spot), &mut load);
         let more = slit.further(&load);
         [
             [0, 1, 2].map(|k| own[k] + axes[k].dot(&(further * axes[k]))),

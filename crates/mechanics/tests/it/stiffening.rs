@@ -66,7 +66,7 @@ fn bond_of(tip: Tip) -> Friction {
 
 /// The largest relative distance of the law of `tip` from full runs in `block`, at `depths` [in radii].
 fn farthest(tissue: &Material, tip: Tip, block: Block, depths: &[f64]) -> f64 {
-    let found = Stiffening::of(tissue, (tip, bond_of(tip)), &mut |_| ()).unwrap();
+    let found = Stiffening::of(tissue, tip, bond_of(tip), &mut |_| ()).unwrap();
     farthest_of(tissue, (tip, found), block, depths)
 }
 
@@ -140,7 +140,7 @@ fn a_sphere_in_linear_tissue_is_less_than_hertz() {
     let tip = Tip::Sphere { radius: RADIUS };
     for poissons_ratio in [0.35, 0.47] {
         let tissue = material(LinearElastic::new(1e4, poissons_ratio).unwrap());
-        let known = Stiffening::linear((tip, Friction::Frictionless), poissons_ratio);
+        let known = Stiffening::linear(tip, Friction::Frictionless, poissons_ratio);
         let off = farthest_of(&tissue, (tip, known.clone()), LARGE, &[0.2, 0.5, 1.0]);
         assert!(off < 0.0075, "{poissons_ratio}: {off}");
         // Hertz's force is not that: it misses by a quarter at one radius.
@@ -233,7 +233,7 @@ fn the_stored_curves_are_those_of_finite_elements() {
     let tissue = neo_hookean();
     for tip in [Tip::Flat { radius: RADIUS }, Tip::Sphere { radius: RADIUS }] {
         for bond in [Friction::Bonded, Friction::Frictionless] {
-            let made = Stiffening::of(&tissue, (tip, bond), &mut |_| ()).unwrap();
+            let made = Stiffening::of(&tissue, tip, bond, &mut |_| ()).unwrap();
             let stored = Stiffening::neo_hookean(tip, bond);
             assert!((made.deepest() / stored.deepest() - 1.0).abs() < 1e-3);
             for part in 1..=40 {
@@ -253,7 +253,7 @@ fn the_stored_curves_are_those_of_finite_elements() {
 #[test]
 fn a_curve_ends_where_tissue_closes_over_the_sphere() {
     let tip = Tip::Sphere { radius: RADIUS };
-    let made = Stiffening::of(&neo_hookean(), (tip, Friction::Frictionless), &mut |_| ()).unwrap();
+    let made = Stiffening::of(&neo_hookean(), tip, Friction::Frictionless, &mut |_| ()).unwrap();
     let forces: Vec<f64> = (1..=100)
         .map(|part| f64::from(part) / 100.0 * made.deepest())
         .map(|depth| made.ratio(depth).0 * depth.powf(1.5))

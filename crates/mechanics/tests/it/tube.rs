@@ -17,7 +17,7 @@ use crate::path::closed_form;
 pub(crate) const INNER: f64 = 0.005;
 pub(crate) const OUTER: f64 = 0.0075;
 
-fn tube(length: f64, ends: Ends, law: impl Law + 'static) -> TubeProblem {
+pub(crate) fn tube(length: f64, ends: Ends, law: impl Law + 'static) -> TubeProblem {
     TubeProblem {
         tube: Tube {
             length,

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use clap::Args;
 use palpate_files::{Overwrite, Scene};
-use palpate_simulate::{Replay, SessionFolder, Simulation};
+use palpate_simulate::{Replay, SessionFolder};
 use palpate_viewer::{PlayedSession, Start};
 use serde::Serialize;
 
@@ -92,19 +92,8 @@ struct Answer {
 /// Opens a window, or plays it without one.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = SessionFolder::read(&arguments.session)?;
-    let PlayedSession {
-        name,
-        scene,
-        simulation,
-        replay,
-    } = prepared(&folder, arguments.scene.as_deref(), arguments.json)?;
+    let own = prepared(&folder, arguments.scene.as_deref(), arguments.json)?;
     if arguments.frames.is_none() && arguments.gif.is_none() && !arguments.json {
-        let own = PlayedSession {
-            name,
-            scene,
-            simulation,
-            replay,
-        };
         let other = match &arguments.compare {
             None => None,
             Some(other) => {
@@ -120,7 +109,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             outcome => Ok(outcome?),
         };
     }
-    let mut answer = play(arguments, (&scene, simulation.as_ref()), replay)?;
+    let mut answer = play(arguments, own)?;
     answer.warnings.extend(folder.warnings());
     if arguments.json {
         return output::json(&answer);
@@ -171,13 +160,10 @@ fn prepared(
 }
 
 /// Plays all steps, takes pictures and compares.
-fn play(
-    arguments: &Arguments,
-    (scene, simulation): (&Scene, &Simulation),
-    mut replay: Replay,
-) -> Result<Answer, Failure> {
+fn play(arguments: &Arguments, own: PlayedSession) -> Result<Answer, Failure> {
     let overwrite = Overwrite::of_option(arguments.overwrite);
-    let organ = (scene, simulation);
+    let mut replay = own.replay;
+    let organ = (&own.scene, own.simulation.as_ref());
     let mut pictures = match (arguments.frames, &arguments.gif) {
         (_, Some(file)) => Some(Pictures::animation(
             file,
@@ -224,8 +210,8 @@ fn play(
             ));
         }
     }
-    let mut warnings = simulation.warnings().to_vec();
-    warnings.extend(replay.state().warnings(simulation));
+    let mut warnings = own.simulation.warnings().to_vec();
+    warnings.extend(replay.state().warnings(&own.simulation));
     if largest > 0.0 {
         warnings.push(
             "the forces are not those that were recorded to the last bit; another version or machine \

@@ -49,7 +49,8 @@ impl Beside {
     pub(crate) fn new(
         file: PathBuf,
         recorded: [Vec<f64>; 3],
-        (site, warnings): (Site, Vec<String>),
+        site: Site,
+        warnings: Vec<String>,
     ) -> Self {
         Self {
             file,

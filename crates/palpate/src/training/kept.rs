@@ -15,7 +15,7 @@ use crate::failure::Failure;
 const UNTITLED: &str = "without a title";
 
 /// The training record, as a window uses it. It is opened anew each time, for other programs may have it, too.
-pub(super) struct Kept {
+pub(super) struct WindowRecord {
     file: PathBuf,
     sessions: PathBuf,
 }
@@ -48,7 +48,8 @@ pub(crate) fn keep(
     file: &Path,
     who: Who<'_>,
     folder: &SessionFolder,
-    (task, score): (&Task, &Score),
+    task: &Task,
+    score: &Score,
 ) -> Result<Vec<String>, palpate_record::Error> {
     let mut record = Record::open(file)?;
     let session = &folder.path;
@@ -81,7 +82,7 @@ pub(crate) fn keep(
     Ok(warnings)
 }
 
-impl Kept {
+impl WindowRecord {
     pub(super) fn new(folder: &Path) -> Result<Self, Failure> {
         Ok(Self {
             file: record_file(None)?,
@@ -106,7 +107,7 @@ impl Kept {
     }
 }
 
-impl TrainingRecord for Kept {
+impl TrainingRecord for WindowRecord {
     fn new_session(&self, task: &Task) -> PathBuf {
         let plain = |letter: char| match letter.is_ascii_alphanumeric() {
             true => letter.to_ascii_lowercase(),
@@ -133,7 +134,7 @@ impl TrainingRecord for Kept {
             is_expert: false,
         };
         let folder = SessionFolder::read(result.session).map_err(|error| error.to_string())?;
-        let kept = keep(&self.file, who, &folder, (&result.scene.task, result.score));
+        let kept = keep(&self.file, who, &folder, &result.scene.task, result.score);
         match kept.map_err(|error| error.to_string())?.as_slice() {
             [] => Ok(()),
             warnings => Err(warnings.join(" ")),

@@ -14,7 +14,7 @@ pub(crate) use record::record_file;
 pub(crate) use tasks::free;
 
 use crate::failure::Failure;
-use kept::Kept;
+use kept::WindowRecord;
 
 /// The variable that names the folder of sessions and results.
 const FOLDER_VARIABLE: &str = "PALPATE_TRAINING";
@@ -45,7 +45,7 @@ pub(crate) fn now() -> i64 {
 /// All that a window needs to train somebody.
 pub(crate) fn training() -> Result<Training, Failure> {
     let folder = folder()?;
-    let record = Kept::new(&folder)?;
+    let record = WindowRecord::new(&folder)?;
     let user = std::env::var("USER").unwrap_or_else(|_| "trainee".to_owned());
     Ok(Training {
         tasks: tasks::tasks(&folder)?,

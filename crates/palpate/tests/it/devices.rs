@@ -4,7 +4,7 @@ use std::process::{Command, Output};
 
 use palpate_device_stand_ins::{HaplyStandIn, HaplyStandInSettings, Misbehaviour, StandInClock};
 use palpate_devices::haply::HaplyAddress;
-use palpate_servo::{Hand, Trajectory, Vec3, VirtualDevice, Waypoint};
+use palpate_servo::{HandImpedance, Trajectory, Vec3, VirtualDevice, Waypoint};
 
 use crate::{json, stderr, stdout};
 
@@ -32,7 +32,7 @@ fn devices(arguments: &[&str], haply: &str) -> Output {
 fn service() -> HaplyStandIn {
     let still = Trajectory::way(vec![Waypoint::new(0.0, Vec3::zeros())]).unwrap();
     let hand = VirtualDevice::new(still)
-        .with_hand(Hand::default())
+        .with_hand(HandImpedance::default())
         .unwrap();
     let settings = HaplyStandInSettings {
         clock: StandInClock::Wall,

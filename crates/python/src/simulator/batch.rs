@@ -164,7 +164,7 @@ impl SimulationBatch {
         let (steppers, period) = (&mut self.steppers, self.show_every);
         py.detach(|| {
             for number in chosen {
-                steppers[number].reset(&models[number], (scene, period))?;
+                steppers[number].reset(&models[number], scene, period)?;
             }
             Ok(())
         })
@@ -402,7 +402,7 @@ impl SimulationBatch {
         let (count, tools) = (self.steppers.len(), self.tools());
         let borrowed = given.try_readonly().map_err(Failure::input)?;
         let flat = borrowed.as_slice().map_err(Failure::input)?;
-        check_all(flat, (count * tools, width))?;
+        check_all(flat, count * tools, width)?;
         let all = Steps {
             flat,
             width,
@@ -412,7 +412,7 @@ impl SimulationBatch {
         };
         let mut forces = vec![0.0; count * steps * 3 * tools];
         let (models, steppers, threads) = (&*self.models, &mut *self.steppers, self.threads);
-        py.detach(|| all.run((models, steppers), threads, &mut forces))?;
+        py.detach(|| all.run(models, steppers, threads, &mut forces))?;
         Ok(forces)
     }
 

@@ -168,7 +168,7 @@ impl Camera {
         Ok(Self {
             seen: match endoscope {
                 true => scene_endoscope(view, mesh, aspect),
-                false => scene_camera(view, (mesh, None), aspect),
+                false => scene_camera(view, mesh, None, aspect),
             },
         })
     }

@@ -55,7 +55,8 @@ impl Model {
     fn prepare(
         py: Python<'_>,
         scene: &Scene,
-        (resources, progress): (palpate_simulate::Resources, Option<Py<PyAny>>),
+        resources: palpate_simulate::Resources,
+        progress: Option<Py<PyAny>>,
     ) -> PyResult<Arc<Self>> {
         let scene = scene.clone();
         waiting(py, progress, move |told| {

@@ -32,7 +32,7 @@ pub(crate) fn read(
             let item = item?;
             slots[number] = match item.is_none() {
                 true => None,
-                false => pose(&numbers::list(&item, "poses")?, (thing, number))?,
+                false => pose(&numbers::list(&item, "poses")?, thing, number)?,
             };
         }
         return Ok(());
@@ -91,13 +91,13 @@ pub(super) fn of_flat(
         return Err(misshapen(&[slots.len(), width], slots.len(), thing));
     }
     for (number, (slot, row)) in slots.iter_mut().zip(flat.chunks_exact(width)).enumerate() {
-        *slot = pose(row, (thing, number))?;
+        *slot = pose(row, thing, number)?;
     }
     Ok(())
 }
 
 /// The pose of a row.
-fn pose(row: &[f64], (thing, number): (&str, usize)) -> Result<Option<Pose>, Failure> {
+fn pose(row: &[f64], thing: &str, number: usize) -> Result<Option<Pose>, Failure> {
     let (position_m, orientation, deeds) = match *row {
         [x, y, z] => ([x, y, z], None, None),
         [x, y, z, grip, cut] => ([x, y, z], None, Some([grip, cut])),

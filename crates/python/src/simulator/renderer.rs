@@ -45,7 +45,7 @@ struct Drawing {
 
 /// Which pictures.
 #[derive(Clone, Copy)]
-struct Wanted {
+struct ImageSelection {
     rgb: bool,
     depth: bool,
     segmentation: bool,
@@ -128,7 +128,7 @@ impl Renderer {
         camera: Option<&Camera>,
         images: Vec<String>,
     ) -> Result<Bound<'py, PyDict>, Failure> {
-        let wanted = Wanted::of(&images)?;
+        let wanted = ImageSelection::of(&images)?;
         let (model, state) = state_of(simulation, index)?;
         if model.scene.organ.shape != self.model.scene.organ.shape
             || model.scene.tools.len() != self.model.scene.tools.len()
@@ -147,7 +147,7 @@ impl Renderer {
         let (picture, labels) = py.detach(|| {
             let mut drawing = self.drawing.lock().unwrap_or_else(PoisonError::into_inner);
             drawing.studio.view.camera = seen;
-            drawing.draw((&model, state), wanted)
+            drawing.draw(&model, state, wanted)
         })?;
         let (width, height) = (self.size.0 as usize, self.size.1 as usize);
         let drawn = PyDict::new(py);
@@ -180,7 +180,7 @@ impl Renderer {
     }
 }
 
-impl Wanted {
+impl ImageSelection {
     fn of(images: &[String]) -> Result<Self, Failure> {
         let mut wanted = Self {
             rgb: false,
@@ -206,8 +206,9 @@ impl Wanted {
 impl Drawing {
     fn draw(
         &mut self,
-        (model, mut state): (&Arc<Model>, SimulationState),
-        wanted: Wanted,
+        model: &Arc<Model>,
+        mut state: SimulationState,
+        wanted: ImageSelection,
     ) -> Result<(Option<RgbaImage>, Option<Labels>), Failure> {
         // Scratch and openings follow cuts by their number, which each state counts for itself.
         if state.cuts.is_some() || !Arc::ptr_eq(model, &self.workspace.0) {

@@ -62,7 +62,7 @@ impl Simulation {
     ) -> PyResult<Self> {
         let period = checked_duration(show_every, "show_every")?;
         let resources = resources::resources(memory, cache);
-        let model = Model::prepare(py, &scene.scene, (resources, progress))?;
+        let model = Model::prepare(py, &scene.scene, resources, progress)?;
         let mut stepper = Stepper::new(&model);
         stepper.show_every(period);
         Ok(Self {
@@ -185,7 +185,7 @@ impl Simulation {
         };
         let borrowed: PyReadonlyArrayDyn<'_, f64> = given.try_readonly().map_err(Failure::input)?;
         let flat = borrowed.as_slice().map_err(Failure::input)?;
-        check_all(flat, (tools, width))?;
+        check_all(flat, tools, width)?;
         let mut forces = vec![0.0; 3 * tools * steps];
         let (stepper, model) = (&mut self.stepper, &*self.model);
         let done: Result<(), Failure> = py.detach(|| {
@@ -276,7 +276,7 @@ impl Simulation {
     #[pyo3(signature = (scene=None))]
     fn reset(&mut self, scene: Option<&Scene>) -> Result<(), Failure> {
         let scene = scene.map(|scene| &scene.scene);
-        self.stepper.reset(&self.model, (scene, self.show_every))
+        self.stepper.reset(&self.model, scene, self.show_every)
     }
 
     /// The camera that the scene asks for; what it does not say frames the organ.
@@ -376,7 +376,7 @@ fn checked_duration(time: f64, name: &str) -> Result<f64, Failure> {
 }
 
 /// Refuses what cannot be played before anything has moved.
-pub(super) fn check_all(flat: &[f64], (tools, width): (usize, usize)) -> Result<(), Failure> {
+pub(super) fn check_all(flat: &[f64], tools: usize, width: usize) -> Result<(), Failure> {
     let mut slots = vec![None; tools];
     for row in flat.chunks_exact((tools * width).max(1)) {
         poses::of_flat(row, width, &mut slots, "tool")?;

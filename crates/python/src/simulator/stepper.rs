@@ -100,7 +100,8 @@ impl Stepper {
     pub(super) fn reset(
         &mut self,
         model: &Model,
-        (scene, period): (Option<&Scene>, f64),
+        scene: Option<&Scene>,
+        period: f64,
     ) -> Result<(), Failure> {
         let scene = scene.unwrap_or(&model.scene);
         let SavedState {
@@ -109,7 +110,7 @@ impl Stepper {
             judge,
         } = &mut self.course;
         state.set_nodules(&model.prepared, &scene.organ.nodules)?;
-        state.begin_anew(&model.prepared);
+        state.reset(&model.prepared);
         state.set_show_every(period);
         *clock = Clock::default();
         *judge = Judge::new(scene);

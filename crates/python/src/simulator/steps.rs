@@ -24,7 +24,8 @@ impl Steps<'_> {
     /// All of them; whoever is idle takes the next state. The forces [N] are written state by state.
     pub(super) fn run(
         &self,
-        (models, steppers): (&[Arc<Model>], &mut [Stepper]),
+        models: &[Arc<Model>],
+        steppers: &mut [Stepper],
         threads: usize,
         forces: &mut [f64],
     ) -> Result<(), Failure> {

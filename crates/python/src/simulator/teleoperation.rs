@@ -83,7 +83,7 @@ impl Teleoperation {
             Ok::<_, Failure>(Claim::of_folder(path, Overwrite::of_option(overwrite))?)
         });
         let claim = claim.transpose()?;
-        let writer = claim.map(|claim| SessionFolder::create(claim, (&model.scene, prepared)));
+        let writer = claim.map(|claim| SessionFolder::create(claim, &model.scene, prepared));
         let writer = writer.transpose()?;
         let (placed, pointers) = (devices.devices, devices.pointers);
         let touch = py.detach(|| {

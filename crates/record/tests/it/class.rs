@@ -1,6 +1,6 @@
 //! What a teacher keeps beside the attempts.
 
-use palpate_record::{Assignment, Cohort, Error, Filter, Record, Standing};
+use palpate_record::{Assignment, AssignmentProgress, Cohort, Error, Filter, Record};
 
 use crate::attempt;
 
@@ -60,7 +60,7 @@ fn an_assignment_is_done_by_enough_passes_in_time() {
         due: 10,
         passes,
     };
-    let expected = |is_done: bool| Standing {
+    let expected = |is_done: bool| AssignmentProgress {
         attempts: 4,
         passed: 2,
         is_done,

@@ -28,7 +28,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
         let law = LinearElastic::new(YOUNGS_MODULUS, poissons_ratio)?;
         let judge = judge(rows, &law)?;
         for (form, word) in FORMS {
-            errors.push(force_errors(rows, (form, word), &law, &judge)?);
+            errors.push(force_errors(rows, form, word, &law, &judge)?);
         }
         let found = uncalibrated::force_errors(rows, &law, PLOTTED_RADIUS, judge[1])?;
         errors.extend(found);
@@ -66,7 +66,8 @@ fn judge(rows: &mut Rows<'_>, law: &LinearElastic) -> Result<[f64; 2], Error> {
 /// The curve for the tip of the plots; rows for all tips.
 fn force_errors(
     rows: &mut Rows<'_>,
-    (form, word): (Form, &str),
+    form: Form,
+    word: &str,
     law: &LinearElastic,
     judge: &[f64; 2],
 ) -> Result<Series, Error> {

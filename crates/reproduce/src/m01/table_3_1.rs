@@ -31,7 +31,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             (Solver::Direct, "direct"),
             (Solver::Gmres { tolerance }, "gmres"),
         ] {
-            add_local(rows, (form, word), (solver, way))?;
+            add_local(rows, form, word, solver, way)?;
         }
     }
     finite_elements(rows)
@@ -39,8 +39,10 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
 
 fn add_local(
     rows: &mut Rows<'_>,
-    (form, word): (Form, &str),
-    (solver, way): (Solver, &str),
+    form: Form,
+    word: &str,
+    solver: Solver,
+    way: &str,
 ) -> Result<(), Error> {
     let settings = FiniteSphereSettings {
         form,

@@ -37,7 +37,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     add_off_line(rows, model.row, &body, &times)?;
     for (touched, name) in CONTACTS {
         match touch(&body, &response, touched) {
-            Some(times) => add_on_line(rows, name, (&body, touched), &times),
+            Some(times) => add_on_line(rows, name, &body, touched, &times),
             None => rows
                 .row(name)
                 .missing("the triangles there bear no common contact"),
@@ -88,7 +88,7 @@ fn add_off_line(rows: &mut Rows<'_>, row: &str, body: &Body, times: &OffLine) ->
     Ok(())
 }
 
-fn add_on_line(rows: &mut Rows<'_>, name: &str, (body, touched): (&Body, usize), times: &OnLine) {
+fn add_on_line(rows: &mut Rows<'_>, name: &str, body: &Body, touched: usize, times: &OnLine) {
     let triangles = body.surface.mesh().triangles().len();
     for (name, what, ours) in [
         (name.to_owned(), "field", times.force_and_field),

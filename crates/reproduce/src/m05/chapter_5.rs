@@ -86,7 +86,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             continue;
         };
         squares.push((row.mean_n / spread.mean() - 1.0).powi(2));
-        add_static(rows, (printed, spread), row);
+        add_static(rows, printed, spread, row);
         drawn.push((*printed, *row));
     }
     let root = f64::sqrt(squares.iter().sum::<f64>() / squares.len() as f64);
@@ -128,7 +128,7 @@ fn pressed(job: &Job<'_>) -> Result<Option<Pressed>, Error> {
         ramp_s: RAMP,
         hold_s: STEADY - RAMP,
     };
-    let found = measured(&specimen, stimulus, (job.repeat, seed))?;
+    let found = measured(&specimen, stimulus, job.repeat, seed)?;
     let clean = clean(&found.recording, &CleanSettings::default())?;
     let analysis = analyze(&clean);
     let Some(hold) = analysis.holds.first() else {
@@ -156,7 +156,7 @@ fn at_breath(clean: &CleanRecording, steady: f64) -> Result<f64, Error> {
     Ok(forces.iter().sum::<f64>() / forces.len() as f64 / steady)
 }
 
-fn add_static(rows: &mut Rows<'_>, (printed, spread): (&Printed, &Spread), row: &StaticRow) {
+fn add_static(rows: &mut Rows<'_>, printed: &Printed, spread: &Spread, row: &StaticRow) {
     let depth = printed.depth_mm;
     for (word, put_in, ours) in [
         ("min", spread.force(0), row.min_n),

@@ -34,7 +34,7 @@ fn run(rows: &mut Rows<'_>, organ: &str, depths: &[u32]) -> Result<(), Error> {
             ramp_s: RAMP,
             hold_s: STEADY - RAMP,
         };
-        let found = measured(&alive, stimulus, (1, u64::from(depth_mm)))?;
+        let found = measured(&alive, stimulus, 1, u64::from(depth_mm))?;
         series.push(drawn(&found, depth_mm, color));
         let clean = clean(&found.recording, &settings)?;
         let steady = rows.row(&format!("steady/{depth_mm}_mm"));

@@ -35,7 +35,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
         swing(Sweep::Exponential(ENDS), 4.0),
     ];
     for stimulus in waveforms {
-        let found = measured(&liver, stimulus, (1, 1))?;
+        let found = measured(&liver, stimulus, 1, 1)?;
         let name = stimulus.kind().to_string();
         add_errors(rows, &name, &found);
         let words = name.replace('_', " ");
@@ -45,7 +45,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     }
     for frequency in TRACKED {
         let duration = 4.0 / frequency;
-        let found = measured(&liver, swing(Sweep::Constant(frequency), duration), (1, 1))?;
+        let found = measured(&liver, swing(Sweep::Constant(frequency), duration), 1, 1)?;
         let ratio = tracking(&found, frequency, duration);
         let name = |word: &str| format!("tracking/{frequency}_hz/{word}");
         rows.add(&name("amplitude"), ratio.norm());

@@ -26,7 +26,8 @@ pub(super) struct Measured {
 pub(super) fn measured(
     specimen: &VirtualSpecimen,
     stimulus: Stimulus,
-    (repeat, seed): (u64, u64),
+    repeat: u64,
+    seed: u64,
 ) -> Result<Measured, Error> {
     let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
     let device = (machine, Imperfections::premium());

@@ -37,7 +37,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             sweep: Sweep::Constant(frequency),
             duration_s: SHORTEST.max(CYCLES / frequency),
         };
-        let found = measured(&spring, stimulus, (1, 1))?;
+        let found = measured(&spring, stimulus, 1, 1)?;
         let clean = clean(&found.recording, &CleanSettings::default())?;
         let name = |word: &str| format!("{word}/{frequency}_hz");
         let Some(swing) = analyze(&clean).sinusoids.first().copied() else {

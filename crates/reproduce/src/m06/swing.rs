@@ -66,7 +66,7 @@ impl Organ {
         let felt = self
             .curve
             .relaxed(&self.series, &course.times, &course.depths);
-        let recording = recorded((self.name, 0), &course, &felt, 1)?;
+        let recording = recorded(self.name, 0, &course, &felt, 1)?;
         let found = analyze(&recording).sinusoids.first().copied();
         Ok((recording, found))
     }

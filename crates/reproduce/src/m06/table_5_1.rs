@@ -23,7 +23,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
                 None => None,
             };
             let responses = forces.map_or(0, |forces| forces.len());
-            add(rows, &name, &printed, (responses, measured));
+            add(rows, &name, &printed, responses, measured);
             if responses > 0 {
                 rows.row(&format!("{name}/responses"))
                     .published(animals(organ).len() as f64)
@@ -48,7 +48,7 @@ fn measured(
         let elastic = steady / series.relaxation(f64::INFINITY);
         let curve = IndentationCurve::through(&[depth], &[elastic]);
         let felt = curve.relaxed(series, &course.times, &course.depths);
-        let recording = recorded((organ, subject), &course, &felt, subject as u64)?;
+        let recording = recorded(organ, subject, &course, &felt, subject as u64)?;
         let holds = analyze(&recording).holds;
         points.extend(
             holds
@@ -64,7 +64,8 @@ fn add(
     rows: &mut Rows<'_>,
     name: &str,
     printed: &Printed,
-    (responses, measured): (usize, Option<StaticRow>),
+    responses: usize,
+    measured: Option<StaticRow>,
 ) {
     let how = match (responses, printed.suspect) {
         (0, _) => "impossible",

@@ -24,7 +24,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
         for (noisy, word) in [(false, ""), (true, "noisy/")] {
             rows.say(format!("{organ}, {word}springs"));
             let found = refitted(organ, &felt, noisy)?;
-            add(rows, (organ, word), &values, &found);
+            add(rows, organ, word, &values, &found);
         }
     }
     Ok(())
@@ -35,7 +35,7 @@ fn refitted(organ: &str, felt: &[(History, Vec<f64>)], noisy: bool) -> Result<Sp
     let mut columns = Vec::new();
     for (place, (course, forces)) in felt.iter().enumerate() {
         let seen = match noisy {
-            true => recorded((organ, 0), course, forces, place as u64)?.force,
+            true => recorded(organ, 0, course, forces, place as u64)?.force,
             false => forces.clone(),
         };
         let some = |values: &[f64]| -> Vec<f64> { values.iter().copied().step_by(EVERY).collect() };
@@ -47,7 +47,7 @@ fn refitted(organ: &str, felt: &[(History, Vec<f64>)], noisy: bool) -> Result<Sp
     Ok(fit_springs(&all.collect::<Vec<_>>())?)
 }
 
-fn add(rows: &mut Rows<'_>, (organ, word): (&str, &str), values: &[f64; 8], found: &SpringsFit) {
+fn add(rows: &mut Rows<'_>, organ: &str, word: &str, values: &[f64; 8], found: &SpringsFit) {
     let mut add = |name: &str, ours: Option<f64>| {
         rows.row(&format!("{organ}/{word}{name}"))
             .with("noise", word)

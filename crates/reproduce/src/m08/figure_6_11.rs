@@ -19,7 +19,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             ("neo-Hookean", elastic(SoughtLaw::NeoHookean, (alone, &[]))?),
             ("Mooney-Rivlin", elastic(SoughtLaw::MooneyRivlin, both)?),
         ];
-        let series = add(rows, (organ, depth_mm), mean, &laws)?;
+        let series = add(rows, organ, depth_mm, mean, &laws)?;
         rows.figure(organ).with("depth", depth_mm).draw(series)?;
     }
     Ok(())
@@ -28,7 +28,8 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
 /// Rows of the steady forces, and the curves with the measured `mean` [N].
 fn add(
     rows: &mut Rows<'_>,
-    (organ, depth_mm): (&str, u32),
+    organ: &str,
+    depth_mm: u32,
     mean: f64,
     laws: &[(&str, IndentationCurve)],
 ) -> Result<Vec<Series>, Error> {
@@ -37,7 +38,7 @@ fn add(
     let mut drawn = Vec::new();
     for (color, (name, curve)) in laws.iter().enumerate() {
         let forces = curve.relaxed(&series, &course.times, &course.depths);
-        let seen = recorded((organ, color), &course, &forces, color as u64)?;
+        let seen = recorded(organ, color, &course, &forces, color as u64)?;
         let each = seen.time.iter().zip(&seen.force).step_by(50);
         let dots = each.map(|(t, f)| (*t, 1e3 * f)).collect();
         let recording = format!("{name}, virtual recording");

@@ -12,21 +12,18 @@ const SHOWN: usize = 21;
 
 /// Figure 6-9.
 pub(crate) fn neo_hookean(rows: &mut Rows<'_>) -> Result<(), Error> {
-    run(rows, (SoughtLaw::NeoHookean, "neo-Hookean"), &ORGANS)
+    run(rows, SoughtLaw::NeoHookean, "neo-Hookean", &ORGANS)
 }
 
 /// Figure 6-10.
 pub(crate) fn mooney_rivlin(rows: &mut Rows<'_>) -> Result<(), Error> {
-    run(
-        rows,
-        (SoughtLaw::MooneyRivlin, "Mooney-Rivlin"),
-        &ORGANS[1..],
-    )
+    run(rows, SoughtLaw::MooneyRivlin, "Mooney-Rivlin", &ORGANS[1..])
 }
 
 fn run(
     rows: &mut Rows<'_>,
-    (law, law_name): (SoughtLaw, &str),
+    law: SoughtLaw,
+    law_name: &str,
     organs: &[(&str, u32)],
 ) -> Result<(), Error> {
     let mut series = Vec::new();

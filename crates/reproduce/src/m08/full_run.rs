@@ -21,7 +21,8 @@ const FIRST: f64 = 0.02;
 /// and depths, and forces [N].
 pub(super) fn felt(
     rows: &Rows<'_>,
-    (law, parameters): (SoughtLaw, &[f64]),
+    law: SoughtLaw,
+    parameters: &[f64],
     series: &PronySeries,
     depth: f64,
 ) -> Result<(History, Vec<f64>), Error> {

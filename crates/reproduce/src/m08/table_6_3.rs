@@ -20,16 +20,16 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
         let curve = elastic(SoughtLaw::NeoHookean, (c10, &[]))?;
         let course = ramp_and_hold(1e-3 * f64::from(depth_mm));
         let felt = curve.relaxed(&prony(organ, depth_mm)?, &course.times, &course.depths);
-        let recording = recorded((organ, 0), &course, &felt, u64::from(depth_mm))?;
+        let recording = recorded(organ, 0, &course, &felt, u64::from(depth_mm))?;
         let records: Vec<RelaxationRecord> = seen(&recording, &curve).into_iter().collect();
         let two = RelaxationSettings { terms: Some(2) };
         let name = format!("{organ}_{depth_mm}_mm");
         let with_ramp = relaxation(&records, two)?;
         let free = relaxation(&records, RelaxationSettings::default())?;
         rows.add(&format!("{name}/terms"), free.terms.len() as f64);
-        add(rows, (&name, ""), &with_ramp);
+        add(rows, &name, "", &with_ramp);
         let steps = relaxation_of_steps(&records, two)?;
-        add(rows, (&name, "step/"), &steps);
+        add(rows, &name, "step/", &steps);
     }
     Ok(())
 }
@@ -44,7 +44,7 @@ fn seen(recording: &CleanRecording, curve: &IndentationCurve) -> Option<Relaxati
     RelaxationRecord::new(columns, largest, |depth| curve.force(depth))
 }
 
-fn add(rows: &mut Rows<'_>, (name, ramp): (&str, &str), found: &Relaxation) {
+fn add(rows: &mut Rows<'_>, name: &str, ramp: &str, found: &Relaxation) {
     let of_term = |estimate: &Estimate| estimate.standard_error.unwrap_or(0.0) / estimate.value;
     let errors = found.terms.iter().flatten().map(of_term);
     let error = 100.0 * errors.fold(0.0, f64::max);

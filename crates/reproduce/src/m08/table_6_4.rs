@@ -27,7 +27,7 @@ fn run(rows: &mut Rows<'_>, law: SoughtLaw) -> Result<(), Error> {
         let truth = printed(law, organ, "final")?;
         let series = prony(organ, depth_mm)?;
         let depth = 1e-3 * f64::from(depth_mm);
-        let (course, forces) = felt(rows, (law, &truth), &series, depth)?;
+        let (course, forces) = felt(rows, law, &truth, &series, depth)?;
         let assumed = elastic(SoughtLaw::NeoHookean, (1.0, &[]))?;
         let largest = forces.iter().copied().fold(0.0, f64::max);
         let columns = (&course.times[..], &course.depths[..], &forces[..]);
@@ -39,7 +39,7 @@ fn run(rows: &mut Rows<'_>, law: SoughtLaw) -> Result<(), Error> {
         let found = law_fit(&mut curves, &[indentation], &relaxing.series)?;
         let found = LawDescription::of(found, &[indentation]);
         add(rows, organ, &truth, &found);
-        add_in_loop(rows, (organ, law), (&course, &forces))?;
+        add_in_loop(rows, organ, law, &course, &forces)?;
         rows.row(&format!("{organ}/steady"))
             .with("depth", depth_mm)
             .is(forces.last().copied());
@@ -60,8 +60,10 @@ fn add_modulus(rows: &mut Rows<'_>, name: &str, estimate: &Estimate) {
 /// The same with finite elements in the loop.
 fn add_in_loop(
     rows: &mut Rows<'_>,
-    (organ, law): (&str, SoughtLaw),
-    (course, forces): (&History, &[f64]),
+    organ: &str,
+    law: SoughtLaw,
+    course: &History,
+    forces: &[f64],
 ) -> Result<(), Error> {
     let recording = without_noise(organ, course, forces)?;
     let settings = CharacterizeSettings {

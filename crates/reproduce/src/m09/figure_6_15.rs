@@ -37,7 +37,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let Some(last) = measured.last() else {
         return Ok(());
     };
-    let drawn = drawn(curve, (organ.modulus_kpa, modulus), &series, last);
+    let drawn = drawn(curve, organ.modulus_kpa, modulus, &series, last);
     rows.figure("")
         .with("depth", last.depth_mm)
         .with("error", &error)
@@ -58,7 +58,8 @@ pub(crate) fn nearest_modulus(curve: &IndentationCurve, measured: &[Printed]) ->
 /// Force over time at the `last` depth with both moduli [kPa].
 fn drawn(
     curve: &IndentationCurve,
-    (printed, own): (f64, f64),
+    printed: f64,
+    own: f64,
     series: &PronySeries,
     last: &Printed,
 ) -> Vec<Series> {

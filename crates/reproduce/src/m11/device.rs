@@ -49,7 +49,7 @@ impl Device {
     /// G₁ [N/m] and G₂ [-] at `frequency` [Hz] from what the moving machine answers to sines of its two forces.
     pub(super) fn injected(&self, frequency: f64) -> [Complex<f64>; 2] {
         let [hand, motor] =
-            [Port::Hand, Port::Motor].map(|port| inject(&self.machine, port, frequency));
+            [Port::HandImpedance, Port::Motor].map(|port| inject(&self.machine, port, frequency));
         [hand.inv(), motor / hand]
     }
 }

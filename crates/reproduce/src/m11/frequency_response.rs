@@ -7,7 +7,7 @@ use palpate_measure::phantom::{Machine, MachineState, STATES};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Port {
     /// As a force of the hand.
-    Hand,
+    HandImpedance,
     /// As a force of the motor.
     Motor,
 }
@@ -30,7 +30,7 @@ pub(super) fn inject(machine: &Machine, port: Port, frequency: f64) -> Complex<f
         // Held over a step, a sine is late by half of one.
         let force = (omega * (time + 0.5 * machine.step())).cos();
         match port {
-            Port::Hand => machine.advance(&mut state, force, 0.0),
+            Port::HandImpedance => machine.advance(&mut state, force, 0.0),
             Port::Motor => machine.advance(&mut state, 0.0, force),
         }
     }
@@ -43,7 +43,7 @@ fn steady(machine: &Machine, port: Port, omega: f64) -> MachineState {
         machine.rates().map(|rate| Complex::new(-rate, 0.0));
     let swinging = rates + SMatrix::from_diagonal_element(Complex::new(0.0, omega));
     let column = match port {
-        Port::Hand => 0,
+        Port::HandImpedance => 0,
         Port::Motor => 1,
     };
     let forces = machine.forces().column(column);

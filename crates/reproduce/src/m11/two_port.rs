@@ -90,7 +90,7 @@ mod tests {
         ];
         for (name, port, machine) in machines {
             for frequency in [1.0, 8.0, 15.0, 100.0] {
-                let hand = inject(&machine, Port::Hand, frequency);
+                let hand = inject(&machine, Port::HandImpedance, frequency);
                 let motor = inject(&machine, Port::Motor, frequency);
                 let impedance = port.input_impedance.at(frequency);
                 assert_alike(hand.inv(), impedance, &format!("G1 {name} {frequency} Hz"));

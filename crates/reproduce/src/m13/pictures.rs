@@ -98,7 +98,7 @@ fn picture(scene: &str, depth: f64, arrange: impl Fn(&mut Studio)) -> Result<Pic
     arrange(&mut studio);
     let mut state = SimulationState::new(&simulation);
     let mut workspace = SimulationWorkspace::new(&simulation);
-    let pose = pressed(&studio, &simulation, (scene.tools[0].tip.radius_m, depth));
+    let pose = pressed(&studio, &simulation, scene.tools[0].tip.radius_m, depth);
     step(&simulation, (0.0, 0.0), &[pose], &mut state, &mut workspace);
     Ok(Picture {
         pixels: studio.picture(&state)?,
@@ -108,7 +108,7 @@ fn picture(scene: &str, depth: f64, arrange: impl Fn(&mut Studio)) -> Result<Pic
 }
 
 /// A ball of `radius` [m] that is `depth` [m] deep, held from the upper right.
-fn pressed(studio: &Studio, simulation: &Simulation, (radius, depth): (f64, f64)) -> Option<Pose> {
+fn pressed(studio: &Studio, simulation: &Simulation, radius: f64, depth: f64) -> Option<Pose> {
     let surface = simulation.surface();
     let tree = AabbTree::new(surface.mesh());
     let camera = &studio.view.camera;

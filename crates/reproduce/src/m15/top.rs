@@ -84,7 +84,7 @@ impl Top {
     ) -> Result<(), Error> {
         let surface = self.simulation.surface();
         let moved = surface.mesh().vertices();
-        let open = OpenedSurface::new(cut, (surface, moved), look.width);
+        let open = OpenedSurface::new(cut, surface, moved, look.width);
         self.studio.view.shading = look.shading;
         self.studio.view.looks.relief = look.shading != Shading::Plain;
         self.studio.beside.clear();

@@ -42,7 +42,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
         let name = format!("fitted_modulus/{}_mm", row.depth_mm);
         rows.add(&name, fitted * unit);
     }
-    let drawn = drawn(&depths, (&unit, &measured), [printed, fitted]);
+    let drawn = drawn(&depths, &unit, &measured, [printed, fitted]);
     rows.figure("").draw(drawn)
 }
 
@@ -120,7 +120,7 @@ fn pressed(simulation: &Simulation, depths: &[f64]) -> Vec<f64> {
     found
 }
 
-fn drawn(depths: &[f64], (unit, measured): (&[f64], &[Printed]), moduli: [f64; 2]) -> Vec<Series> {
+fn drawn(depths: &[f64], unit: &[f64], measured: &[Printed], moduli: [f64; 2]) -> Vec<Series> {
     let line = |modulus: f64, name: &str, color| {
         let points = depths.iter().zip(unit);
         let points = points.map(|(depth, unit)| (1e3 * depth, 1e3 * modulus * unit));

@@ -3,7 +3,7 @@ use crate::{Fault, Vec3};
 /// A hand that gives way: a mass on a spring and a damper to where it wants to be,
 /// m a = k (x_w − x) + b (v_w − v) + F.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hand {
+pub struct HandImpedance {
     /// m, of hand and handle together [kg].
     pub mass: f64,
     /// b [N s/m].
@@ -12,7 +12,7 @@ pub struct Hand {
     pub stiffness: f64,
 }
 
-impl Default for Hand {
+impl Default for HandImpedance {
     /// A hand that holds a handle lightly.
     fn default() -> Self {
         Self {
@@ -35,7 +35,7 @@ pub(super) struct HandState {
     pub(super) velocity: Vec3,
 }
 
-impl Hand {
+impl HandImpedance {
     pub(super) fn check(&self) -> Result<(), Fault> {
         Fault::unless_finite_and_positive("the hand's mass [kg]", self.mass)?;
         Fault::unless_finite_and_positive("the hand's stiffness [N/m]", self.stiffness)?;

@@ -51,7 +51,7 @@ mod virtual_device;
 use nalgebra::UnitQuaternion;
 
 pub use capabilities::Capabilities;
-pub use hand::Hand;
+pub use hand::HandImpedance;
 pub use no_device::NoDevice;
 pub use pointer::{Pointer, PointerHand};
 pub use scheduler::{Next, Scheduler, Tick};

@@ -1,6 +1,6 @@
 //! A scripted hand on a handle that is not there, for tests, demonstrations and runs without a device.
 //!
-//! A stiff hand is where its trajectory says, whatever the force. One that gives way ([`Hand`]) is pushed
+//! A stiff hand is where its trajectory says, whatever the force. One that gives way ([`HandImpedance`]) is pushed
 //! off it.
 //!
 //! *How we know*: `devices::a_hand_yields_as_its_spring_says`, `devices::a_hand_swings_at_its_frequency`.
@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::hand::HandState;
-use super::{Capabilities, Command, Device, DeviceState, Disabled, Hand, Trajectory};
+use super::{Capabilities, Command, Device, DeviceState, Disabled, HandImpedance, Trajectory};
 use crate::{Fault, Vec3};
 
 /// A handle that follows a script.
@@ -19,7 +19,7 @@ use crate::{Fault, Vec3};
 pub struct VirtualDevice {
     capabilities: Capabilities,
     trajectory: Trajectory,
-    hand: Option<Hand>,
+    hand: Option<HandImpedance>,
     state: Option<HandState>,
     held_force: Vec3,
     time: f64,
@@ -44,7 +44,7 @@ impl VirtualDevice {
     ///
     /// # Errors
     /// When a number of the hand is not above zero.
-    pub fn with_hand(mut self, hand: Hand) -> Result<Self, Fault> {
+    pub fn with_hand(mut self, hand: HandImpedance) -> Result<Self, Fault> {
         hand.check()?;
         self.hand = Some(hand);
         Ok(self)
@@ -83,7 +83,7 @@ impl VirtualDevice {
         }
     }
 
-    fn move_hand(&self, hand: Hand, time: f64) -> HandState {
+    fn move_hand(&self, hand: HandImpedance, time: f64) -> HandState {
         let elapsed = time - self.time;
         let (from, to) = (self.trajectory.at(self.time), self.trajectory.at(time));
         let mut state = self.state.unwrap_or(HandState {

@@ -24,7 +24,7 @@ use std::f64::consts::TAU;
 use nalgebra::Complex;
 
 use super::Linkage;
-use crate::{Hand, Vec3};
+use crate::{HandImpedance, Vec3};
 
 /// What is compensated of a device.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,7 +64,7 @@ impl Compensation {
 /// The largest mass [kg] that may be taken off what is held as `held`, with a corner at `cutoff` [Hz] and
 /// forces that act `delay` [s] late: m s² + b s + k = M s² e^(−st)/(1 + s/ω_c)² has a root on the imaginary
 /// axis.
-pub fn largest_mass(held: &Hand, cutoff: f64, delay: f64) -> f64 {
+pub fn largest_mass(held: &HandImpedance, cutoff: f64, delay: f64) -> f64 {
     let at = |omega: f64| {
         let corner = omega / (TAU * cutoff);
         let own = Complex::new(

@@ -3,8 +3,8 @@
 use std::sync::atomic::Ordering;
 
 use palpate_servo::{
-    Command, Device, DeviceState, Disabled, Hand, NoDevice, Pointer, PointerHand, Trajectory, Vec3,
-    VirtualDevice,
+    Command, Device, DeviceState, Disabled, HandImpedance, NoDevice, Pointer, PointerHand,
+    Trajectory, Vec3, VirtualDevice,
 };
 
 fn exchange(device: &mut dyn Device, time: f64) -> DeviceState {
@@ -32,7 +32,7 @@ fn all() -> Vec<Box<dyn Device>> {
         Box::new(VirtualDevice::new(still())),
         Box::new(
             VirtualDevice::new(still())
-                .with_hand(Hand::default())
+                .with_hand(HandImpedance::default())
                 .unwrap(),
         ),
     ]
@@ -100,7 +100,7 @@ fn a_pointer_that_is_put_down_glides_from_there() {
 /// Judge: F = k x.
 #[test]
 fn a_hand_yields_as_its_spring_says() {
-    let hand = Hand::default();
+    let hand = HandImpedance::default();
     let mut device = VirtualDevice::new(still()).with_hand(hand).unwrap();
     let mut place = Vec3::zeros();
     for tick in 0..3000 {
@@ -113,7 +113,7 @@ fn a_hand_yields_as_its_spring_says() {
 /// Judge: a damped oscillator let go, x = x₀ e^(−βt) (cos ω₁t + β/ω₁ sin ω₁t).
 #[test]
 fn a_hand_swings_at_its_frequency() {
-    let hand = Hand::default();
+    let hand = HandImpedance::default();
     let mut device = VirtualDevice::new(still()).with_hand(hand).unwrap();
     for tick in 0..3000 {
         device.advance(f64::from(tick) * 1e-3, &Vec3::z());

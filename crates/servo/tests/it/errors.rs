@@ -1,8 +1,8 @@
 //! Faults say their cause, then how to repair it; settings out of range are none.
 
 use palpate_servo::{
-    DeviceState, Fault, Hand, Limits, NoDevice, ServoLoop, ServoSettings, Trajectory, Vec3,
-    VirtualDevice, Waypoint,
+    DeviceState, Fault, HandImpedance, Limits, NoDevice, ServoLoop, ServoSettings, Trajectory,
+    Vec3, VirtualDevice, Waypoint,
 };
 
 #[test]
@@ -78,9 +78,9 @@ fn settings_out_of_range_are_refused_by_name() {
         text,
         "the largest force [N] is NaN; set a finite number above zero"
     );
-    let limp = Hand {
+    let limp = HandImpedance {
         stiffness: 0.0,
-        ..Hand::default()
+        ..HandImpedance::default()
     };
     let still = Trajectory::way(vec![Waypoint::new(0.0, Vec3::zeros())]).unwrap();
     let text = VirtualDevice::new(still)

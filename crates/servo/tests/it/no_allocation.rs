@@ -3,8 +3,8 @@
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
 use palpate_servo::dynamics::{Compensation, Linkage};
 use palpate_servo::{
-    AffineForce, Clock, Controller, Device, DeviceState, Extrapolator, Hand, HandOver, Limits,
-    NoDevice, Pointer, ServoLoop, ServoSettings, Trajectory, Vec3, VirtualDevice, latest,
+    AffineForce, Clock, Controller, Device, DeviceState, Extrapolator, HandImpedance, HandOver,
+    Limits, NoDevice, Pointer, ServoLoop, ServoSettings, Trajectory, Vec3, VirtualDevice, latest,
 };
 
 #[global_allocator]
@@ -35,7 +35,7 @@ fn a_tick_allocates_nothing() {
         frequency: 2.0,
     };
     let yielding = VirtualDevice::new(sine.clone())
-        .with_hand(Hand::default())
+        .with_hand(HandImpedance::default())
         .unwrap();
     let (pointer, mut mouse) = Pointer::new();
     mouse.move_to(Vec3::zeros());

@@ -2,8 +2,8 @@
 //! same loop without the stage.
 
 use palpate_servo::{
-    Clock, Device, Hand, HandOver, Limits, Sample, ServoLoop, ServoSettings, Trajectory, Vec3,
-    VirtualDevice, Waypoint,
+    Clock, Device, HandImpedance, HandOver, Limits, Sample, ServoLoop, ServoSettings, Trajectory,
+    Vec3, VirtualDevice, Waypoint,
 };
 
 use crate::slow_model::{Law, SlowModel};
@@ -65,7 +65,7 @@ fn least(course: &[f64]) -> f64 {
 }
 
 /// A hand that comes down and leans on the wall.
-fn leaning(hand: Hand) -> VirtualDevice {
+fn leaning(hand: HandImpedance) -> VirtualDevice {
     let places = [(0.0, 5.0), (1.0, 5.0), (1.3, -2.0)];
     let places = places.map(|(time, mm)| Waypoint::new(time, Vec3::z() * (1e-3 * mm)));
     VirtualDevice::new(Trajectory::way(places.to_vec()).unwrap())
@@ -79,7 +79,7 @@ fn leaning(hand: Hand) -> VirtualDevice {
 fn a_stiff_wall_at_a_slow_rate_gives_out_less_than_a_millijoule() {
     let hands = [(0.18, 5.0, 500.0), (0.1, 5.0, 1000.0), (0.12, 2.0, 300.0)];
     for (mass, damping, stiffness) in hands {
-        let hand = Hand {
+        let hand = HandImpedance {
             mass,
             damping,
             stiffness,

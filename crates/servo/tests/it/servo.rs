@@ -6,7 +6,6 @@ use std::time::Duration;
 use palpate_servo::{
     Capabilities, Clock, Command, Controller, Device, DeviceState, Disabled, Fault, Sample,
     ServoLoop, ServoReader, ServoSettings, ServoThread, Stage, Trajectory, Vec3, VirtualDevice,
-    measure_lateness,
 };
 
 fn sine() -> Trajectory {
@@ -168,15 +167,4 @@ fn a_loop_that_is_dropped_or_stopped_stops_its_device() {
     let thread = ServoThread::start(servo(device).0, Clock::real()).unwrap();
     let report = thread.stop().unwrap();
     assert!(stops.load(Ordering::Relaxed) >= 1 && report.fault.is_none());
-}
-
-/// How late ticks are on this machine: printed, for that is the machine's.
-#[test]
-#[ignore = "by hand: 15 s on the machine's clock, with nothing else running"]
-fn lateness_on_this_machine() {
-    for rate in [1000.0, 2000.0, 4000.0] {
-        let report = measure_lateness(rate, 5.0).unwrap();
-        println!("{rate} Hz: {report:?}");
-        assert_eq!(report.ticks + report.missed, (5.0 * rate) as u64);
-    }
 }

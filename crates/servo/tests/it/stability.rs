@@ -1,7 +1,7 @@
 //! A hand on a spring that is rendered by the loop.
 
 use palpate_servo::{
-    Clock, DeviceState, Fault, Hand, Limits, ServoLoop, ServoSettings, Trajectory, Vec3,
+    Clock, DeviceState, Fault, HandImpedance, Limits, ServoLoop, ServoSettings, Trajectory, Vec3,
     VirtualDevice, Waypoint,
 };
 
@@ -15,7 +15,7 @@ fn let_go(place: f64) -> Result<Trajectory, Fault> {
 }
 
 /// Whether a spring of `stiffness` [N/m] swings less and less under `hand`.
-fn is_stable(hand: Hand, stiffness: f64) -> bool {
+fn is_stable(hand: HandImpedance, stiffness: f64) -> bool {
     // Small enough that no limit is met before the end.
     let device = VirtualDevice::new(let_go(1e-9).unwrap())
         .with_hand(hand)
@@ -48,7 +48,7 @@ fn is_stable(hand: Hand, stiffness: f64) -> bool {
 #[test]
 fn a_rendered_spring_is_stable_up_to_the_bound() {
     for (mass, damping) in [(0.08, 0.2), (0.18, 5.2)] {
-        let hand = Hand {
+        let hand = HandImpedance {
             mass,
             damping,
             stiffness: 1.0,

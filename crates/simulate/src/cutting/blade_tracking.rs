@@ -26,9 +26,10 @@ pub(super) fn is_down(tool: &Tool, state: &ToolState) -> bool {
 
 /// Leads the edge of a tool that cuts along the surface, as far as its resistance lets it, and has the tissue
 /// held there.
-pub(crate) fn lead(
+pub(crate) fn track_blade(
     simulation: &Simulation,
-    (model, cuts): (&CuttingModel, &Cuts),
+    model: &CuttingModel,
+    cuts: &Cuts,
     number: usize,
     state: &mut ToolState,
 ) {

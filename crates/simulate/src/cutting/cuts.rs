@@ -85,7 +85,7 @@ impl Cuts {
     }
 
     /// None any more, as at the beginning, but for the version. It allocates nothing.
-    pub(crate) fn begin_anew(&mut self) {
+    pub(crate) fn reset(&mut self) {
         self.surface.close_all();
         self.places.clear();
         self.places

@@ -37,7 +37,7 @@ mod gape;
 mod model;
 mod parts;
 
-pub(crate) use blade_tracking::{Blade, lead};
+pub(crate) use blade_tracking::{Blade, track_blade};
 pub(crate) use cut_path::advance;
 pub use cuts::Cuts;
 pub use gape::gape;

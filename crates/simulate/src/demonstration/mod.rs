@@ -122,12 +122,12 @@ impl Demonstration {
                 let blade = of(&[ToolKind::Scissors, ToolKind::Hook])?;
                 let depths = depths(simulation, layers.unwrap_or(1));
                 let line = Polyline::new(line)?;
-                cut(&ground, &line, &depths, (blade, of(&[ToolKind::Grasper])))
+                cut(&ground, &line, &depths, blade, of(&[ToolKind::Grasper]))
             }
             Goal::Touch(touch) => {
                 let number = |name: &String| scene.tools.iter().position(|own| own.name == *name);
                 let holder = touch.holder.as_ref().and_then(number);
-                uncover::touched(simulation, touch, (number(&touch.tool)?, holder))
+                uncover::touched(simulation, touch, number(&touch.tool)?, holder)
             }
         };
         Some(Self {

@@ -28,7 +28,7 @@ const COMES_IN: f64 = 0.09;
 const SLOWS: f64 = 0.002;
 
 /// A straight way from a target to where its tool comes from.
-struct Way<'s> {
+struct AccessPath<'s> {
     simulation: &'s Simulation,
     target: Vec3,
     /// Away from the target, with its length [m].
@@ -48,7 +48,8 @@ struct Rim {
 pub(super) fn touched(
     simulation: &Simulation,
     goal: &TouchGoal,
-    (tool, holder): (usize, Option<usize>),
+    tool: usize,
+    holder: Option<usize>,
 ) -> Vec<Step> {
     let target = Vec3::from(goal.target_m);
     let bodies = simulation.neighbours.iter();
@@ -61,7 +62,7 @@ pub(super) fn touched(
         Some(trocar) => trocar - on,
         None => 2.0 * COMES_IN * normal,
     };
-    let way = Way {
+    let way = AccessPath {
         simulation,
         target: on,
         outward,
@@ -96,7 +97,7 @@ pub(super) fn touched(
     steps
 }
 
-impl Way<'_> {
+impl AccessPath<'_> {
     fn is_clear(&self, outward: &Vec3) -> bool {
         let (mesh, tree) = (self.simulation.surface.mesh(), &self.simulation.tree);
         let ends = [&self.target, &(self.target + outward)];

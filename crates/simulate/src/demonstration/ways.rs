@@ -148,7 +148,8 @@ pub(super) fn cut(
     ground: &RestSurface<'_>,
     line: &Polyline,
     depths: &[f64],
-    (blade, grasper): (usize, Option<usize>),
+    blade: usize,
+    grasper: Option<usize>,
 ) -> Vec<Step> {
     let mut steps = Vec::new();
     if let Some(tool) = grasper {

@@ -39,7 +39,7 @@ impl OrganField {
     }
 
     /// Makes it that of an untouched organ. It allocates nothing.
-    pub(crate) fn lay_to_rest(&mut self) {
+    pub(crate) fn return_to_rest(&mut self) {
         self.displacements.fill(Vec3::zeros());
         self.contacts.fill(None);
     }

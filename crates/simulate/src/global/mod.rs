@@ -166,7 +166,8 @@ impl GlobalProblem {
     /// The model, with warnings.
     pub(crate) fn solve(
         self,
-        (scene, shown): (&Scene, &Surface),
+        scene: &Scene,
+        shown: &Surface,
         resources: &Resources,
         watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<(GlobalModel, Vec<String>), Error> {

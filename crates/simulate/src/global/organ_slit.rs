@@ -111,18 +111,13 @@ impl OrganSlit {
             };
             let first = std::mem::replace(&mut self.taken, next.end);
             if next.is_facet {
-                self.open(global, model, (&way[first..next.end], wanted));
+                self.open(global, model, &way[first..next.end], wanted);
             }
         }
     }
 
     /// Makes facets of about the `wanted` length [m] of a straight part of the way.
-    fn open(
-        &mut self,
-        global: &GlobalModel,
-        model: &CuttingModel,
-        (parts, wanted): (&[CutPart], f64),
-    ) {
+    fn open(&mut self, global: &GlobalModel, model: &CuttingModel, parts: &[CutPart], wanted: f64) {
         let (Some(first), Some(last)) = (parts.first(), parts.last()) else {
             return;
         };
@@ -172,8 +167,7 @@ impl OrganSlit {
                 radius: tool.typical_radius,
             });
             let shares = on.iter().flat_map(|on| on.shares());
-            self.slit
-                .put(&global.response, (shares, spot.as_ref()), load);
+            self.slit.put(&global.response, shares, spot.as_ref(), load);
         }
     }
 
@@ -185,7 +179,7 @@ impl OrganSlit {
         part: &[HeldTriangle],
     ) {
         let load = &mut self.parts[number];
-        self.slit.put(response, (shares(part), None), load);
+        self.slit.put(response, shares(part), None, load);
     }
 
     /// What it adds to how a tip yields to itself, times E [1/m].
@@ -216,7 +210,7 @@ impl OrganSlit {
         forces: impl Iterator<Item = (usize, Vec3)>,
     ) -> Vec3 {
         self.slit
-            .put(response, (shares(part), None), &mut self.scratch);
+            .put(response, shares(part), None, &mut self.scratch);
         let on = &self.scratch;
         let by = forces.map(|(tip, force)| self.slit.between(on, &self.tips[tip]) * force);
         by.sum()

@@ -15,7 +15,7 @@
 //! *How we know*: `hybrid::…`, `grip::jumps::…`, `random_scenes::…`.
 
 use nalgebra::Matrix3;
-use palpate_geometry::{ContactPoint, Vec3, closest_on_triangle, settle};
+use palpate_geometry::{ContactPoint, Vec3, closest_on_triangle, project_contact_point};
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::enhance::SurfacePoint;
 use palpate_mechanics::surface_response::TipLoad;
@@ -63,7 +63,7 @@ impl GlobalModel {
             depth: 0.0,
         };
         let surface = interpolation.surface();
-        let under = settle(surface, surface.vertex_normals(), &from, &place.point);
+        let under = project_contact_point(surface, surface.vertex_normals(), &from, &place.point);
         Some(under.map_or(near, |under| SurfacePoint {
             triangle: under.triangle,
             barycentric: under.barycentric,

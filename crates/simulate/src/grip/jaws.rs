@@ -73,7 +73,7 @@ impl Swept {
 
 /// With how much each of the `jaws` presses [N] on tissue of `area` [m²], `thickness` [m] and Young's
 /// modulus `modulus` [Pa] at `grip` [-]: a column of neo-Hookean rubber, as far as their force goes.
-pub(super) fn press(jaws: &Jaws, (area, thickness): (f64, f64), grip: f64, modulus: f64) -> f64 {
+pub(super) fn press(jaws: &Jaws, area: f64, thickness: f64, grip: f64, modulus: f64) -> f64 {
     let gap = jaws.opening_m * (1.0 - grip);
     let stretch = (gap / thickness).min(1.0);
     // Shut quite, they press with all that they have.
@@ -90,7 +90,7 @@ mod tests {
     fn jaws_press_as_on_a_column() {
         let jaws = Jaws::GRASPER;
         let (area, thickness, modulus) = (4e-5, 8e-3, 1e4);
-        let at = |grip| press(&jaws, (area, thickness), grip, modulus);
+        let at = |grip| press(&jaws, area, thickness, grip, modulus);
         assert_eq!(at(0.2), 0.0);
         // 1 % of strain, to which the law's next term adds a hundredth.
         let hooke = modulus * area * 0.01;

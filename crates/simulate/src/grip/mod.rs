@@ -223,7 +223,7 @@ impl ToolState {
         let modulus = simulation.material.at_rest.youngs_modulus();
         match (&self.grip.hold, &tool.jaws, &self.pose) {
             (Some(hold), Some(jaws), Some(pose)) => {
-                jaws::press(jaws, (hold.area, hold.thickness), pose.grip, modulus)
+                jaws::press(jaws, hold.area, hold.thickness, pose.grip, modulus)
             }
             _ => 0.0,
         }

@@ -80,7 +80,7 @@ pub(crate) fn answer(
     let response = tool.model.respond(&held.place, workspace);
     state.response = Some(response);
     state.limited = response.limits;
-    state.stiffness = stiffness(simulation, tool, (&held.place, &response));
+    state.stiffness = stiffness(simulation, tool, &held.place, &response);
     state.elastic = held.force - state.stiffness * (hold.carried(&held.tip) - held.tip);
     true
 }
@@ -89,7 +89,8 @@ pub(crate) fn answer(
 fn stiffness(
     simulation: &Simulation,
     tool: &Tool,
-    (place, response): (&LocalContact, &Response),
+    place: &LocalContact,
+    response: &Response,
 ) -> Matrix3<f64> {
     let law = &simulation.material.at_rest;
     let normal = response.stiffness[(2, 2)];

@@ -67,7 +67,7 @@ pub(super) fn device_endpoints(
     let tools = simulation.tools().iter().zip(devices);
     let parts = tools.map(|(tool, device)| {
         let parts =
-            |device| DeviceEndpoints::new((simulation, &tool.name), device, settings, supervisor);
+            |device| DeviceEndpoints::new(simulation, &tool.name, device, settings, supervisor);
         device.map(parts).transpose()
     });
     parts.collect()
@@ -75,7 +75,8 @@ pub(super) fn device_endpoints(
 
 impl DeviceEndpoints {
     fn new(
-        (simulation, tool): (&Simulation, &str),
+        simulation: &Simulation,
+        tool: &str,
         device: PlacedDevice,
         settings: ServoSettings,
         supervisor: &Supervisor,

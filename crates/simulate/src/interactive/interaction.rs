@@ -148,11 +148,6 @@ impl Interaction {
         Ok(())
     }
 
-    /// The time that rows and samples count in [s].
-    pub fn time(&self) -> f64 {
-        self.clock.now()
-    }
-
     /// The latest that there is to see.
     pub fn snapshot(&mut self) -> &Snapshot {
         self.snapshots.latest()
@@ -212,11 +207,6 @@ impl Interaction {
     /// The rows of the session that nobody has read yet.
     pub fn rows(&mut self) -> impl Iterator<Item = SessionRow> + '_ {
         self.rows.drain()
-    }
-
-    /// Rows that were lost, because nobody read them in time.
-    pub fn lost_rows(&self) -> u64 {
-        self.rows.lost()
     }
 
     /// The samples of a tool's servo loop that nobody has read yet.

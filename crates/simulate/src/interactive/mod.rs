@@ -29,10 +29,8 @@ mod model_loop;
 mod placement;
 mod published;
 mod quality;
-mod recent_events;
 mod recorder;
 mod scene_devices;
-mod scripted;
 mod snapshot;
 mod virtual_interaction;
 
@@ -50,7 +48,6 @@ pub use model::PreparedModel;
 pub use model_loop::CUTS;
 pub(crate) use model_loop::DISPLAY;
 pub use quality::{ExtrapolationError, ModelReport, Quality};
-pub use recent_events::{RecentEvents, TimedEvent};
 pub use recorder::{MOST_ROWS_IN_MEMORY, Unwritten};
 pub use scene_devices::SceneDevices;
 pub use snapshot::{ContactSnapshot, OpenedPart, OpenedSnapshot, Snapshot, ToolSnapshot};

@@ -9,7 +9,7 @@ use super::judge::made;
 use super::model::{Model, TakingOver};
 use super::quality::ExtrapolationError;
 use super::snapshot::RenderedForce;
-use super::{DevicePlacement, ModelCommand, ModelReport, RecentEvents};
+use super::{DevicePlacement, ModelCommand, ModelReport};
 use crate::{shape, touch};
 
 /// The period of a display [s], with some room: a step that is a little early counts.
@@ -38,7 +38,6 @@ pub(super) struct ModelLoop {
     /// When it was asked last [s], and how long it stood still in all [s].
     asked: f64,
     stood: f64,
-    recent_events: RecentEvents,
     steps: u64,
     /// When the step began.
     start: Instant,
@@ -87,7 +86,6 @@ impl ModelLoop {
             were_there: vec![false; tools],
             asked: 0.0,
             stood: 0.0,
-            recent_events: RecentEvents::default(),
             start: Instant::now(),
             touch_times: Histogram::default(),
             step_times: Histogram::default(),
@@ -174,7 +172,6 @@ impl ModelLoop {
         let Self {
             model,
             felt,
-            recent_events,
             now,
             paused,
             ..
@@ -185,7 +182,6 @@ impl ModelLoop {
         for snapshots in snapshots {
             snapshots.send_with(|snapshot| {
                 snapshot.fill(*now, state, felt);
-                snapshot.recent_events = *recent_events;
                 snapshot.report = report;
                 snapshot.paused = *paused;
             });
@@ -245,7 +241,7 @@ impl ModelLoop {
                     let Model {
                         simulation, state, ..
                     } = &mut *self.model;
-                    state.begin_anew(simulation);
+                    state.reset(simulation);
                     self.note_new_beginning();
                 }
                 ModelCommand::UndoCut => {
@@ -313,9 +309,6 @@ impl ModelLoop {
             row.stated_diameter_m = self.stated.take();
             self.last = Some(time);
             self.rows.add(row);
-            for event in row.events.iter() {
-                self.recent_events.add(time, number, event);
-            }
         }
     }
 }

@@ -26,10 +26,7 @@ const STEP: f64 = 0.005;
 const STEPS: usize = 100;
 
 /// Where the device of `tool` stands.
-pub(super) fn placement_of(
-    (scene, simulation): (&Scene, &Simulation),
-    tool: &Tool,
-) -> DevicePlacement {
+pub(super) fn placement_of(scene: &Scene, simulation: &Simulation, tool: &Tool) -> DevicePlacement {
     let axes = axes(&scene.view);
     let side = match tool.name.as_str() {
         _ if simulation.tools().len() < 2 => 0.0,

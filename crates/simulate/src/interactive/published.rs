@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::{Quaternion, UnitQuaternion};
-use palpate_devices::publisher::{Picture, Publisher, ShownSurface, ShownTool};
+use palpate_devices::publisher::{PublishedState, Publisher, ShownSurface, ShownTool};
 use palpate_geometry::Vec3;
 use palpate_servo::latest::{Receiver, Sender, channel};
 
@@ -34,7 +34,7 @@ fn with_latest<T>(seen: &Mutex<Receiver<Snapshot>>, read: impl FnOnce(&Snapshot)
     read(seen.latest())
 }
 
-fn fill(picture: &mut Picture, snapshot: &Snapshot, names: &[String]) {
+fn fill(picture: &mut PublishedState, snapshot: &Snapshot, names: &[String]) {
     picture.paused = snapshot.paused;
     picture.tools.clear();
     let tools = names.iter().zip(&snapshot.tools);

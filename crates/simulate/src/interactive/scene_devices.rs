@@ -70,7 +70,7 @@ impl SceneDevices {
                     (Some(PlacedDevice::palpating(simulation, model)), None)
                 }
                 (_, Some(device)) => {
-                    let placement = placement_of((scene, simulation), model);
+                    let placement = placement_of(scene, simulation, model);
                     (Some(PlacedDevice { device, placement }), None)
                 }
                 (_, None) => (None, None),

@@ -2,7 +2,7 @@ use palpate_files::Pose;
 use palpate_geometry::Vec3;
 use palpate_servo::Fault;
 
-use super::{ModelReport, RecentEvents};
+use super::ModelReport;
 use crate::cutting::Cuts;
 use crate::state::{SimulationState, ToolState};
 use crate::{LimitCounts, OrganField, Simulation, Tool};
@@ -22,8 +22,6 @@ pub struct Snapshot {
     pub whole: Option<OrganField>,
     /// Per tool, in the scene's order.
     pub tools: Vec<ToolSnapshot>,
-    /// The last things that happened.
-    pub recent_events: RecentEvents,
     /// What the model measured of itself.
     pub report: ModelReport,
 }
@@ -134,7 +132,6 @@ impl Snapshot {
             paused: false,
             whole: OrganField::at_rest(simulation),
             tools: vec![nobody; simulation.tools().len()],
-            recent_events: RecentEvents::default(),
             report: ModelReport::default(),
         }
     }

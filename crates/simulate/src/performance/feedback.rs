@@ -81,70 +81,56 @@ pub fn feedback(task: &Task, score: &Score, late: bool) -> Feedback {
 
 fn why_not(task: &Task, score: &Score) -> Phrase {
     let perforated = score.errors.perforations > 0;
-    match (&score.outcome, &task.goal) {
-        (Outcome::Find { beside: None, .. }, _) => Phrase::plain("why-unmarked"),
-        (
-            Outcome::Find {
-                found: true,
-                size: Some(size),
-                ..
-            },
-            _,
-        ) => match size.stated {
+    match &score.outcome {
+        Outcome::Find { beside: None, .. } => Phrase::plain("why-unmarked"),
+        Outcome::Find {
+            found: true,
+            size: Some(size),
+            ..
+        } => match size.stated {
             None => Phrase::plain("why-no-diameter"),
             Some(stated) => {
                 let values = [("mm", 2e3 * size.truth.radius_m), ("stated", 1e3 * stated)];
                 Phrase::filled("why-diameter", values)
             }
         },
-        (
-            Outcome::Find {
-                beside: Some(off), ..
-            },
-            _,
-        ) => Phrase::filled("why-far", [("mm", 1e3 * off)]),
-        (
-            Outcome::Traction {
-                torn: Some(force), ..
-            },
-            _,
-        ) => Phrase::filled("why-torn", [("mn", 1e3 * force)]),
-        (Outcome::Traction { within, .. }, _) => Phrase::filled("why-short", [("s", *within)]),
-        (
-            Outcome::Touch {
-                torn: Some(force), ..
-            },
-            _,
-        ) => Phrase::filled("why-held-torn", [("mn", 1e3 * force)]),
-        (
-            Outcome::Touch {
-                injured: Some(force),
-                ..
-            },
-            _,
-        ) => Phrase::filled("why-injured", [("mn", 1e3 * force)]),
-        (Outcome::Touch { beside: None, .. }, _) => Phrase::plain("why-covered"),
-        (Outcome::Touch { within, .. }, _) if *within > 0.0 => {
+        Outcome::Find {
+            beside: Some(off), ..
+        } => Phrase::filled("why-far", [("mm", 1e3 * off)]),
+        Outcome::Traction {
+            torn: Some(force), ..
+        } => Phrase::filled("why-torn", [("mn", 1e3 * force)]),
+        Outcome::Traction { within, .. } => Phrase::filled("why-short", [("s", *within)]),
+        Outcome::Touch {
+            torn: Some(force), ..
+        } => Phrase::filled("why-held-torn", [("mn", 1e3 * force)]),
+        Outcome::Touch {
+            injured: Some(force),
+            ..
+        } => Phrase::filled("why-injured", [("mn", 1e3 * force)]),
+        Outcome::Touch { beside: None, .. } => Phrase::plain("why-covered"),
+        Outcome::Touch { within, .. } if *within > 0.0 => {
             Phrase::filled("why-touched-short", [("s", *within)])
         }
-        (
-            Outcome::Touch {
-                beside: Some(off), ..
-            },
-            _,
-        ) => Phrase::filled("why-beside", [("mm", 1e3 * off)]),
-        (Outcome::Cut { .. }, _) if perforated => Phrase::plain("why-perforated"),
-        (Outcome::Cut { part, .. }, Goal::Cut { tolerance_m, .. }) => {
-            let line = score.cut.and_then(|cut| cut.along_line);
-            match line {
-                Some(line) if line.largest_deviation > *tolerance_m => {
-                    Phrase::filled("why-off-line", [("mm", 1e3 * line.largest_deviation)])
-                }
-                _ => Phrase::filled("why-uncut", [("percent", 100.0 * (1.0 - part))]),
-            }
-        }
+        Outcome::Touch {
+            beside: Some(off), ..
+        } => Phrase::filled("why-beside", [("mm", 1e3 * off)]),
+        Outcome::Cut { .. } if perforated => Phrase::plain("why-perforated"),
+        Outcome::Cut { part, .. } => match off_line(task, score) {
+            Some(deviation) => Phrase::filled("why-off-line", [("mm", 1e3 * deviation)]),
+            None => Phrase::filled("why-uncut", [("percent", 100.0 * (1.0 - part))]),
+        },
         _ => Phrase::plain("why-unknown"),
     }
+}
+
+/// How far a cut strayed from its line [m], where that is more than the task allows.
+fn off_line(task: &Task, score: &Score) -> Option<f64> {
+    let Goal::Cut { tolerance_m, .. } = &task.goal else {
+        return None;
+    };
+    let deviation = score.cut?.along_line?.largest_deviation;
+    (deviation > *tolerance_m).then_some(deviation)
 }
 
 /// The largest force of any tool [N].
@@ -155,15 +141,12 @@ fn peak(score: &Score) -> f64 {
 
 fn good(task: &Task, score: &Score) -> Phrase {
     let gentle = task.force_limit_n.filter(|limit| peak(score) <= *limit);
-    match (&score.outcome, gentle) {
-        (
-            Outcome::Find {
-                beside: Some(off),
-                found: true,
-                size,
-            },
-            _,
-        ) => match size.and_then(|size| Some((size, size.stated?))) {
+    match &score.outcome {
+        Outcome::Find {
+            beside: Some(off),
+            found: true,
+            size,
+        } => match size.and_then(|size| Some((size, size.stated?))) {
             Some((size, stated)) if size.is_right() => {
                 let truth = 2e3 * size.truth.radius_m;
                 let values = [
@@ -175,84 +158,65 @@ fn good(task: &Task, score: &Score) -> Phrase {
             }
             _ => Phrase::filled("good-found", [("mm", 1e3 * off)]),
         },
-        (
-            Outcome::Traction {
-                held: true,
-                error: Some(error),
-                ..
-            },
-            _,
-        ) => Phrase::filled("good-held", [("mn", 1e3 * error)]),
-        (
-            Outcome::Touch {
-                reached: true,
-                within,
-                ..
-            },
-            _,
-        ) => Phrase::filled("good-touched", [("s", *within)]),
-        (
-            Outcome::Touch {
-                beside: Some(_),
-                torn: None,
-                ..
-            },
-            None,
-        ) => Phrase::plain("good-clear"),
-        (Outcome::Cut { clean: true, .. }, _) => Phrase::plain("good-cut"),
-        (Outcome::Cut { part, .. }, _) if *part >= 0.5 => {
+        Outcome::Traction {
+            held: true,
+            error: Some(error),
+            ..
+        } => Phrase::filled("good-held", [("mn", 1e3 * error)]),
+        Outcome::Touch {
+            reached: true,
+            within,
+            ..
+        } => Phrase::filled("good-touched", [("s", *within)]),
+        Outcome::Touch {
+            beside: Some(_),
+            torn: None,
+            ..
+        } if gentle.is_none() => Phrase::plain("good-clear"),
+        Outcome::Cut { clean: true, .. } => Phrase::plain("good-cut"),
+        Outcome::Cut { part, .. } if *part >= 0.5 => {
             Phrase::filled("good-part", [("percent", 100.0 * part)])
         }
-        (
-            Outcome::Traction {
-                within, torn: None, ..
-            },
-            _,
-        ) if *within >= 1.0 => Phrase::filled("good-within", [("s", *within)]),
-        (_, Some(limit)) => {
-            let values = [("mn", 1e3 * limit), ("most", 1e3 * peak(score))];
-            Phrase::filled("good-gentle", values)
-        }
-        _ => Phrase::filled("good-worked", [("s", score.duration)]),
+        Outcome::Traction {
+            within, torn: None, ..
+        } if *within >= 1.0 => Phrase::filled("good-within", [("s", *within)]),
+        _ => match gentle {
+            Some(limit) => {
+                let values = [("mn", 1e3 * limit), ("most", 1e3 * peak(score))];
+                Phrase::filled("good-gentle", values)
+            }
+            None => Phrase::filled("good-worked", [("s", score.duration)]),
+        },
     }
 }
 
 fn change(task: &Task, score: &Score) -> Phrase {
     let perforated = score.errors.perforations > 0;
-    Phrase::plain(match (&score.outcome, &task.goal) {
-        (Outcome::Find { beside: None, .. }, _) => "change-mark",
-        (Outcome::Find { found: false, .. }, _) => "change-rows",
-        (
-            Outcome::Find {
-                size: Some(size), ..
-            },
-            _,
-        ) if !size.is_right() => {
+    Phrase::plain(match &score.outcome {
+        Outcome::Find { beside: None, .. } => "change-mark",
+        Outcome::Find { found: false, .. } => "change-rows",
+        Outcome::Find {
+            size: Some(size), ..
+        } if !size.is_right() => {
             let stated = size.stated.unwrap_or(0.0);
             match size.truth.error_of(stated) > 0.0 {
                 true => "change-smaller",
                 false => "change-larger",
             }
         }
-        (Outcome::Traction { torn: Some(_), .. }, _) => "change-slower",
-        (Outcome::Traction { held: false, .. }, _) => "change-grasp",
-        (Outcome::Touch { torn: Some(_), .. }, _) => "change-lift-slower",
-        (
-            Outcome::Touch {
-                injured: Some(_), ..
-            },
-            _,
-        ) => "change-come-slowly",
-        (Outcome::Touch { beside: None, .. }, _) => "change-lift",
-        (Outcome::Touch { reached: false, .. }, _) => "change-stay",
-        (Outcome::Cut { .. }, _) if perforated => "change-shallower",
-        (Outcome::Cut { clean: false, .. }, Goal::Cut { tolerance_m, .. }) => {
-            let line = score.cut.and_then(|cut| cut.along_line);
-            match line.is_some_and(|line| line.largest_deviation > *tolerance_m) {
-                true => "change-line",
-                false => "change-uncut",
-            }
-        }
+        Outcome::Traction { torn: Some(_), .. } => "change-slower",
+        Outcome::Traction { held: false, .. } => "change-grasp",
+        Outcome::Touch { torn: Some(_), .. } => "change-lift-slower",
+        Outcome::Touch {
+            injured: Some(_), ..
+        } => "change-come-slowly",
+        Outcome::Touch { beside: None, .. } => "change-lift",
+        Outcome::Touch { reached: false, .. } => "change-stay",
+        Outcome::Cut { .. } if perforated => "change-shallower",
+        Outcome::Cut { clean: false, .. } => match off_line(task, score) {
+            Some(_) => "change-line",
+            None => "change-uncut",
+        },
         _ => return errors(task, score),
     })
 }

@@ -213,7 +213,7 @@ impl GoalWatch {
         }
         if let Some((time, before)) = before {
             let elapsed = row.time_s - time;
-            let pull = self.goal.pull(&(0.5 * (before + force)));
+            let pull = advice(&self.goal, &(0.5 * (before + force)));
             if pull.is_some_and(|pull| pull.cue == Cue::Hold) {
                 self.within += elapsed;
             }
@@ -223,7 +223,7 @@ impl GoalWatch {
                 self.pulled.1 += elapsed * (middle - force_n).powi(2);
             }
         }
-        self.pull = self.goal.pull(&force);
+        self.pull = advice(&self.goal, &force);
         if tear_force_n.is_some_and(|tear| force.norm() > tear) {
             self.torn = Some(force.norm());
         }
@@ -293,36 +293,29 @@ impl GoalWatch {
     }
 }
 
-/// The pull of a traction.
-trait Wanted {
-    /// A force on the tool [N] beside the pull that is wanted; none where none is.
-    fn pull(&self, force: &Vec3) -> Option<Advice>;
-}
-
-impl Wanted for Goal {
-    fn pull(&self, force: &Vec3) -> Option<Advice> {
-        let Self::Traction {
-            force_n,
-            tolerance_n,
-            direction,
-            ..
-        } = self
-        else {
-            return None;
-        };
-        let size = force.norm();
-        // A tool pulls against the force on it. Before there is one, it has no direction either.
-        let turned = direction.is_some_and(|(direction, tolerance)| {
-            size > BEGINS * force_n && (-force).angle(&Vec3::from(direction)) > tolerance
-        });
-        let cue = match size {
-            _ if turned => Cue::Turn,
-            size if size < force_n - tolerance_n => Cue::More,
-            size if size > force_n + tolerance_n => Cue::Less,
-            _ => Cue::Hold,
-        };
-        Some(Advice { force: size, cue })
-    }
+/// A force on the tool [N] compared with the pull of a traction; none for other goals.
+fn advice(goal: &Goal, force: &Vec3) -> Option<Advice> {
+    let Goal::Traction {
+        force_n,
+        tolerance_n,
+        direction,
+        ..
+    } = goal
+    else {
+        return None;
+    };
+    let size = force.norm();
+    // A tool pulls against the force on it. Before there is one, it has no direction either.
+    let turned = direction.is_some_and(|(direction, tolerance)| {
+        size > BEGINS * force_n && (-force).angle(&Vec3::from(direction)) > tolerance
+    });
+    let cue = match size {
+        _ if turned => Cue::Turn,
+        size if size < force_n - tolerance_n => Cue::More,
+        size if size > force_n + tolerance_n => Cue::Less,
+        _ => Cue::Hold,
+    };
+    Some(Advice { force: size, cue })
 }
 
 impl Outcome {

@@ -6,8 +6,10 @@ use palpate_files::session::Event;
 use palpate_files::{Motion, Pose, Scene};
 use palpate_geometry::{CutMethod, TriangleId, Vec3};
 use palpate_servo::ServoSettings;
-use palpate_simulate::interactive::{ModelCommand, PlacedDevice, VirtualInteraction};
+use palpate_simulate::interactive::{ModelCommand, VirtualInteraction};
 use palpate_simulate::{Simulation, SimulationState, SimulationWorkspace, step};
+
+use crate::interactive::playing;
 
 /// A cube of 0.1 m, whose upper side is at z = 0.05, and one tool called "right".
 fn scene(tool: &str, more: &str) -> Scene {
@@ -202,7 +204,7 @@ fn what_is_undone_was_never_there() {
     assert!(hand.state.undo_cut() && !hand.state.undo_cut());
     assert!(hand.shape() == uncut);
     hand.cut_along([top(-0.02, 0.0), top(0.02, 0.0)]);
-    hand.state.begin_anew(&simulation);
+    hand.state.reset(&simulation);
     assert!(hand.shape() == uncut && !hand.state.cuts.as_ref().unwrap().are_there());
 }
 
@@ -317,7 +319,7 @@ fn what_is_seen_of_a_cut_is_whole() {
     let motion = "# format = 1\ntime_s,tool,x_m,y_m,z_m,cut\n0.0,right,-0.03,0.002,0.052,0\n\
                   0.1,right,-0.03,0.002,0.049,1\n1.1,right,0.03,0.004,0.049,1\n1.3,right,0.03,0.0,0.06,0\n";
     let motion = Motion::parse(motion, "motion.csv").unwrap();
-    let device = PlacedDevice::playing(&motion.tools()[0]).unwrap();
+    let device = playing(&motion.tools()[0]);
     let mut hands =
         VirtualInteraction::new(simulation, vec![Some(device)], ServoSettings::default()).unwrap();
     let mut versions = std::collections::HashSet::new();

@@ -134,8 +134,8 @@ fn pressed(simulation: &Simulation, place: &Vec3, lumps: &[Nodule]) -> f64 {
         grip: 0.0,
         cut: false,
     };
-    let state = SimulationState::new(simulation);
-    let mut state = state.with_nodules(simulation, lumps).unwrap();
+    let mut state = SimulationState::new(simulation);
+    state.set_nodules(simulation, lumps).unwrap();
     let mut workspace = SimulationWorkspace::new(simulation);
     step(
         simulation,

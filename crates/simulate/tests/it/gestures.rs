@@ -163,7 +163,7 @@ impl<'a> Hands<'a> {
         if cuts.count() > MANY {
             match number % 3 {
                 0 => while self.state.undo_cut() {},
-                _ => self.state.begin_anew(self.simulation),
+                _ => self.state.reset(self.simulation),
             }
         }
     }

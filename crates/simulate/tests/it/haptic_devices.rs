@@ -262,7 +262,7 @@ fn a_touch_is_shown_in_an_operating_room() {
     let mut stream = std::net::TcpStream::connect(room.address()).unwrap();
     let mut request = Vec::new();
     let now = std::time::SystemTime::now();
-    message::append(&mut request, ("GET_POLYDATA", ""), now, |_| ());
+    message::append(&mut request, "GET_POLYDATA", "", now, |_| ());
     stream.write_all(&request).unwrap();
     let (mut heights, mut vertices, mut largest) = (Vec::new(), None, 0.0_f64);
     // Two seconds of a hand that goes 4 mm up and down in each.

@@ -33,7 +33,8 @@ fn records_until_it_is_killed() {
         Interaction::start(simulation.clone(), devices, ServoSettings::default()).unwrap();
     let writer = SessionFolder::create(
         Claim::of_folder(Path::new(&folder), Overwrite::Refused).unwrap(),
-        (&scene, &simulation),
+        &scene,
+        &simulation,
     )
     .unwrap();
     interaction.record(writer);

@@ -145,7 +145,7 @@ fn a_new_beginning_forgets_cuts_and_their_depth() {
         let cuts = hand.state.cuts.as_ref().unwrap();
         let vertices = cuts.mesh().vertices().to_vec();
         let found = (told, vertices, hand.lengths());
-        hand.state.begin_anew(&simulation);
+        hand.state.reset(&simulation);
         assert_eq!(hand.lengths(), [0.0; 3]);
         assert_eq!(hand.state.cuts.as_ref().unwrap().count(), 0);
         found

@@ -10,6 +10,7 @@ mod agreement;
 mod analytic;
 mod cut_mechanics;
 mod cutting;
+#[path = "../../../geometry/tests/it/data.rs"]
 mod data;
 mod demonstration;
 mod digest;

@@ -32,12 +32,12 @@ fn a_state_with_other_balls_is_that_of_a_model_with_them() {
         "{expected} {without}"
     );
     let mut hand = Hand::new(&plain);
-    hand.state = SimulationState::new(&plain)
-        .with_nodules(&plain, &scene.organ.nodules)
+    hand.state
+        .set_nodules(&plain, &scene.organ.nodules)
         .unwrap();
     assert_eq!(pressed(&mut hand, top), expected);
     // What begins anew is the same organ.
-    hand.state.begin_anew(&plain);
+    hand.state.reset(&plain);
     assert_eq!(pressed(&mut hand, top), expected);
 }
 
@@ -49,7 +49,7 @@ fn a_ball_outside_is_refused() {
         radius_m: 0.004,
         stiffness_ratio: 8.0,
     };
-    let refused = SimulationState::new(&plain).with_nodules(&plain, &[outside]);
+    let refused = SimulationState::new(&plain).set_nodules(&plain, &[outside]);
     assert!(matches!(
         refused,
         Err(Error::NoduleOutside { number: 0, .. })

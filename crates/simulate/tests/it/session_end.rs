@@ -272,7 +272,7 @@ fn a_full_disk_is_zero_force_and_the_recording_is_whole() {
     let at = |name: &str| folder.path().join(name);
     let writer = |path: &std::path::Path| {
         let claim = Claim::of_folder(path, Overwrite::Allowed).unwrap();
-        SessionFolder::create(claim, (&scene, &simulation)).unwrap()
+        SessionFolder::create(claim, &scene, &simulation).unwrap()
     };
     // A pipe whose reader leaves: from then on every write fails, as on a disk that is full.
     std::fs::create_dir(at("full")).unwrap();

@@ -6,7 +6,7 @@
 //! *Limits*: the whole rectangle, also outside of an endoscope's disc; the skin of a cut's walls is the organ's.
 
 use super::Attachments;
-use super::target::{DEPTH, DEPTH_AND_LABEL, extent, read_texture};
+use super::target::{DEPTH, DEPTH_AND_LABEL, allowed, attachment, read_texture, view};
 use crate::{Error, Gpu};
 
 /// What is seen at a pixel.
@@ -64,22 +64,8 @@ impl LabelTarget {
                 adapter: gpu.adapter().to_owned(),
             });
         }
-        let most = gpu.device.limits().max_texture_dimension_2d;
-        let size = (size.0.clamp(1, most), size.1.clamp(1, most));
-        let texture = |format, usage| {
-            gpu.device.create_texture(&wgpu::TextureDescriptor {
-                label: Some("labels"),
-                size: extent(size),
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
-                view_formats: &[],
-            })
-        };
-        let view =
-            |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let size = allowed(gpu, size);
+        let texture = |format, usage| attachment(gpu, size, 1, format, usage);
         let measured = texture(DEPTH_AND_LABEL, wgpu::TextureUsages::COPY_SRC);
         Ok(Self {
             size,
@@ -107,7 +93,7 @@ impl LabelTarget {
     /// # Errors
     /// When the adapter was lost.
     pub fn read(&self, gpu: &Gpu) -> Result<Labels, Error> {
-        let bytes = read_texture(gpu, &self.measured, (self.size, 8))?;
+        let bytes = read_texture(gpu, &self.measured, self.size, 8)?;
         // By bytes, for a vector of them need not lie as floats do.
         let float = |bytes: &[u8]| {
             bytes

@@ -26,23 +26,9 @@ impl Target {
     /// Of `size` [pixels] with 1 or 4 `samples` per pixel. No side is shorter than one pixel or longer than
     /// the adapter allows.
     pub fn new(gpu: &Gpu, size: (u32, u32), samples: u32) -> Self {
-        let most = gpu.device.limits().max_texture_dimension_2d;
-        let size = (size.0.clamp(1, most), size.1.clamp(1, most));
+        let size = allowed(gpu, size);
         let samples = if samples > 1 { 4 } else { 1 };
-        let texture = |format, samples, usage| {
-            gpu.device.create_texture(&wgpu::TextureDescriptor {
-                label: Some("picture"),
-                size: extent(size),
-                mip_level_count: 1,
-                sample_count: samples,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
-                view_formats: &[],
-            })
-        };
-        let view =
-            |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let texture = |format, samples, usage| attachment(gpu, size, samples, format, usage);
         let none = wgpu::TextureUsages::empty();
         let read = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC;
         let picture = texture(COLOR, 1, read);
@@ -92,7 +78,7 @@ impl Target {
     /// When the adapter was lost.
     pub fn read(&self, gpu: &Gpu) -> Result<RgbaImage, Error> {
         let (width, height) = self.size;
-        let bytes = read_texture(gpu, &self.picture, (self.size, 4))?;
+        let bytes = read_texture(gpu, &self.picture, self.size, 4)?;
         RgbaImage::from_raw(width, height, bytes).ok_or_else(|| lost("it came back too short"))
     }
 }
@@ -101,7 +87,8 @@ impl Target {
 pub(super) fn read_texture(
     gpu: &Gpu,
     texture: &wgpu::Texture,
-    (size, each): ((u32, u32), u32),
+    size: (u32, u32),
+    each: u32,
 ) -> Result<Vec<u8>, Error> {
     let (width, height) = size;
     let row = (each * width).next_multiple_of(ROW_ALIGNMENT);
@@ -144,6 +131,37 @@ fn lost(cause: impl std::fmt::Display) -> Error {
     Error::Lost {
         cause: cause.to_string(),
     }
+}
+
+/// The nearest size [pixels] that the adapter allows.
+pub(super) fn allowed(gpu: &Gpu, (width, height): (u32, u32)) -> (u32, u32) {
+    let most = gpu.device.limits().max_texture_dimension_2d;
+    (width.clamp(1, most), height.clamp(1, most))
+}
+
+/// A texture that is drawn into, for a `usage` besides.
+pub(super) fn attachment(
+    gpu: &Gpu,
+    size: (u32, u32),
+    samples: u32,
+    format: wgpu::TextureFormat,
+    usage: wgpu::TextureUsages,
+) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("attachment"),
+        size: extent(size),
+        mip_level_count: 1,
+        sample_count: samples,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
+        view_formats: &[],
+    })
+}
+
+/// The whole of a texture.
+pub(super) fn view(texture: &wgpu::Texture) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
 pub(super) fn extent((width, height): (u32, u32)) -> wgpu::Extent3d {

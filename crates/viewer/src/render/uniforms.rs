@@ -95,7 +95,7 @@ impl Globals {
         let aspect = f64::from(width) / f64::from(height);
         let distance = camera.distance();
         let near = (distance - 2.0 * reach).max(0.01 * distance).max(1e-4);
-        let projection = camera.view_projection(aspect, (near, distance + 6.0 * reach));
+        let projection = camera.view_projection(aspect, near, distance + 6.0 * reach);
         let light = Light::of(camera);
         let empty = [[0.0; 4]; 2];
         let mut capsules = [empty; TOOLS];

@@ -31,8 +31,8 @@ pub(super) fn show(window: &mut RigWindow, ui: &mut Ui) {
         });
     let size = vec2(0.5 * (ui.available_width() - 12.0), 28.0);
     Grid::new("by hand").spacing(vec2(8.0, 6.0)).show(ui, |ui| {
-        drive(window, (true, "Page Up"), size, ui);
-        drive(window, (false, "Page Down"), size, ui);
+        drive(window, true, "Page Up", size, ui);
+        drive(window, false, "Page Down", size, ui);
         ui.end_row();
         programmed(window, size, ui);
     });
@@ -71,19 +71,19 @@ fn steps(window: &mut RigWindow, ui: &mut Ui) {
 struct Jog {
     word: &'static str,
     key: &'static str,
-    way: Way,
+    way: JogStep,
 }
 
 /// Where a step goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Way {
+pub(super) enum JogStep {
     /// Along x (right) and y (away), in steps.
     Sideways([f64; 2]),
     /// Out of the tissue, or into it when it is negative, in steps.
     AlongNormal(f64),
 }
 
-impl Way {
+impl JogStep {
     /// In the rig's axes [m], where a step is so long [m] and the normal leads there [-].
     pub(super) fn in_rig(self, step: f64, normal: &Vec3) -> Vec3 {
         match self {
@@ -93,7 +93,7 @@ impl Way {
     }
 }
 
-const fn to(word: &'static str, key: &'static str, way: Way) -> Option<Jog> {
+const fn to(word: &'static str, key: &'static str, way: JogStep) -> Option<Jog> {
     Some(Jog { word, key, way })
 }
 
@@ -101,18 +101,18 @@ const fn to(word: &'static str, key: &'static str, way: Way) -> Option<Jog> {
 const PAD: [[Option<Jog>; 3]; 3] = [
     [
         None,
-        to("Away", "Shift+Up", Way::Sideways([0.0, 1.0])),
-        to("Up", "Up", Way::AlongNormal(1.0)),
+        to("Away", "Shift+Up", JogStep::Sideways([0.0, 1.0])),
+        to("Up", "Up", JogStep::AlongNormal(1.0)),
     ],
     [
-        to("Left", "Left", Way::Sideways([-1.0, 0.0])),
+        to("Left", "Left", JogStep::Sideways([-1.0, 0.0])),
         None,
-        to("Right", "Right", Way::Sideways([1.0, 0.0])),
+        to("Right", "Right", JogStep::Sideways([1.0, 0.0])),
     ],
     [
         None,
-        to("Near", "Shift+Down", Way::Sideways([0.0, -1.0])),
-        to("Down", "Down", Way::AlongNormal(-1.0)),
+        to("Near", "Shift+Down", JogStep::Sideways([0.0, -1.0])),
+        to("Down", "Down", JogStep::AlongNormal(-1.0)),
     ],
 ];
 
@@ -121,8 +121,8 @@ fn jog(window: &mut RigWindow, own: Jog, size: eframe::egui::Vec2, ui: &mut Ui) 
     let button = Button::new(own.word).min_size(size);
     let button = ui.add_enabled(window.watch.is_free(), button);
     let along = match own.way {
-        Way::Sideways(_) => "sideways, above the tissue",
-        Way::AlongNormal(_) => "along the normal",
+        JogStep::Sideways(_) => "sideways, above the tissue",
+        JogStep::AlongNormal(_) => "along the normal",
     };
     let hint = format!("by one step, {along} ({} key)", own.key);
     if button.on_hover_text(hint).clicked() {
@@ -131,7 +131,7 @@ fn jog(window: &mut RigWindow, own: Jog, size: eframe::egui::Vec2, ui: &mut Ui) 
 }
 
 /// For as long as a button is held.
-fn drive(window: &mut RigWindow, (up, key): (bool, &str), size: eframe::egui::Vec2, ui: &mut Ui) {
+fn drive(window: &mut RigWindow, up: bool, key: &str, size: eframe::egui::Vec2, ui: &mut Ui) {
     let free = window.watch.is_free();
     let word = if up { "up" } else { "down" };
     let held = Button::new(format!("Hold to go {word}")).min_size(size);

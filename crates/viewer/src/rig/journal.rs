@@ -12,7 +12,7 @@ use super::curves::{force_over_depth, relaxation};
 pub(super) struct Journal {
     folder: PathBuf,
     last: u64,
-    asked: Vec<Asked>,
+    asked: Vec<PendingRecording>,
     pub(super) entries: Vec<Entry>,
     /// The one that is looked at; the newest when there is none.
     chosen: Option<usize>,
@@ -33,7 +33,7 @@ pub(super) struct Unsaved {
 
 /// A recording that was asked for.
 #[derive(Debug)]
-struct Asked {
+struct PendingRecording {
     number: u64,
     file: PathBuf,
     entry: What,
@@ -80,7 +80,7 @@ impl Journal {
         let mut repeat = 0;
         let file = loop {
             repeat += 1;
-            let name = recording_name(specimen, place + 1, (&stimulus, repeat));
+            let name = recording_name(specimen, place + 1, &stimulus, repeat);
             let file = self.folder.join(format!("{name}.csv"));
             let asked = self.asked.iter().any(|other| other.file == file);
             if !asked && !file.exists() && !unfinished(&file).exists() {
@@ -88,7 +88,7 @@ impl Journal {
             }
         };
         self.last += 1;
-        self.asked.push(Asked {
+        self.asked.push(PendingRecording {
             number: self.last,
             file: file.clone(),
             entry: What {
@@ -101,7 +101,7 @@ impl Journal {
         Commission {
             number: self.last,
             file,
-            header: settings.describe(specimen, (trajectory, repeat)),
+            header: settings.describe(specimen, trajectory, repeat),
         }
     }
 

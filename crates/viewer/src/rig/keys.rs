@@ -2,7 +2,7 @@ use eframe::egui::{Context, Key, Modifiers};
 use palpate_measure::live::RigCommand;
 
 use super::RigWindow;
-use super::by_hand::Way;
+use super::by_hand::JogStep;
 
 /// What the keyboard asks for. Space is the emergency stop, whatever else has the keyboard.
 pub(super) fn take(window: &mut RigWindow, context: &Context) {
@@ -21,12 +21,28 @@ pub(super) fn take(window: &mut RigWindow, context: &Context) {
     }
     let taken = |modifiers, key| context.input_mut(|input| input.consume_key(modifiers, key));
     for (modifiers, key, way) in [
-        (Modifiers::SHIFT, Key::ArrowUp, Way::Sideways([0.0, 1.0])),
-        (Modifiers::SHIFT, Key::ArrowDown, Way::Sideways([0.0, -1.0])),
-        (Modifiers::NONE, Key::ArrowUp, Way::AlongNormal(1.0)),
-        (Modifiers::NONE, Key::ArrowDown, Way::AlongNormal(-1.0)),
-        (Modifiers::NONE, Key::ArrowLeft, Way::Sideways([-1.0, 0.0])),
-        (Modifiers::NONE, Key::ArrowRight, Way::Sideways([1.0, 0.0])),
+        (
+            Modifiers::SHIFT,
+            Key::ArrowUp,
+            JogStep::Sideways([0.0, 1.0]),
+        ),
+        (
+            Modifiers::SHIFT,
+            Key::ArrowDown,
+            JogStep::Sideways([0.0, -1.0]),
+        ),
+        (Modifiers::NONE, Key::ArrowUp, JogStep::AlongNormal(1.0)),
+        (Modifiers::NONE, Key::ArrowDown, JogStep::AlongNormal(-1.0)),
+        (
+            Modifiers::NONE,
+            Key::ArrowLeft,
+            JogStep::Sideways([-1.0, 0.0]),
+        ),
+        (
+            Modifiers::NONE,
+            Key::ArrowRight,
+            JogStep::Sideways([1.0, 0.0]),
+        ),
     ] {
         if taken(modifiers, key) && window.watch.is_free() {
             window.jog(way);

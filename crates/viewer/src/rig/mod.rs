@@ -212,7 +212,7 @@ impl RigWindow {
     }
 
     /// Moves the indenter by a step.
-    fn jog(&mut self, way: by_hand::Way) {
+    fn jog(&mut self, way: by_hand::JogStep) {
         let way = way.in_rig(self.step, &self.watch.normal());
         self.send(RigCommand::Jog(way));
     }

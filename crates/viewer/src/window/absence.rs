@@ -43,7 +43,7 @@ impl SimulatorWindow {
                             self.choice = Choice::new(self.way_out.clone());
                             self.radius = 1e3 * self.choice.tip.radius_m;
                             self.fault = None;
-                            self.begin_anew(&context);
+                            self.reset(&context);
                         }
                     }
                 }

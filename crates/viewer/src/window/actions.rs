@@ -50,7 +50,7 @@ impl SimulatorWindow {
             if let Some(play) = &mut self.play {
                 play.send(request);
                 if request == ModelRequest::Reset {
-                    self.picture.lay_down();
+                    self.picture.put_tools_away();
                     self.history.clear();
                 }
             }
@@ -66,7 +66,7 @@ impl SimulatorWindow {
         self.history.clear();
         self.picture.gesture = gesture::Gesture::default();
         if self.choice.scene() != before {
-            self.begin_anew(context);
+            self.reset(context);
         }
     }
 }

@@ -9,7 +9,7 @@ use palpate_geometry::Vec3;
 use palpate_simulate::performance::{
     Comparison, Deviation, Errors, Outcome, Performance, Score, Standard, Status, compare,
 };
-use palpate_simulate::{Demonstration, Guidance, SessionFolder, ShownTool, Tutor, read_experts};
+use palpate_simulate::{Demonstration, Ghost, SessionFolder, ShownTool, Tutor, read_experts};
 
 use super::play::{ModelRequest, Play};
 use super::texts::text;
@@ -24,7 +24,7 @@ pub(super) struct Attempt {
     has_begun: bool,
     standards: Vec<Standard>,
     tutor: Option<Tutor>,
-    pub(super) guidance: Option<Guidance>,
+    pub(super) ghosts: Vec<Option<Ghost>>,
     /// The script that does it, while it is shown.
     demonstration: Option<Demonstration>,
     /// Whether this variant was shown: who has seen it knows its answer.
@@ -118,7 +118,7 @@ impl Attempt {
                     expert.session.header.scene_digest == own
                 })
                 .and_then(|expert| Tutor::new(&expert.session, &names)),
-            guidance: None,
+            ghosts: Vec::new(),
             demonstration: None,
             was_shown: false,
             forces: Vec::new(),
@@ -141,14 +141,14 @@ impl Attempt {
     pub(super) fn begin(&mut self, play: &mut Play, session: Option<PathBuf>) {
         self.performance = Performance::new(&self.task, &names(play));
         self.has_begun = false;
-        self.guidance = None;
+        self.ghosts.clear();
         self.demonstration = None;
         self.forces.clear();
         self.marked = None;
         self.diameter = None;
         self.unsaved = None;
         if let Some(tutor) = &mut self.tutor {
-            tutor.begin_anew();
+            tutor.reset();
         }
         let mut folder = session;
         if play.scene.written.is_none() && folder.take().is_some() {
@@ -156,12 +156,12 @@ impl Attempt {
         }
         self.phase = Phase::GoesOn(match folder {
             None => {
-                play.begin_anew();
+                play.reset();
                 None
             }
             Some(folder) => match Claim::of_folder(&folder, Overwrite::Refused)
                 .map_err(palpate_simulate::Error::from)
-                .and_then(|claim| SessionFolder::create(claim, (&play.scene, &play.simulation)))
+                .and_then(|claim| SessionFolder::create(claim, &play.scene, &play.simulation))
             {
                 Ok(writer) => {
                     play.go_on();
@@ -171,7 +171,7 @@ impl Attempt {
                 Err(error) => {
                     let error = error.to_string();
                     self.trouble = Some(text!("attempt-unrecorded", error = error));
-                    play.begin_anew();
+                    play.reset();
                     None
                 }
             },
@@ -274,7 +274,9 @@ impl Attempt {
         }
         self.check_recording(play);
         if let Some(tutor) = &mut self.tutor {
-            self.guidance = Some(tutor.follow_snapshot(play.source.snapshot()));
+            let tools = play.source.snapshot().tools.iter();
+            let tips: Vec<_> = tools.map(|tool| Some(tool.pose?.position_m)).collect();
+            self.ghosts = tutor.follow(&tips);
         }
         match self.status() {
             Status::Over { late } => {
@@ -302,7 +304,7 @@ impl Attempt {
         let folder = PathBuf::from(unsaved.elsewhere.trim());
         let written = Claim::of_folder(&folder, Overwrite::Refused)
             .map_err(palpate_simulate::Error::from)
-            .and_then(|claim| SessionFolder::create(claim, (&play.scene, &play.simulation)))
+            .and_then(|claim| SessionFolder::create(claim, &play.scene, &play.simulation))
             .and_then(|writer| play.source.record_elsewhere(writer));
         if let Err(error) = written {
             unsaved.trouble = Some(error.to_string());
@@ -364,7 +366,7 @@ impl Attempt {
     /// Ends it where it is.
     pub(super) fn end(&mut self, play: &mut Play, late: bool) {
         if self.demonstration.take().is_some() {
-            self.guidance = None;
+            self.ghosts.clear();
             self.phase = Phase::Reads;
             return;
         }
@@ -378,7 +380,7 @@ impl Attempt {
             let unsaved = || Unsaved::new(lost, error.to_string());
             self.unsaved.get_or_insert_with(unsaved);
         }
-        self.guidance = None;
+        self.ghosts.clear();
         self.phase = Phase::Over(Box::new(Done {
             compared: compare(&score, &self.standards),
             score,

@@ -14,7 +14,7 @@ use crate::style::{BAR, CARD_OVER_PICTURE, DEPTH, FAULT, QUIET, WARNING, WHITE};
 
 /// What somebody wants of an attempt.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Asked {
+pub(super) enum AttemptAction {
     /// To begin, or to begin again.
     Begin,
     /// To end it here.
@@ -34,7 +34,7 @@ pub(super) enum Asked {
 }
 
 /// What the cards know beside the attempt.
-pub(super) struct Around {
+pub(super) struct CardContext {
     /// How far the preparation of the organ is [-]; none when it is done.
     pub(super) preparing: Option<f64>,
     /// Whether the attempt begins when it is done.
@@ -46,7 +46,7 @@ pub(super) struct Around {
 }
 
 /// Shows the card of an attempt; what was asked by it.
-pub(super) fn show(ui: &Ui, attempt: &mut Attempt, around: &Around) -> Option<Asked> {
+pub(super) fn show(ui: &Ui, attempt: &mut Attempt, around: &CardContext) -> Option<AttemptAction> {
     let mut asked = None;
     let mut unsaved = attempt.unsaved.take();
     let mut states = attempt.diameter;
@@ -75,7 +75,7 @@ pub(super) fn show(ui: &Ui, attempt: &mut Attempt, around: &Around) -> Option<As
             not_recorded(ui, unsaved.as_mut(), &mut asked);
         }),
         Phase::Over(done) => card(ui, "over", Align2::RIGHT_CENTER, 400.0, |ui| {
-            over(ui, (attempt, done), around, &mut asked);
+            over(ui, attempt, done, around, &mut asked);
             not_recorded(ui, unsaved.as_mut(), &mut asked);
         }),
     }
@@ -114,7 +114,7 @@ pub(super) fn title(attempt: &Attempt) -> String {
 }
 
 /// What there is to do.
-fn reads(ui: &mut Ui, attempt: &Attempt, around: &Around, asked: &mut Option<Asked>) {
+fn reads(ui: &mut Ui, attempt: &Attempt, around: &CardContext, asked: &mut Option<AttemptAction>) {
     ui.label(RichText::new(title(attempt)).size(22.0).color(WHITE));
     ui.add_space(6.0);
     if let Some(words) = &attempt.task.instructions {
@@ -134,17 +134,17 @@ fn reads(ui: &mut Ui, attempt: &Attempt, around: &Around, asked: &mut Option<Ask
                 };
                 ui.label(text!(key, percent = (100.0 * part).round()));
                 if !around.begins && ui.button(text!("attempt-begin-ready")).clicked() {
-                    *asked = Some(Asked::Begin);
+                    *asked = Some(AttemptAction::Begin);
                 }
             }
             None => {
                 let begin = main_button(ui, &text!("attempt-begin"));
                 if begin.on_hover_text(or_key("Enter")).clicked() {
-                    *asked = Some(Asked::Begin);
+                    *asked = Some(AttemptAction::Begin);
                 }
                 let can_show = attempt.task.goal != Goal::Free;
                 if can_show && ui.button(text!("attempt-watch")).clicked() {
-                    *asked = Some(Asked::Show);
+                    *asked = Some(AttemptAction::Show);
                 }
             }
         }
@@ -199,14 +199,19 @@ fn facts(attempt: &Attempt) -> Vec<String> {
 }
 
 /// Back to the start screen, where there is one.
-pub(super) fn tasks_button(ui: &mut Ui, around: &Around, asked: &mut Option<Asked>) {
+pub(super) fn tasks_button(ui: &mut Ui, around: &CardContext, asked: &mut Option<AttemptAction>) {
     if around.has_home && ui.button(text!("common-tasks")).clicked() {
-        *asked = Some(Asked::Home);
+        *asked = Some(AttemptAction::Home);
     }
 }
 
 /// How far it is.
-fn goes_on(ui: &mut Ui, attempt: &Attempt, badge: Option<RichText>, asked: &mut Option<Asked>) {
+fn goes_on(
+    ui: &mut Ui,
+    attempt: &Attempt,
+    badge: Option<RichText>,
+    asked: &mut Option<AttemptAction>,
+) {
     ui.horizontal(|ui| {
         let shown = match attempt.is_shown() {
             true => text!("common-demonstration"),
@@ -227,7 +232,7 @@ fn goes_on(ui: &mut Ui, attempt: &Attempt, badge: Option<RichText>, asked: &mut 
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let end = ui.small_button(text!("attempt-end"));
             if end.on_hover_text(or_key("Enter")).clicked() {
-                *asked = Some(Asked::End);
+                *asked = Some(AttemptAction::End);
             }
             if let Some(badge) = badge {
                 ui.label(badge);
@@ -254,14 +259,14 @@ fn goes_on(ui: &mut Ui, attempt: &Attempt, badge: Option<RichText>, asked: &mut 
 }
 
 /// Why it is not recorded, and where it can be.
-fn not_recorded(ui: &mut Ui, unsaved: Option<&mut Unsaved>, asked: &mut Option<Asked>) {
+fn not_recorded(ui: &mut Ui, unsaved: Option<&mut Unsaved>, asked: &mut Option<AttemptAction>) {
     let Some(unsaved) = unsaved else { return };
     ui.add_space(4.0);
     ui.label(RichText::new(&unsaved.cause).color(FAULT));
     let label = ui.label(text!("attempt-elsewhere"));
     ui.horizontal(|ui| {
         if ui.button(text!("attempt-record-there")).clicked() {
-            *asked = Some(Asked::RecordElsewhere);
+            *asked = Some(AttemptAction::RecordElsewhere);
         }
         let field = egui::TextEdit::singleline(&mut unsaved.elsewhere);
         let field = ui.add(field.desired_width(f32::INFINITY));

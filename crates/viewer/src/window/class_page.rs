@@ -22,7 +22,7 @@ pub(super) struct ClassPage {
 
 /// What somebody wants on the page.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Wanted {
+pub(super) enum ClassPageAction {
     /// To leave it.
     Leave,
     /// To assign a task.
@@ -58,7 +58,7 @@ impl ClassPage {
     }
 
     /// Shows it; what somebody wants.
-    pub(super) fn show(&mut self, ui: &mut Ui) -> Option<Wanted> {
+    pub(super) fn show(&mut self, ui: &mut Ui) -> Option<ClassPageAction> {
         let mut wanted = None;
         let title = text!("class-title");
         let is_left = page::leavable(ui, &title, |ui| {
@@ -82,7 +82,7 @@ impl ClassPage {
             } else {
                 let choices = [class.assignees.as_slice(), self.tasks.as_slice()];
                 if form(ui, &mut self.form, choices) {
-                    wanted = Some(Wanted::Assign(self.form.clone()));
+                    wanted = Some(ClassPageAction::Assign(self.form.clone()));
                 }
             }
             match &self.said {
@@ -99,7 +99,7 @@ impl ClassPage {
             }
         });
         match is_left {
-            true => Some(Wanted::Leave),
+            true => Some(ClassPageAction::Leave),
             false => wanted,
         }
     }
@@ -301,12 +301,15 @@ mod tests {
             passes: 1,
             pin: String::new(),
         };
-        assert_eq!(look(&mut seen, &mut page), Some(Wanted::Assign(asked)));
+        assert_eq!(
+            look(&mut seen, &mut page),
+            Some(ClassPageAction::Assign(asked))
+        );
         page.take(Err("the PIN is wrong".to_owned()), Ok(class));
         look(&mut seen, &mut page);
         assert!(seen.has(Role::Label, "the PIN is wrong"));
         seen.press(Key::Escape);
-        assert_eq!(look(&mut seen, &mut page), Some(Wanted::Leave));
+        assert_eq!(look(&mut seen, &mut page), Some(ClassPageAction::Leave));
         let mut broken = ClassPage::new(Err("the record is damaged".to_owned()), Vec::new());
         look(&mut seen, &mut broken);
         assert!(seen.has(Role::Label, "the record is damaged"));

@@ -11,9 +11,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, UiBuilder, Vec2};
 use eframe::egui_wgpu::RenderState;
 use palpate_files::Session;
-use palpate_simulate::{Demonstration, Replay, SessionFolder};
+use palpate_simulate::{Demonstration, SessionFolder};
 
-use super::picture::Picture;
+use super::picture::OrganView;
 use super::play::Play;
 use super::source::Playback;
 use super::texts::text;
@@ -29,7 +29,7 @@ pub(super) struct Compared {
     /// What the session on the left is called, and this one.
     names: [String; 2],
     pub(super) play: Play,
-    picture: Picture,
+    picture: OrganView,
 }
 
 /// A demonstration that is computed on a thread of its own.
@@ -91,7 +91,7 @@ impl SimulatorWindow {
     /// When a neighbour cannot be read.
     pub(super) fn compare(&mut self, name: String, other: PlayedSession) -> Result<(), Error> {
         let names = [name, other.name.clone()];
-        let picture = Picture::new(&self.gpu, other.scene.view.shading);
+        let picture = OrganView::new(&self.gpu, other.scene.view.shading);
         let play = Play::of_session(other, &self.gpu)?;
         self.compared = Some(Box::new(Compared {
             names,
@@ -136,32 +136,15 @@ impl SimulatorWindow {
             self.notice = Some(text!("demonstration-none"));
             return;
         };
-        let (scene, simulation) = (play.scene.clone(), play.simulation.clone());
-        let again = |session: &Session, name: &str| -> Result<PlayedSession, Error> {
-            Ok(PlayedSession {
-                name: name.to_owned(),
-                scene: scene.clone(),
-                replay: Replay::new(simulation.clone(), session)?,
-                simulation: simulation.clone(),
-            })
-        };
-        let both = again(&own.folder.session, &text!("replay-own"))
-            .and_then(|left| Ok((left, again(&session, &text!("common-demonstration"))?)))
-            .and_then(|(left, right)| Ok((Play::of_session(left, &self.gpu)?, right)));
-        let shown = both.and_then(|(left, right)| {
-            self.compare(text!("replay-own"), right)?;
-            Ok(left)
-        });
-        match shown {
-            Ok(left) => {
-                self.play = Some(left);
-                self.attempt = None;
-                self.history.clear();
-                self.picture.lay_down();
-                self.picture.lists_keys = false;
-            }
-            Err(error) => self.notice = Some(error.to_string()),
-        }
+        let shown = play
+            .again(text!("replay-own"), &own.folder.session)
+            .and_then(|left| Ok((left, play.again(text!("common-demonstration"), &session)?)))
+            .and_then(|(left, right)| Ok((Play::of_session(left, &self.gpu)?, right)))
+            .and_then(|(left, right)| {
+                self.compare(text!("replay-own"), right)?;
+                Ok(left)
+            });
+        self.show_again(shown);
     }
 
     /// Both pictures, each in its half, from the same place.
@@ -177,7 +160,7 @@ impl SimulatorWindow {
         // Nobody plots what was felt on the right.
         drop(compared.play.source.rows());
         let [own, other] = &compared.names;
-        let mut half = |rect: Rect, picture: &mut Picture, play: &mut Play, name: &str| {
+        let mut half = |rect: Rect, picture: &mut OrganView, play: &mut Play, name: &str| {
             ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
                 picture.show(ui, (state, &self.gpu), play, 0);
                 title(ui, rect, name);
@@ -240,7 +223,7 @@ fn title(ui: &egui::Ui, rect: Rect, name: &str) {
 #[cfg(test)]
 mod tests {
     use palpate_files::{Pose, Scene, SessionRow};
-    use palpate_simulate::{Simulation, SimulationState, SimulationWorkspace, step};
+    use palpate_simulate::{Replay, Simulation, SimulationState, SimulationWorkspace, step};
 
     use super::*;
 

@@ -4,7 +4,8 @@ use palpate_geometry::{NodeId, Vec3, ray_meets_triangle};
 
 /// Whether a triangle of a surface with these vertices [m] lies between an `eye` and a `place` [m].
 pub(super) fn is_covered(
-    (vertices, triangles): (&[[f32; 3]], &[[NodeId; 3]]),
+    vertices: &[[f32; 3]],
+    triangles: &[[NodeId; 3]],
     place: &Vec3,
     eye: &Vec3,
 ) -> bool {
@@ -27,7 +28,7 @@ mod tests {
         let vertices = [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]];
         let triangles = [[NodeId(0), NodeId(1), NodeId(2)]];
         let covered = |place: [f64; 3], eye: [f64; 3]| {
-            is_covered((&vertices, &triangles), &place.into(), &eye.into())
+            is_covered(&vertices, &triangles, &place.into(), &eye.into())
         };
         assert!(covered([0.2, 0.2, 0.0], [0.2, 0.2, 2.0]));
         assert!(covered([0.2, 0.2, 2.0], [0.3, 0.2, 0.0]));

@@ -3,13 +3,13 @@
 use eframe::egui::{self, RichText, Ui};
 
 use super::attempt::DIAMETERS;
-use super::cards::Asked;
+use super::cards::AttemptAction;
 use super::page::{main_button, or_key, quiet};
 use super::texts::text;
 use crate::style::WHITE;
 
 /// Shows the card; `diameter` [mm] is none until somebody sets it.
-pub(super) fn show(ui: &mut Ui, diameter: &mut Option<u32>, asked: &mut Option<Asked>) {
+pub(super) fn show(ui: &mut Ui, diameter: &mut Option<u32>, asked: &mut Option<AttemptAction>) {
     let [least, most] = DIAMETERS;
     ui.add_space(4.0);
     let title = RichText::new(text!("diameter-title")).size(16.0);
@@ -30,7 +30,7 @@ pub(super) fn show(ui: &mut Ui, diameter: &mut Option<u32>, asked: &mut Option<A
         ui.add_enabled_ui(diameter.is_some(), |ui| {
             let state = main_button(ui, &text!("diameter-state"));
             if state.clicked() {
-                *asked = Some(Asked::State);
+                *asked = Some(AttemptAction::State);
             }
         });
         ui.label(quiet(match diameter {
@@ -72,6 +72,6 @@ mod tests {
         seen.click(Role::Button, &text!("diameter-state"));
         seen.show(|ui| show(ui, &mut diameter, &mut asked));
         seen.show(|ui| show(ui, &mut diameter, &mut asked));
-        assert_eq!(asked, Some(Asked::State));
+        assert_eq!(asked, Some(AttemptAction::State));
     }
 }

@@ -209,11 +209,6 @@ impl Gesture {
     pub fn is_returning(&self) -> bool {
         self.back.is_some()
     }
-
-    /// Where the tool is to be.
-    pub fn aim(&self) -> Option<Aim> {
-        self.aim
-    }
 }
 
 fn aimed(over: &Picked, depth: f64, ground: &GestureContext<'_>) -> Option<Aim> {

@@ -65,7 +65,7 @@ use compared::{Compared, ShownDemonstration};
 pub use display::check_display;
 use hands::gamepads::Gamepads;
 use home::Home;
-use picture::Picture;
+use picture::OrganView;
 use play::{Play, Prepared};
 use preparation::Preparation;
 use rates::Rates;
@@ -89,7 +89,7 @@ struct SimulatorWindow {
     resources: Resources,
     /// What is shown when the choice fails.
     way_out: Scene,
-    picture: Picture,
+    picture: OrganView,
     play: Option<Play>,
     preparation: Option<Preparation>,
     fault: Option<String>,
@@ -206,7 +206,7 @@ impl SimulatorWindow {
             .egui_ctx
             .set_zoom_factor(settings.settings.scale as f32);
         let mut window = Self {
-            picture: Picture::new(&gpu, choice.shading()),
+            picture: OrganView::new(&gpu, choice.shading()),
             radius: 1e3 * choice.tip.radius_m,
             choice,
             resources,
@@ -242,7 +242,7 @@ impl SimulatorWindow {
                 home.trouble.clone_from(&window.settings.trouble);
                 window.home = Some(home);
             }
-            Start::Scene(_) => window.begin_anew(&context.egui_ctx),
+            Start::Scene(_) => window.reset(&context.egui_ctx),
             Start::Again(session, other) => {
                 let name = session.name.clone();
                 window.play = Some(Play::of_session(*session, &window.gpu)?);
@@ -255,7 +255,7 @@ impl SimulatorWindow {
     }
 
     /// Prepares the choice, beside the window; the organ before it stays until the new one is there.
-    fn begin_anew(&mut self, context: &egui::Context) {
+    fn reset(&mut self, context: &egui::Context) {
         let preparation = Preparation::start(
             self.choice.scene(),
             &self.resources,
@@ -275,7 +275,7 @@ impl SimulatorWindow {
         }
         self.history.clear();
         match outcome.play {
-            Ok(prepared) => self.touch(prepared, (outcome.last, outcome.second)),
+            Ok(prepared) => self.touch(prepared, outcome.last, outcome.second),
             Err(error) if outcome.second => self.notice = Some(error.to_string()),
             Err(error) => {
                 self.play = None;
@@ -285,7 +285,7 @@ impl SimulatorWindow {
     }
 
     /// Begins the touch of what was prepared; with the last of it, a session that waited for it is looked at.
-    fn touch(&mut self, mut prepared: Prepared, (is_last, is_second): (bool, bool)) {
+    fn touch(&mut self, mut prepared: Prepared, is_last: bool, is_second: bool) {
         let before = self.play.as_ref();
         let before = before.map(|play| play.scene.organ.shape.clone());
         // The organ-scale model takes over from the local one in the middle of a touch: no device is closed.
@@ -428,7 +428,7 @@ impl eframe::App for SimulatorWindow {
                 (Some(play), Some(state)) => {
                     let rect = self.picture.show(ui, (state, &self.gpu), play, tool);
                     let attempt = self.attempt.as_ref();
-                    self.picture.show_task(ui, rect, (&mut *play, attempt));
+                    self.picture.show_task(ui, rect, &mut *play, attempt);
                     if !self.attempt.as_ref().is_some_and(Attempt::is_over) {
                         overlay::show(ui, rect, &self.picture, play, tool);
                     }

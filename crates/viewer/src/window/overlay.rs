@@ -5,7 +5,7 @@ use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Stroke, Vec2};
 
 use palpate_files::scene::{Tip, TipContact};
 
-use super::picture::Picture;
+use super::picture::OrganView;
 use super::play::Play;
 use super::texts::{decimal, text, tool_name};
 use super::{list, page};
@@ -15,7 +15,7 @@ use crate::style::{DEPTH, FORCE, PLATE, QUIET, WARNING};
 const FULL: f64 = 0.015;
 
 /// What is written into the picture: how to touch, and beside a touching tool how deep and how hard.
-pub(super) fn show(ui: &egui::Ui, rect: Rect, picture: &Picture, play: &mut Play, tool: usize) {
+pub(super) fn show(ui: &egui::Ui, rect: Rect, picture: &OrganView, play: &mut Play, tool: usize) {
     let painter = ui.painter_at(rect);
     let hand = picture.hands.get(tool).copied().unwrap_or_default();
     let pressing = picture.gesture.is_pressing() && !hand.holds() || hand.is_pulling();
@@ -34,7 +34,7 @@ pub(super) fn show(ui: &egui::Ui, rect: Rect, picture: &Picture, play: &mut Play
     let font = FontId::proportional(13.0);
     let wide = 0.96 * rect.width();
     let text = ui.painter().layout(hint, font, QUIET, wide);
-    plate(ui, &painter, text, (at, QUIET));
+    plate(ui, &painter, text, at, QUIET);
     if picture.lists_keys {
         list::show(ui, rect, play);
     }
@@ -46,14 +46,14 @@ pub(super) fn show(ui: &egui::Ui, rect: Rect, picture: &Picture, play: &mut Play
         let text = ui
             .painter()
             .layout(text!("hint-paused"), font, WARNING, wide);
-        plate(ui, &painter, text, (at - Vec2::new(0.0, 44.0), WARNING));
+        plate(ui, &painter, text, at - Vec2::new(0.0, 44.0), WARNING);
     }
     let Some(seen) = snapshot.tools.get(tool) else {
         return;
     };
     if let (true, Some(pointer)) = (pressing, pointer) {
         let depth = seen.contact.map_or(0.0, |contact| contact.depth);
-        gauge(&painter, (rect, pointer), depth, seen.force.norm());
+        gauge(&painter, rect, pointer, depth, seen.force.norm());
     }
 }
 
@@ -93,7 +93,8 @@ fn plate(
     ui: &egui::Ui,
     painter: &egui::Painter,
     text: Arc<egui::Galley>,
-    (at, color): (Pos2, Color32),
+    at: Pos2,
+    color: Color32,
 ) {
     let corner = at - Vec2::new(0.5 * text.size().x, text.size().y);
     let back = Rect::from_min_size(corner, text.size()).expand2(Vec2::new(10.0, 5.0));
@@ -105,7 +106,7 @@ fn plate(
 }
 
 /// A bar beside the pointer that fills from the top as the tool goes in.
-fn gauge(painter: &egui::Painter, (rect, pointer): (Rect, Pos2), depth: f64, force: f64) {
+fn gauge(painter: &egui::Painter, rect: Rect, pointer: Pos2, depth: f64, force: f64) {
     let right = pointer.x + 150.0 < rect.max.x;
     let x = if right {
         pointer.x + 28.0

@@ -43,7 +43,7 @@ pub(super) fn side(window: &mut SimulatorWindow, ui: &mut Ui) {
             let other = window.choice != before && window.choice.scene() != before.scene();
             if ui.button(text!("panel-restart")).clicked() || other {
                 let context = ui.ctx().clone();
-                window.begin_anew(&context);
+                window.reset(&context);
             }
             ui.separator();
             look(window, ui);
@@ -219,11 +219,11 @@ fn felt(window: &SimulatorWindow, ui: &mut Ui) {
         .as_ref()
         .map_or(1.0, |play| play.simulation.force_scale());
     ui.label(quiet(text!("felt-scale", scale = scale)).small());
-    plot(ui, ("felt-force", FORCE), window.history.force());
-    plot(ui, ("felt-depth", DEPTH), window.history.depth());
+    plot(ui, "felt-force", FORCE, window.history.force());
+    plot(ui, "felt-depth", DEPTH, window.history.depth());
 }
 
-fn plot(ui: &mut Ui, (key, color): (&str, Color32), points: Vec<[f64; 2]>) {
+fn plot(ui: &mut Ui, key: &str, color: Color32, points: Vec<[f64; 2]>) {
     let words = text!(key);
     ui.label(RichText::new(&words).small().color(color));
     let plot = page::still_plot(key, 112.0)

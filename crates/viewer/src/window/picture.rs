@@ -11,7 +11,7 @@ use super::gesture::{Gesture, GestureContext, Mouse};
 use super::ghosts::{Over, nearest_lump};
 use super::hands::gamepad::{Pad, PadPart, PadRequests};
 use super::hands::gamepads::Gamepads;
-use super::hands::{Drive, Hand, Room, keys};
+use super::hands::{Drive, Hand, HandContext, keys};
 use super::overlay;
 use super::play::Play;
 use super::render_quality::RenderQuality;
@@ -25,7 +25,7 @@ const TURN: f64 = 0.007;
 const TAKEN_UP: f64 = 0.01;
 
 /// Where the organ is seen and touched.
-pub(super) struct Picture {
+pub(super) struct OrganView {
     pub(super) shading: Shading,
     pub(super) looks: Looks,
     pub(super) endoscope: bool,
@@ -55,7 +55,7 @@ pub(super) struct Picture {
     drawn: Option<(View, Vec<ToolPicture>, u64)>,
 }
 
-impl Picture {
+impl OrganView {
     pub(super) fn new(gpu: &Gpu, shading: Shading) -> Self {
         Self {
             shading,
@@ -92,7 +92,7 @@ impl Picture {
     pub(super) fn frame_anew(&mut self) {
         self.orbit = None;
         self.drawn = None;
-        self.lay_down();
+        self.put_tools_away();
     }
 
     /// Looks from where another picture looks.
@@ -101,7 +101,7 @@ impl Picture {
     }
 
     /// All hands let go of their tools.
-    pub(super) fn lay_down(&mut self) {
+    pub(super) fn put_tools_away(&mut self) {
         self.gesture = Gesture::default();
         self.hands.clear();
     }
@@ -146,10 +146,10 @@ impl Picture {
         let view = &play.scene.view;
         let mut orbit = self.orbit.unwrap_or_else(|| {
             let framing = Orbit::framing(mesh, view.field_of_view_rad, aspect);
-            framing.from_the_side_of(&scene_camera(view, (mesh, None), aspect))
+            framing.from_the_side_of(&scene_camera(view, mesh, None, aspect))
         });
         self.steer(ui, &response, &mut orbit, extent);
-        let before = orbit.before((mesh, &play.tree));
+        let before = orbit.before(mesh, &play.tree);
         // The eye stays outside of the organ.
         orbit.distance = orbit.distance.max(before + 0.12 * extent);
         self.orbit = Some(orbit);
@@ -158,7 +158,7 @@ impl Picture {
             false => orbit.camera(),
         };
         self.camera = Some(camera);
-        let room = Room {
+        let room = HandContext {
             camera: &camera,
             aspect,
             middle: (0.5 * (low + high), extent),
@@ -179,7 +179,7 @@ impl Picture {
                 }
             }
             None => {
-                self.drive(ui, (play, tool), &room);
+                self.drive(ui, play, tool, &room);
                 self.touch(ui, (&response, rect), (play, tool), &room);
             }
         }
@@ -194,7 +194,8 @@ impl Picture {
         &self,
         ui: &egui::Ui,
         rect: Rect,
-        (play, attempt): (&mut Play, Option<&Attempt>),
+        play: &mut Play,
+        attempt: Option<&Attempt>,
     ) {
         let (Some(camera), Some(attempt)) = (&self.camera, attempt) else {
             return;
@@ -242,9 +243,7 @@ impl Picture {
             }
             _ => {}
         }
-        if let Some(guidance) = &attempt.guidance {
-            over.tools(&guidance.ghosts);
-        }
+        over.tools(&attempt.ghosts);
     }
 
     /// Turns, moves and zooms the camera.
@@ -269,7 +268,7 @@ impl Picture {
     }
 
     /// Tools with a trocar wait before the organ.
-    fn take_up(&mut self, play: &Play, room: &Room<'_>) {
+    fn take_up(&mut self, play: &Play, room: &HandContext<'_>) {
         let tools = &play.scene.tools;
         if self.hands.len() == tools.len() {
             return;
@@ -287,7 +286,7 @@ impl Picture {
     }
 
     /// Moves the hands by keys and sticks, and tells the model of those that the mouse does not move.
-    fn drive(&mut self, ui: &egui::Ui, (play, tool): (&mut Play, usize), room: &Room<'_>) {
+    fn drive(&mut self, ui: &egui::Ui, play: &mut Play, tool: usize, room: &HandContext<'_>) {
         let free = !ui.ctx().egui_wants_keyboard_input();
         let elapsed = f64::from(ui.input(|input| input.unstable_dt)).min(0.05);
         let pads = self.gamepads.look();
@@ -322,7 +321,7 @@ impl Picture {
         ui: &egui::Ui,
         (response, rect): (&Response, Rect),
         (play, tool): (&mut Play, usize),
-        room: &Room<'_>,
+        room: &HandContext<'_>,
     ) {
         let Some(hand) = self.hands.get_mut(tool) else {
             return;
@@ -331,7 +330,8 @@ impl Picture {
         let pointer = ui.input(|input| input.pointer.latest_pos());
         let place = pointer
             .filter(|at| rect.contains(*at))
-            .map(|at| ((at - rect.min) / rect.size()).to_f64());
+            .map(|at| (at - rect.min) / rect.size())
+            .map(|part| (f64::from(part.x), f64::from(part.y)));
         let (down, moved) = ui.input(|input| {
             let moved = input.pointer.delta() != Vec2::ZERO;
             (input.pointer.primary_down(), moved)
@@ -382,7 +382,7 @@ impl Picture {
         camera: &Camera,
         (extent, rect, context): (f64, Rect, &egui::Context),
     ) -> egui::TextureId {
-        let texture = self.target((state, gpu), rect.size(), context.pixels_per_point());
+        let texture = self.target(state, gpu, rect.size(), context.pixels_per_point());
         let snapshot = play.source.snapshot();
         let tools: Vec<ToolPicture> = play
             .scene
@@ -435,7 +435,8 @@ impl Picture {
     /// The texture of the picture, made anew when its size or the effort has changed.
     fn target(
         &mut self,
-        (state, gpu): (&RenderState, &Gpu),
+        state: &RenderState,
+        gpu: &Gpu,
         size: Vec2,
         pixels_per_point: f32,
     ) -> egui::TextureId {
@@ -483,16 +484,5 @@ fn side(name: &str, number: usize) -> usize {
         "left" => 0,
         "right" => 1,
         _ => number.min(1),
-    }
-}
-
-/// A place of the picture as the gesture counts it.
-trait Place {
-    fn to_f64(self) -> (f64, f64);
-}
-
-impl Place for Vec2 {
-    fn to_f64(self) -> (f64, f64) {
-        (f64::from(self.x), f64::from(self.y))
     }
 }

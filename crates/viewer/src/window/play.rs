@@ -1,7 +1,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use palpate_files::Scene;
+use palpate_files::{Scene, Session};
 use palpate_geometry::{AabbTree, Surface, Vec3};
 use palpate_servo::{PointerHand, ServoSettings, lock_memory};
 use palpate_simulate::interactive::{
@@ -139,7 +139,7 @@ impl Play {
             ServoSettings::default(),
         )?;
         let source = Source::Touched(Box::new(interaction));
-        Ok(Self::of(prepared, (source, devices.pointers)))
+        Ok(Self::of(prepared, source, devices.pointers))
     }
 
     /// Goes on with what was prepared, while the devices stay open and their loops run. Whether the touch could: else it
@@ -155,7 +155,7 @@ impl Play {
 
     /// What is shown of `prepared` from now on, whose model has taken over.
     pub(super) fn showing(self, prepared: Prepared) -> Self {
-        Self::of(prepared, (self.source, self.pointers))
+        Self::of(prepared, self.source, self.pointers)
     }
 
     /// A session that is played again.
@@ -163,26 +163,28 @@ impl Play {
     /// # Errors
     /// When a neighbour cannot be read.
     pub(super) fn of_session(session: PlayedSession, gpu: &Gpu) -> Result<Self, Error> {
-        Self::again((session.scene, session.simulation), session.replay, gpu)
+        let playback = Playback::new(&session.simulation, session.replay);
+        let nobody = session.scene.tools.iter().map(|_| None).collect();
+        let of = (session.scene, session.simulation);
+        let prepared = Prepared::around(of, Resources::default(), gpu)?;
+        let source = Source::Again(Box::new(playback));
+        Ok(Self::of(prepared, source, nobody))
     }
 
-    /// A session of `scene` that is played again; its hands move nothing.
+    /// A session on the organ that is shown, called `name`.
     ///
     /// # Errors
-    /// When a neighbour cannot be read.
-    pub(super) fn again(
-        (scene, simulation): (Scene, Arc<Simulation>),
-        replay: Replay,
-        gpu: &Gpu,
-    ) -> Result<Self, Error> {
-        let playback = Playback::new(&simulation, replay);
-        let nobody = scene.tools.iter().map(|_| None).collect();
-        let prepared = Prepared::around((scene, simulation), Resources::default(), gpu)?;
-        let source = Source::Again(Box::new(playback));
-        Ok(Self::of(prepared, (source, nobody)))
+    /// When the session is of another scene.
+    pub(super) fn again(&self, name: String, session: &Session) -> Result<PlayedSession, Error> {
+        Ok(PlayedSession {
+            name,
+            scene: self.scene.clone(),
+            replay: Replay::new(self.simulation.clone(), session)?,
+            simulation: self.simulation.clone(),
+        })
     }
 
-    fn of(prepared: Prepared, (source, pointers): (Source, Vec<Option<PointerHand>>)) -> Self {
+    fn of(prepared: Prepared, source: Source, pointers: Vec<Option<PointerHand>>) -> Self {
         Self {
             scene: prepared.scene,
             simulation: prepared.simulation,
@@ -210,7 +212,7 @@ impl Play {
     /// Whether the organ, as it is now, lies between an `eye` and a `place` [m].
     pub(super) fn covers(&mut self, place: &Vec3, eye: &Vec3) -> bool {
         let triangles = self.simulation.surface().mesh().triangles();
-        is_covered((&self.source.snapshot().vertices, triangles), place, eye)
+        is_covered(&self.source.snapshot().vertices, triangles, place, eye)
     }
 
     /// Moves the tool of a hand to where the hand is, with its grip and its cut; from `start` [m] without a
@@ -242,7 +244,7 @@ impl Play {
     }
 
     /// Makes the organ whole and at rest, and goes on if all stood still.
-    pub(super) fn begin_anew(&mut self) {
+    pub(super) fn reset(&mut self) {
         self.go_on();
         self.source.send(ModelCommand::Reset);
     }

@@ -7,7 +7,7 @@ use palpate_files::scene::Goal;
 use palpate_simulate::performance::{Measure, feedback};
 
 use super::attempt::{Attempt, Done};
-use super::cards::{Around, Asked, tasks_button, title, trouble};
+use super::cards::{AttemptAction, CardContext, tasks_button, title, trouble};
 use super::home::{passed_words, time_and_errors};
 use super::page::{self, main_button, or_key, quiet};
 use super::texts::{decimal, phrase, say_if_there, text, tool_name};
@@ -16,9 +16,10 @@ use crate::style::{DEPTH, FORCE, QUIET, WARNING, WHITE};
 /// How it was done.
 pub(super) fn over(
     ui: &mut Ui,
-    (attempt, done): (&Attempt, &Done),
-    around: &Around,
-    asked: &mut Option<Asked>,
+    attempt: &Attempt,
+    done: &Done,
+    around: &CardContext,
+    asked: &mut Option<AttemptAction>,
 ) {
     let told = feedback(&attempt.task, &done.score, done.late);
     let color = match done.score.outcome.passed() {
@@ -55,10 +56,10 @@ pub(super) fn over(
     ui.horizontal_wrapped(|ui| {
         let retry = main_button(ui, &text!("result-retry"));
         if retry.on_hover_text(or_key("Enter")).clicked() {
-            *asked = Some(Asked::Begin);
+            *asked = Some(AttemptAction::Begin);
         }
         if done.folder.is_some() && ui.button(text!("common-replay")).clicked() {
-            *asked = Some(Asked::Again);
+            *asked = Some(AttemptAction::Again);
         }
         tasks_button(ui, around, asked);
     });
@@ -71,7 +72,7 @@ pub(super) fn over(
             }
             None => {
                 if ui.button(text!("result-compare")).clicked() {
-                    *asked = Some(Asked::Compare);
+                    *asked = Some(AttemptAction::Compare);
                 }
             }
         }

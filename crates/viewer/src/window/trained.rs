@@ -4,12 +4,12 @@ use std::path::Path;
 
 use eframe::egui;
 use palpate_files::Scene;
-use palpate_simulate::{Replay, SessionFolder};
+use palpate_simulate::SessionFolder;
 
 use super::attempt::{Attempt, Phase};
-use super::cards::{self, Around, Asked};
+use super::cards::{self, AttemptAction, CardContext};
 use super::choice::Choice;
-use super::class_page::{ClassPage, Wanted};
+use super::class_page::{ClassPage, ClassPageAction};
 use super::compared::ShownDemonstration;
 use super::home::{Chosen, Home};
 use super::play::{ModelRequest, Play};
@@ -17,6 +17,7 @@ use super::settings_page::SettingsPage;
 use super::texts::text;
 use super::training::TrainingResult;
 use super::{SimulatorWindow, panel};
+use crate::Error;
 
 impl SimulatorWindow {
     /// The start screen instead of everything else.
@@ -66,12 +67,12 @@ impl SimulatorWindow {
         let panel = egui::CentralPanel::default();
         match panel.show(ui, |ui| page.show(ui)).inner {
             None => {}
-            Some(Wanted::Leave) => {
+            Some(ClassPageAction::Leave) => {
                 self.class_page = None;
                 // What was assigned is seen on the start screen.
                 self.home = Some(Home::default());
             }
-            Some(Wanted::Assign(given)) => {
+            Some(ClassPageAction::Assign(given)) => {
                 let outcome = training.record.assign(&given);
                 page.take(outcome, training.record.class());
             }
@@ -110,7 +111,7 @@ impl SimulatorWindow {
         self.choice = Choice::new(scene).with_mouse(hand);
         self.radius = 1e3 * self.choice.tip.radius_m;
         self.picture.shading = self.choice.shading();
-        self.begin_anew(context);
+        self.reset(context);
     }
 
     /// Back to the start screen; what was being prepared or touched ends.
@@ -198,7 +199,7 @@ impl SimulatorWindow {
 
     /// The card of the task over the picture.
     pub(super) fn show_card(&mut self, ui: &egui::Ui) {
-        let around = Around {
+        let around = CardContext {
             preparing: self.preparing(),
             begins: self.begins,
             has_home: self.training.is_some(),
@@ -211,7 +212,7 @@ impl SimulatorWindow {
             return;
         };
         let asked = cards::show(ui, attempt, &around);
-        let by_key = std::mem::take(&mut self.begins_anew).then_some(Asked::Begin);
+        let by_key = std::mem::take(&mut self.begins_anew).then_some(AttemptAction::Begin);
         if asked.is_some() {
             // A button that was clicked would have the keyboard, and Enter click it again.
             ui.memory_mut(|memory| {
@@ -222,38 +223,38 @@ impl SimulatorWindow {
         }
         match asked.or(by_key) {
             None => {}
-            Some(Asked::Show) => {
+            Some(AttemptAction::Show) => {
                 attempt.show(play);
-                self.picture.lay_down();
+                self.picture.put_tools_away();
                 self.picture.lists_keys = false;
                 self.history.clear();
             }
-            Some(Asked::Begin)
+            Some(AttemptAction::Begin)
                 if (attempt.is_over() || attempt.was_shown) && self.choice.draws() =>
             {
                 let context = ui.ctx().clone();
                 self.attempt = None;
                 self.begins = true;
-                self.begin_anew(&context);
+                self.reset(&context);
             }
-            Some(Asked::Begin) => self.begin_attempt(),
-            Some(Asked::State) => self.state_diameter(),
-            Some(Asked::End) => self.end_attempt(),
-            Some(Asked::RecordElsewhere) => {
+            Some(AttemptAction::Begin) => self.begin_attempt(),
+            Some(AttemptAction::State) => self.state_diameter(),
+            Some(AttemptAction::End) => self.end_attempt(),
+            Some(AttemptAction::RecordElsewhere) => {
                 attempt.record_elsewhere(play);
                 if attempt.is_over() && attempt.unsaved.is_none() {
                     self.keep_result();
                 }
             }
-            Some(Asked::Compare) => {
+            Some(AttemptAction::Compare) => {
                 let folder = attempt.folder();
                 if let Some(folder) = folder {
                     let context = ui.ctx().clone();
                     self.compare_with_demonstration(&folder, &context);
                 }
             }
-            Some(Asked::Home) => self.go_home(),
-            Some(Asked::Again) => {
+            Some(AttemptAction::Home) => self.go_home(),
+            Some(AttemptAction::Again) => {
                 if let Some(folder) = attempt.folder() {
                     self.look_again(&folder);
                 }
@@ -320,7 +321,7 @@ impl SimulatorWindow {
             let training = self.training.as_ref();
             let session = training.map(|training| training.record.new_session(&attempt.task));
             attempt.begin(play, session);
-            self.picture.lay_down();
+            self.picture.put_tools_away();
             self.picture.lists_keys = false;
             self.history.clear();
         }
@@ -336,23 +337,21 @@ impl SimulatorWindow {
     /// Plays the session of a folder again, on the organ that is there.
     pub(super) fn look_again(&mut self, session: &Path) {
         let Some(play) = &self.play else { return };
-        let read = SessionFolder::read(session).and_then(|folder| {
-            let replay = Replay::new(play.simulation.clone(), &folder.session)?;
-            Ok((folder, replay))
-        });
-        let again = read.map_err(crate::Error::from).and_then(|(_, replay)| {
-            Play::again(
-                (play.scene.clone(), play.simulation.clone()),
-                replay,
-                &self.gpu,
-            )
-        });
+        let again = SessionFolder::read(session)
+            .map_err(Error::from)
+            .and_then(|folder| play.again(text!("replay-own"), &folder.session))
+            .and_then(|session| Play::of_session(session, &self.gpu));
+        self.show_again(again);
+    }
+
+    /// Shows a session that is played again, in place of an attempt.
+    pub(super) fn show_again(&mut self, again: Result<Play, Error>) {
         match again {
             Ok(again) => {
                 self.play = Some(again);
                 self.attempt = None;
                 self.history.clear();
-                self.picture.lay_down();
+                self.picture.put_tools_away();
                 self.picture.lists_keys = false;
             }
             Err(error) => self.notice = Some(error.to_string()),

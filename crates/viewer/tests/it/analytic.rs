@@ -103,10 +103,7 @@ fn an_endoscope_stands_before_the_organ() {
         let mesh = organ.surface_mesh(organ.default_triangles()).unwrap();
         let tree = AabbTree::new(&mesh);
         let orbit = Orbit::framing(&mesh, 0.8, 1.6);
-        let (far, near) = (
-            orbit.camera(),
-            orbit.endoscope(orbit.before((&mesh, &tree))),
-        );
+        let (far, near) = (orbit.camera(), orbit.endoscope(orbit.before(&mesh, &tree)));
         let sight = near.ray((0.5, 0.5), 1.6);
         assert!((sight - far.ray((0.5, 0.5), 1.6)).norm() < 1e-12);
         assert!(near.distance() < far.distance());

@@ -212,7 +212,7 @@ fn cut_cube() -> [RgbaImage; 2] {
             .unwrap();
     }
     cut.end(surface).unwrap();
-    let open = OpenedSurface::new(&cut, (surface, surface.mesh().vertices()), 0.012);
+    let open = OpenedSurface::new(&cut, surface, surface.mesh().vertices(), 0.012);
     let mut studio = Studio::new(&scene, &simulation, SIZE).unwrap();
     [Some(open.drawn()), None].map(|opened| studio.picture_of(&state, opened).unwrap())
 }
@@ -253,7 +253,7 @@ fn an_endoscope_looks_as_it_did() {
     let (mut studio, state) = studio("cube_map");
     let mesh = &state.deformed;
     let orbit = Orbit::framing(mesh, 0.8, 1.6);
-    let before = orbit.before((mesh, &AabbTree::new(mesh)));
+    let before = orbit.before(mesh, &AabbTree::new(mesh));
     studio.view.camera = orbit.endoscope(before);
     let picture = studio.picture(&state).unwrap();
     compare("endoscope", &picture);

@@ -8,7 +8,7 @@ use palpate_geometry::Vec3;
 use palpate_viewer::gesture::{Aim, Mouse};
 use palpate_viewer::hands::gamepad::{Layout, Pad, PadEvent, PadPart, PadRequests};
 use palpate_viewer::hands::keys::{ACTIONS, CUTS, HANDS, JAWS};
-use palpate_viewer::hands::{Drive, Hand, Room};
+use palpate_viewer::hands::{Drive, Hand, HandContext};
 use palpate_viewer::{Camera, Orbit};
 
 const ORBIT: Orbit = Orbit {
@@ -19,8 +19,8 @@ const ORBIT: Orbit = Orbit {
     field_of_view: 0.8,
 };
 
-fn room(camera: &Camera) -> Room<'_> {
-    Room {
+fn room(camera: &Camera) -> HandContext<'_> {
+    HandContext {
         camera,
         aspect: 1.6,
         middle: (Vec3::zeros(), 0.1),

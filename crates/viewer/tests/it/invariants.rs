@@ -72,7 +72,7 @@ fn drag(organ: BuiltinOrgan, tip: &str, seconds: f64) {
         let camera = if dice.roll() < 0.5 {
             orbit.camera()
         } else {
-            orbit.endoscope(orbit.before((surface.mesh(), &tree)))
+            orbit.endoscope(orbit.before(surface.mesh(), &tree))
         };
         let ground = GestureContext {
             surface,

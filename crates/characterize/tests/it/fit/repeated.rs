@@ -90,7 +90,12 @@ fn repetition_spreads_as_the_covariance_says() {
     for spread in [&drawn, &blocks] {
         assert_eq!(spread.failed, 0);
         for parameter in 0..2 {
-            let ratio = spread.deviation(parameter) / known.standard_error(parameter).unwrap();
+            let values = spread.values.iter().map(|values| values[parameter]);
+            let count = spread.values.len() as f64;
+            let mean = values.clone().sum::<f64>() / count;
+            let squares: f64 = values.map(|value| (value - mean).powi(2)).sum();
+            let deviation = (squares / (count - 1.0)).sqrt();
+            let ratio = deviation / known.standard_error(parameter).unwrap();
             assert!((ratio - 1.0).abs() < 0.14, "{parameter}: {ratio}");
             let [low, high] = spread.interval(parameter, 0.95);
             assert!((low..high).contains(&fit.parameters[parameter].value));

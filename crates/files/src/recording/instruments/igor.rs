@@ -164,7 +164,7 @@ pub(super) fn read(file: &InstrumentFile<'_>) -> Result<Recording, Error> {
         plain_quantity("_s", contents.step, None),
     );
     let header = header(&contents, spring_constant, sensitivity);
-    curve.recording(file, "the wave", (header, vec![remark]))
+    curve.recording(file, "the wave", header, vec![remark])
 }
 
 fn header(contents: &Contents, spring_constant: f64, sensitivity: Option<f64>) -> RecordingHeader {

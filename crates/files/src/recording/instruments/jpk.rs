@@ -166,7 +166,8 @@ impl Map<'_> {
         curve.recording(
             self.file,
             &format!("the curve {folder}segments"),
-            (header, remarks),
+            header,
+            remarks,
         )
     }
 

@@ -124,7 +124,8 @@ impl Curve {
         self,
         file: &InstrumentFile<'_>,
         part: &str,
-        (header, remarks): (RecordingHeader, Vec<String>),
+        header: RecordingHeader,
+        remarks: Vec<String>,
     ) -> Result<Recording, Error> {
         if self.time.is_empty() {
             return Err(file.damaged(part, "has no samples"));

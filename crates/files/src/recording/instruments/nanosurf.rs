@@ -329,7 +329,8 @@ impl Curves<'_> {
         curve.recording(
             self.file,
             &part,
-            (self.recording_header(line, spring_constant), vec![remark]),
+            self.recording_header(line, spring_constant),
+            vec![remark],
         )
     }
 

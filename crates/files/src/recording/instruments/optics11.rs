@@ -48,7 +48,7 @@ pub(super) fn read(text: &str, file: &InstrumentFile<'_>) -> Result<Option<Recor
     let header = header(&entries);
     let remarks = vec![remark(&header, &entries)];
     curve
-        .recording(file, "the table", (header, remarks))
+        .recording(file, "the table", header, remarks)
         .map(Some)
 }
 

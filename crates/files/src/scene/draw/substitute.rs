@@ -20,7 +20,7 @@ pub(super) fn in_table(
     path: &Path,
 ) -> Result<Table, Error> {
     let one = |(key, entry): (&String, &Entry)| {
-        let value = in_value(&entry.value, values, (path, key, entry.line))?;
+        let value = in_value(&entry.value, values, path, key, entry.line)?;
         let line = entry.line;
         Ok((key.clone(), Entry { line, value }))
     };
@@ -30,7 +30,9 @@ pub(super) fn in_table(
 fn in_value(
     value: &Value,
     values: &[(String, Drawn)],
-    (path, key, line): (&Path, &str, usize),
+    path: &Path,
+    key: &str,
+    line: usize,
 ) -> Result<Value, Error> {
     match value {
         Value::Table(table) if table.len() == 1 && table.contains_key(TAKES) => {
@@ -61,7 +63,7 @@ fn in_value(
         Value::List(list) => {
             let each = list
                 .iter()
-                .map(|value| in_value(value, values, (path, key, line)));
+                .map(|value| in_value(value, values, path, key, line));
             Ok(Value::List(each.collect::<Result<_, _>>()?))
         }
         other => Ok(other.clone()),

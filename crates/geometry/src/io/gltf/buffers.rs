@@ -39,7 +39,7 @@ pub(super) fn open_buffers<'a>(
     for buffer in &document.buffers {
         let bytes = match &buffer.uri {
             None => Bytes::Within(chunk.take().unwrap_or_default()),
-            Some(uri) => Bytes::Beside(by_uri(uri, folder, (&mut files, &mut left))?),
+            Some(uri) => Bytes::Beside(by_uri(uri, folder, &mut files, &mut left)?),
         };
         if bytes.len() < buffer.byte_length {
             return Err(ReadFault::Truncated {
@@ -57,7 +57,8 @@ pub(super) fn open_buffers<'a>(
 fn by_uri(
     uri: &str,
     folder: &Path,
-    (files, left): (&mut BTreeMap<PathBuf, Rc<Vec<u8>>>, &mut u64),
+    files: &mut BTreeMap<PathBuf, Rc<Vec<u8>>>,
+    left: &mut u64,
 ) -> Result<Rc<Vec<u8>>, ReadFault> {
     if let Some(rest) = uri.strip_prefix("data:") {
         let coded = rest.split_once(";base64,");

@@ -20,7 +20,7 @@ pub(crate) fn drawn(studied: &Studied) -> Vec<DrawnRecording> {
         DrawnRecording {
             file: file.display().to_string(),
             digest: studied.digests[place].clone(),
-            fitted: own.and_then(|own| beside(recording, &own, (is_piece, kept))),
+            fitted: own.and_then(|own| beside(recording, &own, is_piece, kept)),
             ..alone(recording)
         }
     });
@@ -73,7 +73,7 @@ pub(crate) fn all_samples(studied: &Studied) -> Vec<(String, DrawnFit)> {
     let every = |time: &[f64], _: &[f64], _: &[f64]| (0..time.len()).collect();
     let each = fitted.filter_map(|own| {
         let file = studied.files[own.place].display().to_string();
-        let drawn = beside(&studied.recordings[own.place], &own, (is_piece, every))?;
+        let drawn = beside(&studied.recordings[own.place], &own, is_piece, every)?;
         Some((file, drawn))
     });
     each.collect()
@@ -83,7 +83,8 @@ pub(crate) fn all_samples(studied: &Studied) -> Vec<(String, DrawnFit)> {
 fn beside(
     recording: &CleanRecording,
     fitted: &FittedRecording,
-    (is_piece, kept): (bool, impl Fn(&[f64], &[f64], &[f64]) -> Vec<usize>),
+    is_piece: bool,
+    kept: impl Fn(&[f64], &[f64], &[f64]) -> Vec<usize>,
 ) -> Option<DrawnFit> {
     let of = |values: &[f64]| values.get(fitted.samples.clone()).map(<[f64]>::to_vec);
     let time = of(&recording.time)?;

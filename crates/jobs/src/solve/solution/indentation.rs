@@ -138,7 +138,7 @@ fn in_time(
             series: vec![drawn],
             ..Plot::default()
         },
-        recording: Some(recording(case, ramp, (&times, &depths, &forces))?),
+        recording: Some(recording(case, ramp, &times, &depths, &forces)?),
         figures: Figures::Indentation {
             depth_m: depths,
             force_n: forces,
@@ -206,7 +206,9 @@ impl Ramp {
 fn recording(
     case: &Indentation,
     ramp: &Ramp,
-    (times, depths, forces): (&[f64], &[f64], &[f64]),
+    times: &[f64],
+    depths: &[f64],
+    forces: &[f64],
 ) -> Result<Recording, Error> {
     let shape = match case.indenter.shape {
         IndenterShape::Flat { .. } => recording::IndenterShape::Flat,

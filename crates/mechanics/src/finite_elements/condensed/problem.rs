@@ -104,11 +104,12 @@ impl CondensedProblem<'_> {
                 memory,
             });
         }
-        let condensed = self.condense(&is_held, (needed.response, memory), progress)?;
+        let condensed = self.condense(&is_held, needed.response, memory, progress)?;
         let mut parts = ResponseParts::zeros(
             self.poissons_ratio,
             touchable,
-            (triangles, self.held),
+            triangles,
+            self.held,
             Sampling::Means,
         )?;
         match self.columns(&condensed, &mut parts.displacements, progress) {
@@ -120,19 +121,20 @@ impl CondensedProblem<'_> {
     fn condense(
         &self,
         is_held: &[bool],
-        (response, memory): (usize, usize),
+        response: usize,
+        memory: usize,
         progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Condensed, Error> {
         let law = LinearElastic::new(1.0, self.poissons_ratio)?;
-        tell(progress, Stage::Assembly, 0.0)?;
+        report_progress(progress, Stage::Assembly, 0.0)?;
         let filling = fill(self.surface, &FillSettings::new(self.edge))?;
-        tell(progress, Stage::Assembly, 0.01)?;
+        report_progress(progress, Stage::Assembly, 0.01)?;
         let boundary = Boundary::new(&filling)?;
         let projection = Projection::new(self.surface, &boundary);
         let elements = ElementMesh::from_tetrahedra(&filling);
-        let held = self.held_nodes(is_held, &elements.nodes, (&boundary, &projection));
+        let held = self.held_nodes(is_held, &elements.nodes, &boundary, &projection);
         let model = FiniteElementModel::new(elements, Arc::new(law), Formulation::Mixed)?;
-        tell(progress, Stage::Assembly, 0.05)?;
+        report_progress(progress, Stage::Assembly, 0.05)?;
         let mut workspace = FiniteElementWorkspace::new(&model)?;
         let size = model.size();
         let at_once = 3 * AT_ONCE * cores() * size;
@@ -141,9 +143,9 @@ impl CondensedProblem<'_> {
         if needed > memory {
             return Err(Error::NotEnoughMemory { needed, memory });
         }
-        tell(progress, Stage::Factors, 0.1)?;
+        report_progress(progress, Stage::Factors, 0.1)?;
         factor(&model, &held, &mut workspace)?;
-        tell(progress, Stage::Columns, COLUMNS_BEGIN)?;
+        report_progress(progress, Stage::Columns, COLUMNS_BEGIN)?;
         let places = workspace.factors.places();
         let row = |(node, &held): (usize, &bool)| {
             (!held).then(|| [0, 1, 2].map(|axis| places[3 * node + axis]))
@@ -162,7 +164,8 @@ impl CondensedProblem<'_> {
         &self,
         is_held: &[bool],
         nodes: &[Vec3],
-        (boundary, projection): (&Boundary, &Projection),
+        boundary: &Boundary,
+        projection: &Projection,
     ) -> Vec<bool> {
         let mesh = self.surface.mesh();
         let tree = AabbTree::new(mesh);
@@ -211,7 +214,7 @@ impl CondensedProblem<'_> {
 /// touched [-].
 const COLUMNS_BEGIN: f64 = 0.2;
 
-fn tell(
+fn report_progress(
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     stage: Stage,
     part: f64,
@@ -264,7 +267,7 @@ impl Condensed {
         let height = kept.len() / width;
         for triangle in surface.mesh().triangle_ids() {
             self.projection
-                .mean(triangle, &self.rows, (&sides, &mut means));
+                .mean(triangle, &self.rows, &sides, &mut means);
             for (axis, means) in means.chunks_exact(width).enumerate() {
                 let row = 3 * triangle.index() + axis;
                 for (column, mean) in means.iter().enumerate() {

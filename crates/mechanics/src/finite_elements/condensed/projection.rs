@@ -101,7 +101,8 @@ impl Projection {
         &self,
         triangle: TriangleId,
         rows: &[Option<[usize; 3]>],
-        (sides, means): (&[f64], &mut [f64]),
+        sides: &[f64],
+        means: &mut [f64],
     ) {
         let width = means.len() / 3;
         means.fill(0.0);

@@ -2,12 +2,9 @@ use std::sync::Arc;
 
 use super::super::graded::Grading;
 use super::super::mismatch::Mismatch;
-use super::super::model::{
-    FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
-};
-use super::super::newton::equilibrate;
+use super::super::model::{FiniteElementModel, Formulation};
 use super::super::supports::Supports;
-use super::problem::{Patch, check_edge};
+use super::problem::{Patch, check_edge, solved};
 use super::quarter_disc::{Lines, QuarterDisc, SQUARE};
 use crate::{Error, LinearElastic};
 
@@ -51,14 +48,7 @@ impl HalfBall {
         if self.patch == Patch::Bonded {
             supports = supports.hold(&model, patch.iter().copied(), 0, 0.0);
         }
-        let mut state = FiniteElementState::at_rest(&model);
-        let mut workspace = FiniteElementWorkspace::new(&model)?;
-        equilibrate(&model, &supports, &mut state, &mut workspace).map_err(|failure| {
-            Error::NoEquilibrium {
-                depth: 0.0,
-                failure,
-            }
-        })?;
+        let (_, workspace) = solved(&model, &supports)?;
         Ok(patch.iter().map(|&n| workspace.reaction(&model, n).y).sum())
     }
 

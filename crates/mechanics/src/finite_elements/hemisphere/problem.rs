@@ -96,6 +96,22 @@ pub(super) fn check_edge(edge: f64) -> Result<(), Mismatch> {
     }
 }
 
+/// The equilibrium of a linear body from rest.
+pub(super) fn solved(
+    model: &FiniteElementModel,
+    supports: &Supports<'_>,
+) -> Result<(FiniteElementState, FiniteElementWorkspace), Error> {
+    let mut state = FiniteElementState::at_rest(model);
+    let mut workspace = FiniteElementWorkspace::new(model)?;
+    equilibrate(model, supports, &mut state, &mut workspace).map_err(|failure| {
+        Error::NoEquilibrium {
+            depth: 0.0,
+            failure,
+        }
+    })?;
+    Ok((state, workspace))
+}
+
 impl HemisphereProblem {
     /// Solves on one mesh whose elements at the edge of the patch are `edge` [-] of its radius, every
     /// element then halved `halvings` times, or doubled where that is −1.
@@ -127,14 +143,7 @@ impl HemisphereProblem {
         if self.patch == Patch::Bonded {
             supports = supports.hold(&model, patch.iter().copied(), 0, 0.0);
         }
-        let mut state = FiniteElementState::at_rest(&model);
-        let mut workspace = FiniteElementWorkspace::new(&model)?;
-        equilibrate(&model, &supports, &mut state, &mut workspace).map_err(|failure| {
-            Error::NoEquilibrium {
-                depth: 0.0,
-                failure,
-            }
-        })?;
+        let (state, workspace) = solved(&model, &supports)?;
         let along = |nodes: &[usize]| -> f64 {
             nodes.iter().map(|&n| workspace.reaction(&model, n).y).sum()
         };

@@ -8,7 +8,7 @@
 //! from the place where it last stood: the closest-point return of plasticity, backward in time. It sticks again when
 //! it would slip along its force.
 
-use super::super::supports::{Beside, RigidSurface};
+use super::super::supports::{RigidSurface, SurfaceDistance};
 use super::indenter::{Indenter, IndenterShape, Side};
 use crate::contact::FrictionLaw;
 
@@ -136,7 +136,7 @@ impl Indenter {
     }
 
     /// Where a place lies beside a part.
-    pub(super) fn beside(&self, part: Part, place: Place) -> Beside {
+    pub(super) fn beside(&self, part: Part, place: Place) -> SurfaceDistance {
         self.surface(part, 0.0).beside(place.radius, place.above)
     }
 
@@ -220,7 +220,8 @@ impl Indenter {
     pub(super) fn stick_or_slip(
         &self,
         touch: ContactStatus,
-        (place, force): (Place, [f64; 2]),
+        place: Place,
+        force: [f64; 2],
         tolerances: Tolerances,
     ) -> Option<ContactStatus> {
         let part = touch.part()?;

@@ -10,7 +10,7 @@ use super::super::model::{
     FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
 };
 use super::super::newton::{self, Failure, SolverControls};
-use super::super::relaxation::{Memory, RelaxationStep};
+use super::super::relaxation::{RelaxationHistory, RelaxationStep};
 use super::super::snap::equilibrate_downhill;
 use super::super::supports::Supports;
 use super::base::ElasticBase;
@@ -92,7 +92,7 @@ pub(super) struct ConvergedIncrement {
     pub(super) state: FiniteElementState,
     /// Contact of each node of the top.
     pub(super) touch: Vec<ContactStatus>,
-    memory: Option<Memory>,
+    memory: Option<RelaxationHistory>,
     pub(super) slopes: Option<Sensitivities>,
 }
 
@@ -125,7 +125,7 @@ const MUCH_EFFORT: usize = 12;
 
 /// How an equilibrium is looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Way {
+enum SearchMethod {
     /// By Newton's method alone.
     Straight,
     /// Downhill in energy, where that fails.
@@ -235,7 +235,7 @@ impl IndentationRun {
                 depth: 0.0,
                 state: FiniteElementState::at_rest(&model),
                 touch,
-                memory: relaxes.then(|| Memory::at_rest(&model, &settings.prony)),
+                memory: relaxes.then(|| RelaxationHistory::at_rest(&model, &settings.prony)),
                 slopes: None,
             },
             before: None,
@@ -300,9 +300,9 @@ impl IndentationRun {
             let goal = |a: f64, b: f64| if part == 1.0 { b } else { a + part * (b - a) };
             // Friction has no energy to follow downhill.
             let way = if step > DOWNHILL_STEP * scale || self.has_friction {
-                Way::Straight
+                SearchMethod::Straight
             } else {
-                Way::Downhill
+                SearchMethod::Downhill
             };
             match self.stand_at(goal(start, time), goal(from, depth), way) {
                 Ok((standing, controls)) => {
@@ -397,7 +397,7 @@ impl IndentationRun {
         &mut self,
         time: f64,
         depth: f64,
-        way: Way,
+        way: SearchMethod,
     ) -> Result<(ConvergedIncrement, usize), Failure> {
         let duration = time - self.now.time;
         let relaxing = self
@@ -423,9 +423,9 @@ impl IndentationRun {
         };
         for _ in 0..most {
             let supports = self.supports(&touch, depth, relaxing.as_ref());
-            let before = (way == Way::Downhill).then(|| state.clone());
+            let before = (way == SearchMethod::Downhill).then(|| state.clone());
             let workspace = &mut self.workspace;
-            let done = newton::correct(controls, &self.model, &supports, (&mut state, workspace));
+            let done = newton::correct(controls, &self.model, &supports, &mut state, workspace);
             let unstable = relaxing.is_none()
                 && workspace.factors.negative_eigenvalues() > self.model.pressures();
             let done = done.and_then(|done| match unstable && done.iterations > 0 {
@@ -444,7 +444,7 @@ impl IndentationRun {
                 slopes.solve(&self.model, &supports, &state, &mut self.workspace)?;
             }
             let statuses = (&mut touch[..], &mut released[..]);
-            if self.settle((depth, &state), statuses, slopes.as_mut())? {
+            if self.update_statuses((depth, &state), statuses, slopes.as_mut())? {
                 controls = first;
                 continue;
             }
@@ -456,7 +456,7 @@ impl IndentationRun {
             if let Some(memory) = &mut memory {
                 memory.advance(&self.model, &self.prony, duration, &state);
             }
-            self.note_places(&mut touch, (depth, &state));
+            self.note_places(&mut touch, depth, &state);
             let standing = ConvergedIncrement {
                 time,
                 depth,

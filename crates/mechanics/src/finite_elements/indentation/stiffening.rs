@@ -29,7 +29,7 @@ const BLOCK: f64 = 50.0;
 impl Stiffening {
     /// Of a tissue that is linear at every depth, with this Poisson's ratio [-]. Known to a depth of one radius of a
     /// sphere.
-    pub fn linear((tip, bond): (Tip, Friction), poissons_ratio: f64) -> Self {
+    pub fn linear(tip: Tip, bond: Friction, poissons_ratio: f64) -> Self {
         Self {
             equivalent: match tip {
                 Tip::Flat { .. } => None,
@@ -46,19 +46,20 @@ impl Stiffening {
     /// When the tissue cannot be indented at all.
     pub fn of(
         tissue: &Material,
-        (tip, bond): (Tip, Friction),
+        tip: Tip,
+        bond: Friction,
         at_step: &mut dyn FnMut(f64),
     ) -> Result<Self, Error> {
         if tissue.law.volume().strain == Strain::Small {
-            return Ok(Self::linear((tip, bond), tissue.at_rest.poissons_ratio()));
+            return Ok(Self::linear(tip, bond, tissue.at_rest.poissons_ratio()));
         }
         let at_rest = &tissue.at_rest;
         let flat = Tip::Flat { radius: 1.0 };
-        let rest = press(&tissue.law, (flat, bond))?.press(0.0, FIRST, |_| ())?;
+        let rest = press(&tissue.law, flat, bond)?.press(0.0, FIRST, |_| ())?;
         // What the block is softer or stiffer than a half-space: far from the tip, so the same for both.
         let further = FIRST / rest.force - 1.0 / half_space_stiffness(at_rest, 1.0, bond);
         let tip = of_unit_radius(tip);
-        let mut run = press(&tissue.law, (tip, bond))?;
+        let mut run = press(&tissue.law, tip, bond)?;
         let mut equivalent = IndentationCurve::through(&[FIRST], &[FIRST]);
         let deepest = DEPTHS[DEPTHS.len() - 1];
         let mut before = 0.0;
@@ -69,10 +70,7 @@ impl Stiffening {
             };
             before = point.force;
             let s = depth - further * point.force;
-            equivalent.extend(
-                s,
-                s * point.force / at_small_strain(at_rest, (tip, bond), s),
-            );
+            equivalent.extend(s, s * point.force / at_small_strain(at_rest, tip, bond, s));
             at_step(depth / deepest);
         }
         Ok(Self {
@@ -115,7 +113,7 @@ fn of_unit_radius(tip: Tip) -> Tip {
     }
 }
 
-fn press(law: &Arc<dyn Law>, (tip, face): (Tip, Friction)) -> Result<IndentationRun, Error> {
+fn press(law: &Arc<dyn Law>, tip: Tip, face: Friction) -> Result<IndentationRun, Error> {
     let shape = match tip {
         Tip::Flat { .. } => IndenterShape::Flat {
             side: Side::Touches(face.into()),
@@ -141,7 +139,7 @@ fn press(law: &Arc<dyn Law>, (tip, face): (Tip, Friction)) -> Result<Indentation
 }
 
 /// F₀ [N] at `depth` [m] of a tip of unit radius.
-fn at_small_strain(law: &LinearElastic, (tip, bond): (Tip, Friction), depth: f64) -> f64 {
+fn at_small_strain(law: &LinearElastic, tip: Tip, bond: Friction, depth: f64) -> f64 {
     match tip {
         Tip::Flat { radius } => half_space_stiffness(law, radius, bond) * depth,
         Tip::Sphere { radius } => hertz_force(law, radius, depth),

@@ -55,7 +55,8 @@ impl SolidAnswer {
         model: &FiniteElementModel,
         state: &FiniteElementState,
         workspace: &FiniteElementWorkspace,
-        (conditions, along): (&Conditions<'_>, Option<&Vec3>),
+        conditions: &Conditions<'_>,
+        along: Option<&Vec3>,
     ) -> Self {
         let Conditions { frame, held, .. } = conditions;
         let sum = |nodes: &[usize]| -> Vec3 {

@@ -208,7 +208,7 @@ impl<'a> MeshContext<'a> {
         let mesh = self.mesh(0)?.mesh;
         let faces = faces(&mesh);
         let patch = self.patch.iter();
-        let patch = patch.flat_map(|at| faces_within(at.radius, &at.center, (&mesh, &faces)));
+        let patch = patch.flat_map(|at| faces_within(at.radius, &at.center, &mesh, &faces));
         Ok(area_of(&patch.collect::<Vec<_>>(), &mesh))
     }
 

@@ -15,7 +15,8 @@ const ON: f64 = 1e-8;
 pub(super) fn faces_within<'a>(
     radius: f64,
     center: &Vec3,
-    (mesh, faces): (&TetrahedronMesh, &'a [Face]),
+    mesh: &TetrahedronMesh,
+    faces: &'a [Face],
 ) -> Vec<&'a Face> {
     let reach = radius * (1.0 + ON);
     let within = |face: &&Face| {

@@ -98,7 +98,7 @@ impl SolidProblem {
             });
         }
         let boundary = faces(&tetrahedra);
-        let held = Held::new(self, &tetrahedra, (&boundary, context.center()))?;
+        let held = Held::new(self, &tetrahedra, &boundary, context.center())?;
         let forces = loads::of_boundary(&self.loads.forces, &tetrahedra, &boundary)?;
         let places = loads::places(&self.points, &tetrahedra, &boundary)?;
         let frame = Frame::new(self.patch.as_ref());
@@ -140,8 +140,7 @@ impl SolidProblem {
             progress(Progress { part, mesh });
         })?;
         let along = self.patch.map(|patch| patch.displacement);
-        let mut answer =
-            SolidAnswer::new(&model, &state, &workspace, (&conditions, along.as_ref()));
+        let mut answer = SolidAnswer::new(&model, &state, &workspace, &conditions, along.as_ref());
         let moved = |place: &loads::Place| {
             let parts = place.iter();
             parts

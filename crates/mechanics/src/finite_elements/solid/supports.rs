@@ -24,7 +24,8 @@ impl Held {
     pub(super) fn new(
         problem: &SolidProblem,
         mesh: &TetrahedronMesh,
-        (faces, center): (&[Face], Option<&Vec3>),
+        faces: &[Face],
+        center: Option<&Vec3>,
     ) -> Result<Self, Error> {
         let anchored: Vec<&Face> = faces
             .iter()
@@ -35,7 +36,7 @@ impl Held {
         }
         every_piece_is_held(mesh, &anchored)?;
         let patch = match (&problem.patch, center) {
-            (Some(patch), Some(center)) => faces_within(patch.radius, center, (mesh, faces)),
+            (Some(patch), Some(center)) => faces_within(patch.radius, center, mesh, faces),
             _ => Vec::new(),
         };
         let nodes = |faces: &[&Face]| -> Vec<usize> {

@@ -140,12 +140,12 @@ impl Uncalibrated {
             for k in 0..3 {
                 let mut field = nalgebra::Matrix3::zeros();
                 field.set_row(k, &gradient.transpose());
-                rows.write(&field, (row, 3 * j + k), &mut workspace.strains);
+                rows.write(&field, row, 3 * j + k, &mut workspace.strains);
             }
             if let Some((displacement, by_place)) = &enriched {
                 let slope = mapped.template_by_place.tr_mul(slope);
                 let field = by_place * value + displacement * slope.transpose();
-                rows.write(&field, (row, 3 * count + j), &mut workspace.strains);
+                rows.write(&field, row, 3 * count + j, &mut workspace.strains);
             }
         }
     }
@@ -287,7 +287,8 @@ impl EnergyRows {
     fn write(
         &self,
         gradient: &nalgebra::Matrix3<f64>,
-        (row, column): (usize, usize),
+        row: usize,
+        column: usize,
         strains: &mut Mat<f64>,
     ) {
         let [x, y, z] = [gradient[(0, 0)], gradient[(1, 1)], gradient[(2, 2)]];

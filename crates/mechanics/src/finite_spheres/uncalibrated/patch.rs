@@ -58,7 +58,7 @@ fn error(gradient: &Matrix3<f64>, plane: bool, count: usize) -> f64 {
                     for k in 0..3 {
                         let mut field = Matrix3::zeros();
                         field.set_row(k, &slope.transpose());
-                        rows.write(&field, (6 * at, 3 * j as usize + k), &mut strains);
+                        rows.write(&field, 6 * at, 3 * j as usize + k, &mut strains);
                     }
                 }
             }

@@ -181,9 +181,9 @@ impl Region {
             radial * (fraction * by_radius) + Vec3::new(0.0, fraction * by_azimuth, surface);
         let flat_polar = fraction * FRAC_PI_2;
         let flat_turning = Vec3::new(0.0, 0.0, FRAC_PI_2);
-        let by_template = columns((r, radial), (polar, turning), azimuth);
-        let flat = columns((r, radial), (flat_polar, flat_turning), azimuth);
-        let ball = columns((sigma, Vec3::x()), (flat_polar, flat_turning), azimuth);
+        let by_template = columns(r, radial, polar, turning, azimuth);
+        let flat = columns(r, radial, flat_polar, flat_turning, azimuth);
+        let ball = columns(sigma, Vec3::x(), flat_polar, flat_turning, azimuth);
         let inverted = by_template.try_inverse();
         let inverted = inverted.unwrap_or_else(|| Matrix3::repeat(f64::NAN));
         let held_slope = radial * -held - Vec3::new(0.0, held_by_azimuth, held_by_fraction) * r;
@@ -224,7 +224,7 @@ fn spherical(radius: f64, polar: f64, azimuth: f64) -> Vec3 {
 }
 
 /// Derivatives of a place at (r, polar, azimuth) by (σ, φ, f), given those of r and of the polar angle.
-fn columns((r, radial): (f64, Vec3), (polar, turning): (f64, Vec3), azimuth: f64) -> Matrix3<f64> {
+fn columns(r: f64, radial: Vec3, polar: f64, turning: Vec3, azimuth: f64) -> Matrix3<f64> {
     let (sine, cosine) = azimuth.sin_cos();
     let (across, along) = polar.sin_cos();
     let outward = Vec3::new(across * cosine, across * sine, -along);

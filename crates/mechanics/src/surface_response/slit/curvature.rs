@@ -101,11 +101,7 @@ impl Curvature {
 
     /// What a unit jump on a unit length changes in the tractions on another, `away` from it along the slit, over E
     /// [1/m]: rows and columns are the modes of a facet.
-    pub(super) fn jump_influence(
-        &self,
-        (curvature, thickness): (f64, f64),
-        away: f64,
-    ) -> Matrix5<f64> {
+    pub(super) fn jump_influence(&self, curvature: f64, thickness: f64, away: f64) -> Matrix5<f64> {
         let slim = 1.0 / (curvature.abs() * thickness).max(1e-6);
         let [nn, nh, hh, ss, ww, sw] = self.entries(slim.max(1.0), away.abs() / thickness);
         let nh = nh * curvature.signum();
@@ -269,7 +265,7 @@ mod tests {
                     let line = 1.0 / (4.0 * PI) / (0.25 - away * away);
                     let hinge = (3.0 + nu) / (3.0 * (1.0 + nu));
                     let flat = line * [1.0, 0.0, 0.0, hinge][2 * (i % 2) + j % 2];
-                    let bent = tube.jump_influence((curvature, 1.0), away * length);
+                    let bent = tube.jump_influence(curvature, 1.0, away * length);
                     let bent = if curvature > 0.0 {
                         bent
                     } else {

@@ -68,7 +68,7 @@ pub(super) fn pivots(block: &Matrix5<f64>, modes: usize) -> [f64; 5] {
 }
 
 /// H of a facet with itself over E [m], and what its diagonal is raised by where one end is free, or both.
-pub(super) fn own((nu, tube): (f64, &Curvature), facet: &Facet) -> (Matrix5<f64>, [[f64; 5]; 2]) {
+pub(super) fn own(nu: f64, tube: &Curvature, facet: &Facet) -> (Matrix5<f64>, [[f64; 5]; 2]) {
     let mut matrix = pull((nu, tube), facet, facet);
     let mut ends = [[0.0; 5]; 2];
     for mode in 0..5 {
@@ -92,7 +92,7 @@ pub(super) fn own((nu, tube): (f64, &Curvature), facet: &Facet) -> (Matrix5<f64>
 fn pull((nu, tube): (f64, &Curvature), seen: &Facet, jumping: &Facet) -> Matrix5<f64> {
     match (seen.under, jumping.under) {
         (CrackGeometry::Solid { depth }, CrackGeometry::Solid { depth: other }) => {
-            let block = in_solid(nu, (seen, depth), (jumping, other));
+            let block = in_solid(nu, seen, depth, jumping, other);
             let mut matrix = Matrix5::zeros();
             matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&block);
             matrix
@@ -104,7 +104,7 @@ fn pull((nu, tube): (f64, &Curvature), seen: &Facet, jumping: &Facet) -> Matrix5
             },
         ) => {
             let thickness = 0.5 * (thickness + other);
-            in_wall(nu, (seen, jumping), thickness) + of_curvature(tube, (seen, jumping), thickness)
+            in_wall(nu, seen, jumping, thickness) + of_curvature(tube, seen, jumping, thickness)
         }
         _ => Matrix5::zeros(),
     }
@@ -138,11 +138,7 @@ fn rectangle_beside([x, y]: [f64; 2], half: [f64; 2]) -> [f64; 3] {
     [0, 1, 2].map(|k| inside[k] * (1.0 - part) + outside[k] * part)
 }
 
-fn in_solid(
-    nu: f64,
-    (seen, depth): (&Facet, f64),
-    (jumping, other): (&Facet, f64),
-) -> Matrix3<f64> {
+fn in_solid(nu: f64, seen: &Facet, depth: f64, jumping: &Facet, other: f64) -> Matrix3<f64> {
     let factor = 1.0 / (8.0 * PI * (1.0 + nu) * (1.0 - nu));
     let turn = jumping.frame.tr_mul(&seen.frame);
     let at = jumping.frame.tr_mul(&(seen.middle - jumping.middle));
@@ -214,12 +210,12 @@ fn point(nu: f64, r: &Vec3, soft: f64) -> [Matrix3<f64>; 3] {
     let distance = (r.norm_squared() + soft).sqrt();
     let u = r / distance;
     let factor = 1.0 / (8.0 * PI * (1.0 + nu) * (1.0 - nu) * distance.powi(3));
-    dislocation((nu, 3.0), &u).map(|stress| stress * factor)
+    dislocation(nu, 3.0, &u).map(|stress| stress * factor)
 }
 
 /// The shape of the stress from a jump along each axis on the plane x = 0, in the direction `u`; β = 3 in space, 2 in
 /// the plane.
-fn dislocation((nu, beta): (f64, f64), u: &Vec3) -> [Matrix3<f64>; 3] {
+fn dislocation(nu: f64, beta: f64, u: &Vec3) -> [Matrix3<f64>; 3] {
     let n = Vec3::x();
     let gamma = beta + 2.0;
     let slope = u.x;
@@ -249,11 +245,7 @@ fn line(x: f64) -> f64 {
 }
 
 /// What curvature adds: for facets that lie along one another.
-fn of_curvature(
-    tube: &Curvature,
-    (seen, jumping): (&Facet, &Facet),
-    thickness: f64,
-) -> Matrix5<f64> {
+fn of_curvature(tube: &Curvature, seen: &Facet, jumping: &Facet, thickness: f64) -> Matrix5<f64> {
     let cosine = jumping.frame.column(0).dot(&seen.frame.column(0));
     let at = jumping.frame.tr_mul(&(seen.middle - jumping.middle));
     let away = at.norm().copysign(at.y);
@@ -263,13 +255,13 @@ fn of_curvature(
         .map(|length| 0.5 * length / 3.0_f64.sqrt());
     let mut sum = Matrix5::zeros();
     for off in [near, -near, far, -far] {
-        sum += tube.jump_influence((curvature, thickness), away + off);
+        sum += tube.jump_influence(curvature, thickness, away + off);
     }
     sum.row_mut(4).scale_mut(cosine.signum());
     sum * (0.25 * cosine * cosine * seen.length * jumping.length)
 }
 
-fn in_wall(nu: f64, (seen, jumping): (&Facet, &Facet), thickness: f64) -> Matrix5<f64> {
+fn in_wall(nu: f64, seen: &Facet, jumping: &Facet, thickness: f64) -> Matrix5<f64> {
     let turn = jumping.frame.tr_mul(&seen.frame);
     let at = jumping.frame.tr_mul(&(seen.middle - jumping.middle));
     let length = 0.5 * (seen.length + jumping.length);
@@ -306,7 +298,7 @@ fn in_wall(nu: f64, (seen, jumping): (&Facet, &Facet), thickness: f64) -> Matrix
     let squared = (at.norm_squared()).max(0.25 * length * length);
     let u = r.try_normalize(0.0).unwrap_or(Vec3::y());
     let plane = turn.column(0).into_owned();
-    let stress = dislocation((nu / (1.0 + nu), 2.0), &u);
+    let stress = dislocation(nu / (1.0 + nu), 2.0, &u);
     let work = -stretch * seen.length * jumping.length / squared;
     for (k, stress) in stress.iter().take(2).enumerate() {
         let traction = turn.tr_mul(&(stress * plane));

@@ -46,7 +46,8 @@ impl<T: Precision> Slit<T> {
     pub fn put(
         &self,
         response: &SurfaceResponse<T>,
-        (shares, spot): (impl Iterator<Item = Share>, Option<&Spot>),
+        shares: impl Iterator<Item = Share>,
+        spot: Option<&Spot>,
         load: &mut SlitLoad,
     ) {
         load.rows.clear();
@@ -134,8 +135,8 @@ impl<T: Precision> Slit<T> {
             std::iter::once(Share { triangle, weight })
         };
         let [one, other] = scratch;
-        self.put(response, (whole(moved), None), one);
-        self.put(response, (whole(loaded), None), other);
+        self.put(response, whole(moved), None, one);
+        self.put(response, whole(loaded), None, other);
         self.between(one, other)
     }
 

@@ -265,7 +265,7 @@ impl<T: Precision> Slit<T> {
                 column.copy_from_slice(values.as_slice());
             }
         }
-        let (block, ends) = kernel::own((self.poissons_ratio, &self.curvature), facet);
+        let (block, ends) = kernel::own(self.poissons_ratio, &self.curvature, facet);
         for (column, values) in columns[facet.rows()].iter_mut().zip(block.column_iter()) {
             column.copy_from_slice(values.as_slice());
         }

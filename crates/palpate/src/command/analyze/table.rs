@@ -20,7 +20,7 @@ pub(super) fn of(analyzed: &Analyzed) -> String {
         let name = name.unwrap_or("recordings without an organ");
         let _ = writeln!(text, "{}, all recordings", printable(name));
         for row in group.iter().flat_map(|group| &group.rows) {
-            let _ = of_row(&mut text, (row.depth_m, row.mean_n));
+            let _ = of_row(&mut text, row.depth_m, row.mean_n);
             if row.n > 1 {
                 let (least, most) = (1e3 * row.min_n, 1e3 * row.max_n);
                 let _ = write!(text, " ({least:.2} to {most:.2}, {} holds)", row.n);
@@ -34,7 +34,7 @@ pub(super) fn of(analyzed: &Analyzed) -> String {
 fn of_file(text: &mut String, read: &ReadRecording, found: &Analysis) -> std::fmt::Result {
     writeln!(text, "{}", printable(&read.path.display().to_string()))?;
     for hold in &found.holds {
-        of_row(text, (hold.depth_m, hold.steady_n))?;
+        of_row(text, hold.depth_m, hold.steady_n)?;
         writeln!(text)?;
     }
     if let Some(found) = &found.relaxation {
@@ -70,7 +70,7 @@ fn of_file(text: &mut String, read: &ReadRecording, found: &Analysis) -> std::fm
 }
 
 /// A steady force [N] at a depth [m].
-fn of_row(text: &mut String, (depth, force): (f64, f64)) -> std::fmt::Result {
+fn of_row(text: &mut String, depth: f64, force: f64) -> std::fmt::Result {
     let (depth, force) = (1e3 * depth, 1e3 * force);
     write!(text, "  steady      {depth:.2} mm: {force:.2} mN")
 }

@@ -66,7 +66,7 @@ fn place(plan: &Plan, place: usize) -> Place {
     let plan = plan.clone();
     let make = move |at_step: &mut dyn FnMut(f64)| -> Result<MadeRig, String> {
         let (specimen, warnings) = plan.specimen(place, at_step).map_err(|e| e.to_string())?;
-        let rig = plan.rig((specimen, place), Clock::real());
+        let rig = plan.rig(specimen, place, Clock::real());
         Ok(MadeRig {
             rig: rig.map_err(|error| error.to_string())?,
             warnings,

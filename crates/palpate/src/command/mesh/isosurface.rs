@@ -114,7 +114,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut surfaces = Vec::new();
     if let (Some(map), Some(wanted), Some(out)) = (&map, &arguments.label, &arguments.out) {
         let overwrite = Overwrite::of_option(arguments.overwrite);
-        let chosen = chosen(&labels, (wanted, &arguments.inside), (out, overwrite))?;
+        let chosen = chosen(&labels, wanted, &arguments.inside, out, overwrite)?;
         let count = chosen.surfaces.len() as f64;
         for (number, (label, out)) in chosen.surfaces.iter().enumerate() {
             progress.say(format!("the surface of {}", label::in_words(label)));
@@ -122,9 +122,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             let made = match number == 0 && !chosen.inside.is_empty() {
                 true => {
                     let whole = map.with_inside(label.number, &chosen.inside);
-                    surface(&whole, (label, out), arguments, &at)?
+                    surface(&whole, label, out, arguments, &at)?
                 }
-                false => surface(map, (label, out), arguments, &at)?,
+                false => surface(map, label, out, arguments, &at)?,
             };
             warnings.extend(label::warnings(label, &made.0));
             surfaces.push(made.1);
@@ -160,8 +160,10 @@ struct Chosen<'l> {
 /// The labels that are asked for, each with its file, which are for this program alone.
 fn chosen<'l>(
     labels: &'l [Label],
-    (wanted, inside): (&str, &[String]),
-    (out, overwrite): (&Path, Overwrite),
+    wanted: &str,
+    inside: &[String],
+    out: &Path,
+    overwrite: Overwrite,
 ) -> Result<Chosen<'l>, Failure> {
     if wanted == "all" {
         if !inside.is_empty() {
@@ -212,7 +214,8 @@ fn beside(out: &Path, name: &str) -> PathBuf {
 
 fn surface(
     map: &LabelMap,
-    (label, out): (&Label, &Path),
+    label: &Label,
+    out: &Path,
     arguments: &Arguments,
     at: &dyn Fn(f64),
 ) -> Result<(Isosurface, Surfaced), Failure> {

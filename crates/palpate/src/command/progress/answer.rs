@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use palpate_record::{CurvePoint, Measure, Spread, Standard};
 use serde::Serialize;
 
-use super::course::{LearningCurve, Learnt, Made, Trainee};
+use super::course::{JudgedAttempt, LearningCurve, Learnt, Trainee};
 use crate::date;
 use crate::output::VERSION;
 
@@ -119,7 +119,7 @@ fn trainee(course: &LearningCurve<'_>, trainee: &Trainee<'_>) -> TraineeAnswer {
     }
 }
 
-fn attempt(course: &LearningCurve<'_>, number: usize, made: &Made<'_>) -> AttemptAnswer {
+fn attempt(course: &LearningCurve<'_>, number: usize, made: &JudgedAttempt<'_>) -> AttemptAnswer {
     let own = made.attempt;
     let measures = own.measures.iter().map(|measure| MeasureAnswer {
         measure: measure.clone(),

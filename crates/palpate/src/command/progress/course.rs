@@ -33,14 +33,14 @@ pub(super) struct LearningCurve<'r> {
 #[derive(Debug)]
 pub(super) struct Trainee<'r> {
     pub(super) name: &'r str,
-    pub(super) attempts: Vec<Made<'r>>,
+    pub(super) attempts: Vec<JudgedAttempt<'r>>,
     /// The attempt with which they became proficient, counted from one.
     pub(super) proficient_since: Option<usize>,
 }
 
 /// An attempt beside the experts' standards.
 #[derive(Debug)]
-pub(super) struct Made<'r> {
+pub(super) struct JudgedAttempt<'r> {
     pub(super) attempt: &'r Attempt,
     pub(super) judgement: Judgement,
 }
@@ -81,11 +81,11 @@ impl<'r> LearningCurve<'r> {
         let names = distinct(made().map(|own| own.trainee.as_str()));
         let trainees = names.into_iter().map(|name| {
             let own = made().filter(|own| own.trainee == name);
-            let own = own.map(|attempt| Made {
+            let own = own.map(|attempt| JudgedAttempt {
                 judgement: standards.judge(attempt),
                 attempt,
             });
-            let attempts: Vec<Made<'_>> = own.collect();
+            let attempts: Vec<JudgedAttempt<'_>> = own.collect();
             let judgements: Vec<Judgement> =
                 attempts.iter().map(|own| own.judgement.clone()).collect();
             Trainee {
@@ -123,7 +123,7 @@ impl<'r> LearningCurve<'r> {
 
     /// A number over the experts' attempts.
     pub(super) fn of_experts(&self, of: Learnt) -> Option<Spread> {
-        let judged = self.experts.iter().map(|attempt| Made {
+        let judged = self.experts.iter().map(|attempt| JudgedAttempt {
             judgement: self.standards.judge(attempt),
             attempt,
         });
@@ -153,7 +153,7 @@ impl<'r> LearningCurve<'r> {
     }
 }
 
-impl Made<'_> {
+impl JudgedAttempt<'_> {
     /// A number of a learning curve, if there is such.
     pub(super) fn learnt(&self, of: Learnt) -> Option<f64> {
         match of {

@@ -2,7 +2,7 @@
 
 use palpate_files::text_cell;
 
-use super::course::{LearningCurve, Made};
+use super::course::{JudgedAttempt, LearningCurve};
 use crate::date;
 use crate::failure::Failure;
 
@@ -38,7 +38,7 @@ pub(super) fn csv(courses: &[LearningCurve<'_>]) -> Result<String, Failure> {
             .flat_map(|own| (1..).zip(&own.attempts));
         let made = made.map(|(number, own)| rows(course, number, own));
         let experts = course.experts.iter().map(|attempt| {
-            let own = Made {
+            let own = JudgedAttempt {
                 attempt,
                 judgement: course.standards.judge(attempt),
             };
@@ -58,7 +58,7 @@ pub(super) fn csv(courses: &[LearningCurve<'_>]) -> Result<String, Failure> {
 fn rows(
     course: &LearningCurve<'_>,
     number: usize,
-    made: &Made<'_>,
+    made: &JudgedAttempt<'_>,
 ) -> Vec<[String; COLUMNS.len()]> {
     let attempt = made.attempt;
     let truth = |is: Option<bool>| is.map_or_else(String::new, |is| is.to_string());

@@ -1,6 +1,6 @@
 //! `--report`: how trainees come along, as a page for people.
 
-use super::course::{LearningCurve, Made, Trainee};
+use super::course::{JudgedAttempt, LearningCurve, Trainee};
 use super::curves::{self, TRAINEES};
 use super::table::{NONE, proficient, shown, standing, truth, valued};
 use crate::date;
@@ -140,7 +140,7 @@ fn standing_of(course: &LearningCurve<'_>, trainee: &Trainee<'_>) -> String {
     }
 }
 
-fn row(trainee: &Trainee<'_>, number: usize, own: &Made<'_>) -> Vec<Markup> {
+fn row(trainee: &Trainee<'_>, number: usize, own: &JudgedAttempt<'_>) -> Vec<Markup> {
     vec![
         trainee.name.into(),
         number.to_string().into(),

@@ -5,7 +5,7 @@ use std::path::Path;
 use palpate_files::printable;
 use palpate_files::quantity::number;
 
-use super::course::{LearningCurve, Learnt, Made, Trainee};
+use super::course::{JudgedAttempt, LearningCurve, Learnt, Trainee};
 use crate::date;
 use crate::report::{count, quantity, unit};
 
@@ -89,7 +89,7 @@ fn attempts(trainee: &Trainee<'_>) -> Vec<Vec<String>> {
 }
 
 /// How many measures are proficient, of how many.
-pub(super) fn proficient(made: &Made<'_>) -> String {
+pub(super) fn proficient(made: &JudgedAttempt<'_>) -> String {
     match made.proficient() {
         (_, 0) => NONE.to_owned(),
         (proficient, told) => format!("{proficient} of {told}"),

@@ -4,7 +4,7 @@
 use palpate_record::Attempt;
 use serde_json::{Value, json};
 
-use super::course::{LearningCurve, Made};
+use super::course::{JudgedAttempt, LearningCurve};
 use crate::date;
 
 /// Before the names of what only this program defines.
@@ -17,7 +17,7 @@ pub(super) fn statements(courses: &[LearningCurve<'_>]) -> Vec<Value> {
     made.map(statement).collect()
 }
 
-fn statement(made: &Made<'_>) -> Value {
+fn statement(made: &JudgedAttempt<'_>) -> Value {
     let own = made.attempt;
     let (verb, word) = match own.passed {
         Some(true) => ("http://adlnet.gov/expapi/verbs/passed", "passed"),

@@ -16,14 +16,14 @@ pub(super) struct Pictures {
     /// The steps after which a picture is taken, the next one last.
     due: Vec<usize>,
     studio: Studio,
-    kept: Kept,
+    kept: Destination,
     files: Vec<PathBuf>,
     /// Until it is dropped nobody else writes there.
     _claims: Vec<Claim>,
 }
 
 /// Where pictures go.
-enum Kept {
+enum Destination {
     InFolder(PathBuf),
     InAnimation(PathBuf, Box<Animation>),
 }
@@ -47,7 +47,7 @@ impl Pictures {
         Ok(Self {
             due: due.rev().map(|step| step as usize).collect(),
             studio: Studio::new(scene, simulation, FRAME_SIZE)?,
-            kept: Kept::InFolder(folder.to_owned()),
+            kept: Destination::InFolder(folder.to_owned()),
             files: Vec::new(),
             _claims: vec![claim],
         })
@@ -75,7 +75,7 @@ impl Pictures {
         Ok(Self {
             due,
             studio: Studio::new(scene, simulation, ANIMATION_SIZE)?,
-            kept: Kept::InAnimation(file.to_owned(), animation),
+            kept: Destination::InAnimation(file.to_owned(), animation),
             files: Vec::new(),
             _claims: claims,
         })
@@ -86,12 +86,12 @@ impl Pictures {
         while self.due.pop_if(|step| *step < replay.played()).is_some() {
             let picture = self.studio.picture(replay.state())?;
             match &mut self.kept {
-                Kept::InFolder(folder) => {
+                Destination::InFolder(folder) => {
                     let path = folder.join(name(self.files.len() as u64));
                     palpate_files::write_whole(&path, &png(&picture)?)?;
                     self.files.push(path);
                 }
-                Kept::InAnimation(_, animation) => animation.add(&picture)?,
+                Destination::InAnimation(_, animation) => animation.add(&picture)?,
             }
         }
         Ok(())
@@ -99,7 +99,7 @@ impl Pictures {
 
     /// Writes what is not yet written; all files.
     pub(super) fn finish(mut self) -> Result<Vec<PathBuf>, Failure> {
-        if let Kept::InAnimation(path, animation) = self.kept {
+        if let Destination::InAnimation(path, animation) = self.kept {
             palpate_files::write_whole(&path, &animation.finish()?)?;
             self.files.push(path);
         }

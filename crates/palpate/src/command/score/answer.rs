@@ -34,8 +34,10 @@ struct TaskAnswer {
 
 impl Answer {
     pub(super) fn new(
-        (session, task): (&Path, &Task),
-        (score, compared): (&Score, &[Comparison]),
+        session: &Path,
+        task: &Task,
+        score: &Score,
+        compared: &[Comparison],
         warnings: Vec<String>,
     ) -> Self {
         let measures = score.measures().into_iter();

@@ -98,13 +98,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             trainee,
             is_expert: arguments.as_expert,
         };
-        warnings.extend(training::keep(&file, who, &folder, (&task, &score))?);
+        warnings.extend(training::keep(&file, who, &folder, &task, &score)?);
     }
-    let answer = Answer::new((&arguments.session, &task), (&score, &compared), warnings);
+    let answer = Answer::new(&arguments.session, &task, &score, &compared, warnings);
     if arguments.json {
         output::json(&answer)?;
     } else {
-        output::text(table::text(&task, (&score, &compared)))?;
+        output::text(table::text(&task, &score, &compared))?;
         output::warnings(&answer.warnings);
     }
     match arguments.trainee.is_some() && is_refused {

@@ -4,7 +4,7 @@ use palpate_files::scene::Task;
 use palpate_simulate::performance::{Comparison, Outcome, Score, outcome_words};
 
 /// The score for a person.
-pub(super) fn text(task: &Task, (score, compared): (&Score, &[Comparison])) -> String {
+pub(super) fn text(task: &Task, score: &Score, compared: &[Comparison]) -> String {
     let mut lines = Vec::new();
     if let Some(title) = &task.title {
         lines.push(printable(title).into_owned());

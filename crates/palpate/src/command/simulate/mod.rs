@@ -325,16 +325,16 @@ fn simulate(arguments: &Arguments, played: &Played<'_>, out: &Path) -> Result<Re
             let repeated = Repeated::read(path)?;
             let folder = claimed()?;
             let simulation = prepared()?;
-            let (motion, beside) = repeated.on((&scene, &simulation), arguments.at)?;
+            let (motion, beside) = repeated.on(&scene, &simulation, arguments.at)?;
             (motion, folder, simulation, Some(beside))
         }
     };
     let frames = match arguments.frames {
         0 => None,
         wanted => {
-            let frames = FrameWriter::new(&scene, &simulation, (out, wanted))?;
+            let frames = FrameWriter::new(&scene, &simulation, out, wanted)?;
             Some(match touched(&simulation, &motion) {
-                Some(place) => frames.facing((&scene, &simulation), &place),
+                Some(place) => frames.facing(&scene, &simulation, &place),
                 None => frames,
             })
         }

@@ -58,7 +58,8 @@ impl Repeated {
     /// The motion of the scene's first tool that repeats it near `at` [m], and what is compared.
     pub(super) fn on(
         self,
-        (scene, simulation): (&Scene, &Simulation),
+        scene: &Scene,
+        simulation: &Simulation,
         at: Option<[f64; 3]>,
     ) -> Result<(Motion, Beside), Failure> {
         let tool = &simulation.tools()[0];
@@ -80,7 +81,7 @@ impl Repeated {
         let time: Vec<f64> = time.iter().map(|t| t + handling.contact.time_s).collect();
         let motion = site.indented(tool, (&time, &depth))?;
         let recorded = [time, depth, filtered_force];
-        Ok((motion, Beside::new(self.file, recorded, (site, warnings))))
+        Ok((motion, Beside::new(self.file, recorded, site, warnings)))
     }
 
     /// What is said when the indenter was not the tip.

@@ -224,7 +224,7 @@ fn a_gain_of_energy_is_reported() {
                 } else {
                     &[]
                 };
-                hands.state = hands.state.with_nodules(&simulation, before).unwrap();
+                hands.state.set_nodules(&simulation, before).unwrap();
                 let force = hands.at(&(POLE - Vec3::z() * depth(step)), 0.0);
                 if step.abs() == 1 {
                     forces[usize::from(step > 0)] = force.z;

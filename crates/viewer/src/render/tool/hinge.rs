@@ -16,7 +16,7 @@ pub(super) const GAP: f64 = 0.0015;
 /// The fork in which jaws turn, with its pin.
 pub(super) fn corners(jaws: &JawSize, shaft: f64) -> Vec<[f32; 6]> {
     let at = jaws.length * Vec3::z();
-    let pin = Solid::disc(at, 0.0008, (-shaft - 1e-4, shaft + 1e-4));
+    let pin = Solid::disc(at, 0.0008, -shaft - 1e-4, shaft + 1e-4);
     let mut corners = pin.corners();
     for side in [1.0, -1.0] {
         corners.extend(prong(at, shaft, side).corners());

@@ -38,10 +38,10 @@ fn frame(jaws: &JawSize) -> Solid {
     let rings: Vec<Vec<Vec3>> = (0..WAY)
         .rev()
         .map(|k| {
-            let (center, out) = stadium(whole * k as f64 / WAY as f64, (turn, low, straight));
+            let (center, out) = stadium(whole * k as f64 / WAY as f64, turn, low, straight);
             let part = ((center.z - low) / straight).clamp(0.0, 1.0);
             let height = jaws.width * (0.24 + 0.14 * part);
-            section(center, out, (bar, height))
+            section(center, out, bar, height)
         })
         .collect();
     Solid::loop_of(&rings)
@@ -49,7 +49,7 @@ fn frame(jaws: &JawSize) -> Solid {
 
 /// A point of a way with two straight sides along z, so far along it [m], and the direction out of its
 /// window [-]: up the +y side, around the upper end, and down again.
-fn stadium(along: f64, (turn, low, straight): (f64, f64, f64)) -> (Vec3, Vec3) {
+fn stadium(along: f64, turn: f64, low: f64, straight: f64) -> (Vec3, Vec3) {
     let arc = PI * turn;
     if along < straight {
         return (Vec3::new(0.0, turn, low + along), Vec3::y());
@@ -69,7 +69,7 @@ fn stadium(along: f64, (turn, low, straight): (f64, f64, f64)) -> (Vec3, Vec3) {
 }
 
 /// The bar's section, `wide` across and `high` along x.
-fn section(center: Vec3, out: Vec3, (wide, high): (f64, f64)) -> Vec<Vec3> {
+fn section(center: Vec3, out: Vec3, wide: f64, high: f64) -> Vec<Vec3> {
     let round = (0..SECTION).map(|k| {
         let angle = PI * k as f64 / (SECTION - 1) as f64;
         let (sin, cos) = angle.sin_cos();
@@ -95,7 +95,7 @@ fn section(center: Vec3, out: Vec3, (wide, high): (f64, f64)) -> Vec<Vec3> {
 fn lug(jaws: &JawSize) -> Solid {
     let hinge = jaws.length * Vec3::z();
     let radius = 0.0018;
-    let disc = Solid::disc(hinge, radius, (3e-5, GAP - 5e-5));
+    let disc = Solid::disc(hinge, radius, 3e-5, GAP - 5e-5);
     let (low, high) = (root(jaws) - 0.35 * jaws.width, jaws.length + 0.4 * radius);
     let box_at = |z: f64, (left, right): (f64, f64), (inner, outer): (f64, f64)| {
         vec![

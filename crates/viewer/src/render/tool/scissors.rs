@@ -57,7 +57,7 @@ fn bow(bend: f64, part: f64) -> f64 {
 fn lug(jaws: &JawSize, bend: f64) -> Solid {
     let hinge = jaws.length * Vec3::z();
     let radius = 0.45 * jaws.width;
-    let disc = Solid::disc(hinge, radius, (2e-5, GAP - 5e-5));
+    let disc = Solid::disc(hinge, radius, 2e-5, GAP - 5e-5);
     let shank = |z: f64, (low, high): (f64, f64), thick: f64| {
         let aside = bow(bend, (z / jaws.length).min(1.0));
         vec![

@@ -38,7 +38,7 @@ impl Solid {
     }
 
     /// A disc of `radius` [m] about an axis along y, from `low` to `high` there [m].
-    pub(super) fn disc(center: Vec3, radius: f64, (low, high): (f64, f64)) -> Self {
+    pub(super) fn disc(center: Vec3, radius: f64, low: f64, high: f64) -> Self {
         const AROUND: usize = 28;
         let ring = |y: f64| -> Vec<Vec3> {
             let angles = (0..AROUND).map(|k| std::f64::consts::TAU * k as f64 / AROUND as f64);

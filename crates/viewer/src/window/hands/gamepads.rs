@@ -132,7 +132,7 @@ mod linux {
         let pads = pads.clone();
         let thread = std::thread::Builder::new().name("gamepad".to_owned());
         let _ = thread.spawn(move || {
-            read(device, (&path, &ranges), &pads);
+            read(device, &path, &ranges, &pads);
             // Nobody holds what is unplugged.
             if let Some(pads) = pads.upgrade() {
                 lock(&pads).retain(|own| own.path != path);
@@ -170,11 +170,7 @@ mod linux {
     }
 
     /// Reads until the gamepad is unplugged or nobody looks any more.
-    fn read(
-        mut device: Device,
-        (path, ranges): (&Path, &Ranges),
-        pads: &Weak<Mutex<Vec<Connected>>>,
-    ) {
+    fn read(mut device: Device, path: &Path, ranges: &Ranges, pads: &Weak<Mutex<Vec<Connected>>>) {
         while let Ok(events) = device.fetch_events() {
             let Some(pads) = pads.upgrade() else { return };
             let mut pads = lock(&pads);

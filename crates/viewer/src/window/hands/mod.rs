@@ -77,7 +77,7 @@ impl Drive {
 
 /// What a hand moves in.
 #[derive(Debug, Clone, Copy)]
-pub struct Room<'a> {
+pub struct HandContext<'a> {
     /// From where it is seen.
     pub camera: &'a Camera,
     /// Width of the picture over its height.
@@ -117,7 +117,13 @@ pub struct Hand {
 
 impl Hand {
     /// Moves it for `elapsed` [s]; `trocar` [m] is where its shaft passes.
-    pub fn drive(&mut self, drive: &Drive, elapsed: f64, trocar: Option<&Vec3>, room: &Room<'_>) {
+    pub fn drive(
+        &mut self,
+        drive: &Drive,
+        elapsed: f64,
+        trocar: Option<&Vec3>,
+        room: &HandContext<'_>,
+    ) {
         if drive.jaws {
             self.is_shut = !self.is_shut;
             // Open jaws stay where they are until the mouse moves.
@@ -147,7 +153,7 @@ impl Hand {
     }
 
     /// Takes over where a script has it.
-    pub fn show(&mut self, tool: &ShownTool, room: &Room<'_>) {
+    pub fn show(&mut self, tool: &ShownTool, room: &HandContext<'_>) {
         let (_, turned) = self.place.unwrap_or_else(|| begin(room));
         self.place = Some((tool.tip, turned));
         self.grip = tool.grip.max(f64::from(u8::from(tool.cuts)));
@@ -165,7 +171,7 @@ impl Hand {
 
     /// Moves shut jaws with the mouse: in the plane of the picture, and by the wheel along the line of sight.
     /// Without a pressed button they stay.
-    pub fn pull(&mut self, mouse: &Mouse, room: &Room<'_>) {
+    pub fn pull(&mut self, mouse: &Mouse, room: &HandContext<'_>) {
         let (Some((tip, turned)), true, Some(place)) = (self.place, mouse.pressed, mouse.place)
         else {
             // A pull goes on where the mouse has left the picture.
@@ -204,7 +210,7 @@ impl Hand {
 
     /// Puts it before a surface that the way from `trocar` [m] meets after `distance` [m] on its way to
     /// the middle of the organ.
-    pub fn wait(&mut self, trocar: &Vec3, distance: f64, room: &Room<'_>) {
+    pub fn wait(&mut self, trocar: &Vec3, distance: f64, room: &HandContext<'_>) {
         let Some(inward) = (room.middle.0 - trocar).try_normalize(1e-9) else {
             return;
         };
@@ -222,7 +228,7 @@ impl Hand {
 }
 
 /// Where a tool without a trocar is taken up: between the eye and the organ, its shaft up and to the right.
-fn begin(room: &Room<'_>) -> (Vec3, UnitQuaternion<f64>) {
+fn begin(room: &HandContext<'_>) -> (Vec3, UnitQuaternion<f64>) {
     let [right, up, back] = room.camera.axes();
     let (middle, size) = room.middle;
     let shaft: Vec3 = 0.5 * back + 0.6 * up + 0.4 * right;
@@ -230,7 +236,7 @@ fn begin(room: &Room<'_>) -> (Vec3, UnitQuaternion<f64>) {
     (middle + 0.55 * size * back, turned)
 }
 
-fn within(tip: Vec3, room: &Room<'_>) -> Vec3 {
+fn within(tip: Vec3, room: &HandContext<'_>) -> Vec3 {
     let (middle, size) = room.middle;
     let away = tip - middle;
     let far = FARTHEST * size;

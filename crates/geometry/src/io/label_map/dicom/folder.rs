@@ -41,7 +41,7 @@ pub struct DicomFolder {
 
 /// The images of a series that were seen.
 #[derive(Default)]
-struct Seen {
+struct SeriesImages {
     modality: String,
     images: usize,
     size: [usize; 2],
@@ -69,7 +69,7 @@ pub(super) fn read_here(path: &Path) -> Result<DicomFolder, ReadFault> {
     files.sort_unstable();
     let mut found = DicomFolder::default();
     // By the identifier of the series, which says nothing of a person.
-    let mut series: BTreeMap<String, Seen> = BTreeMap::new();
+    let mut series: BTreeMap<String, SeriesImages> = BTreeMap::new();
     for file in files {
         let object = has_magic(&file).then(|| {
             OpenFileOptions::new()
@@ -94,7 +94,7 @@ pub(super) fn read_here(path: &Path) -> Result<DicomFolder, ReadFault> {
             found.others += 1;
         }
     }
-    found.series = series.into_values().map(Seen::told).collect();
+    found.series = series.into_values().map(SeriesImages::told).collect();
     found
         .series
         .sort_by(|one, other| (&one.modality, other.images).cmp(&(&other.modality, one.images)));
@@ -135,7 +135,7 @@ fn has_magic(file: &Path) -> bool {
     read.is_ok() && is_dicom(&bytes)
 }
 
-impl Seen {
+impl SeriesImages {
     fn add(&mut self, values: &Values<'_>) {
         let frames = values.number(tags::NUMBER_OF_FRAMES).unwrap_or(1);
         self.images += usize::try_from(frames).unwrap_or(1).max(1);

@@ -56,7 +56,7 @@ pub(crate) fn solution(
     let solution = Solution {
         heading: heading(case, &inflated),
         tables: vec![table],
-        plot: plot::over_displacement(problem, case, (&inflated, drawn)),
+        plot: plot::over_displacement(problem, case, &inflated, drawn),
         warnings,
         figures: Figures::Tube(TubeFigures {
             pressure_pa: case.pressures.clone(),

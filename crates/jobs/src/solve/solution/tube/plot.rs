@@ -47,7 +47,8 @@ pub(crate) fn curve(
 pub(crate) fn over_displacement(
     problem: &Problem,
     case: &Tube,
-    (inflated, drawn): (&Inflated, Vec<(f64, f64)>),
+    inflated: &Inflated,
+    drawn: Vec<(f64, f64)>,
 ) -> Plot {
     let asked = inflated.inner_displacements.iter().zip(&case.pressures);
     let asked = asked.filter_map(|(moved, pressure)| Some((1e3 * (*moved)?, *pressure)));
@@ -102,13 +103,13 @@ fn endless_pressure(problem: &Problem, case: &Tube, moved: f64) -> f64 {
             let frame = FibreFrame::new(&Vec3::x(), &Vec3::z());
             let in_wall = frame.and_then(|frame| law.in_frame(&frame));
             let law = in_wall.as_ref().unwrap_or(law);
-            incompressible_pressure(law.as_ref(), (inner, outer), moved)
+            incompressible_pressure(law.as_ref(), inner, outer, moved)
         }
     }
 }
 
 /// p = ∫ (σ_θ − σ_r)/r dr over a wall of constant volume, by Simpson's rule over the radius at rest.
-fn incompressible_pressure(law: &dyn Law, (inner, outer): (f64, f64), moved: f64) -> f64 {
+fn incompressible_pressure(law: &dyn Law, inner: f64, outer: f64, moved: f64) -> f64 {
     let more = (inner + moved).powi(2) - inner * inner;
     let integrand = |rest: f64| {
         let now = (rest * rest + more).sqrt();

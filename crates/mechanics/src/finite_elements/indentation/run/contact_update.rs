@@ -21,7 +21,7 @@ const NO_SLIP: f64 = 1e-9;
 impl IndentationRun {
     /// Catches nodes that have entered the indenter, lets go those that pull, and lets nodes stick or slip; answers whether
     /// there was one. Fails when tissue went in too deep to know where it entered.
-    pub(super) fn settle(
+    pub(super) fn update_statuses(
         &self,
         (depth, state): (f64, &FiniteElementState),
         (touch, released): (&mut [ContactStatus], &mut [bool]),
@@ -69,9 +69,7 @@ impl IndentationRun {
                 *touch = ContactStatus::Free;
                 changed = true;
             } else if now.radius > 0.0
-                && let Some(next) = self
-                    .indenter
-                    .stick_or_slip(*touch, (now, force), tolerances)
+                && let Some(next) = self.indenter.stick_or_slip(*touch, now, force, tolerances)
             {
                 *touch = next;
                 changed = true;

@@ -104,7 +104,8 @@ impl IndentationRun {
     pub(super) fn note_places(
         &self,
         touch: &mut [ContactStatus],
-        (depth, state): (f64, &FiniteElementState),
+        depth: f64,
+        state: &FiniteElementState,
     ) {
         for (&node, touch) in self.top.iter().zip(touch) {
             if let ContactStatus::Sliding { slip, .. } = touch {

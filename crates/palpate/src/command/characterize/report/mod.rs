@@ -34,7 +34,7 @@ pub(super) fn html(
     };
     let each = answer.specimens.iter().zip(portraits).enumerate();
     let specimens: Markup = each
-        .map(|(place, (own, portrait))| specimen::section(place, (own, several), portrait))
+        .map(|(place, (own, portrait))| specimen::section(place, own, several, portrait))
         .collect();
     Page {
         lead: Markup::of_class("p", "lead", lead(answer)),

@@ -4,11 +4,7 @@ use palpate_jobs::characterize::Portrait;
 use palpate_jobs::characterize::{Identified, Known, Specimen};
 
 /// The section on one specimen, with its title if it is one of `several`.
-pub(super) fn section(
-    place: usize,
-    (own, several): (&Specimen, bool),
-    portrait: &Portrait,
-) -> Markup {
+pub(super) fn section(place: usize, own: &Specimen, several: bool, portrait: &Portrait) -> Markup {
     let files = own
         .files
         .iter()
