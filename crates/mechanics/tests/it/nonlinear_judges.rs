@@ -96,7 +96,8 @@ impl Moved {
     fn new(case: &Case, across: usize, moduli: Moduli<f64>) -> Self {
         let mesh = (case.mesh)(across);
         let all = vec![moduli; mesh.tetrahedra().len()];
-        let model = NonlinearModel::on_boundary(&mesh, &all, case.is_fixed).unwrap();
+        let model =
+            NonlinearModel::on_boundary(&mesh, &all, |_, place| (case.is_fixed)(place)).unwrap();
         let mut load = model.spread_load();
         let (place, normal, radius) = case.load;
         model.boundary().spread(&place, &normal, radius, &mut load);
@@ -111,7 +112,9 @@ impl Moved {
         (steps, iterations, more): (usize, usize, usize),
         places: &[Vec3],
     ) -> Vec<Instant> {
-        let carried = self.model.carried(places);
+        let carried = self
+            .model
+            .carried(places, 0..self.model.mesh().tetrahedra().len());
         let mut workspace = self.model.workspace(1);
         let pace = Pace {
             iterations,
