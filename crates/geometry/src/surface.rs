@@ -5,8 +5,8 @@ use crate::{Adjacency, MeshError, NodeId, TriangleMesh, Vec3};
 /// normals is less [-]: they turn by 50°.
 pub const SHARP_EDGE: f64 = 0.64;
 
-/// A mesh that bounds a solid: closed, manifold, oriented outward, in one piece, without triangles
-/// that have no area and without vertices that no triangle uses.
+/// A mesh that bounds a solid: closed, manifold, oriented outward, in one piece unless several were put
+/// [together](Self::together), without triangles that have no area and without vertices that no triangle uses.
 ///
 /// That it does not pass through itself is not checked here: the check takes seconds on a large
 /// organ (see [`crate::inspect`]), and nothing that takes a `Surface` breaks without it.
@@ -29,6 +29,27 @@ impl Surface {
         Ok(Self {
             mesh,
             adjacency,
+            vertex_normals,
+        })
+    }
+
+    /// Several bodies as one surface, in more than one piece: their vertices and triangles one body after the other.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn together(bodies: &[&Self]) -> Result<Self, MeshError> {
+        let (mut vertices, mut triangles, mut vertex_normals) = (vec![], vec![], vec![]);
+        for body in bodies {
+            let first = vertices.len() as u32;
+            vertices.extend_from_slice(body.mesh.vertices());
+            vertex_normals.extend_from_slice(&body.vertex_normals);
+            let own = body.mesh.triangles().iter();
+            triangles.extend(own.map(|corners| corners.map(|node| NodeId(node.0 + first))));
+        }
+        let mesh = TriangleMesh::new(vertices, triangles)?;
+        Ok(Self {
+            adjacency: Adjacency::new(&mesh),
+            mesh,
             vertex_normals,
         })
     }

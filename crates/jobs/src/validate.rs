@@ -128,6 +128,9 @@ fn scene(path: &Path) -> Result<Validated, Error> {
     }
     for neighbour in &scene.neighbours {
         palpate_simulate::read_neighbour(neighbour)?;
+        if let Some(soft) = &neighbour.soft {
+            palpate_simulate::read_tissue(&soft.tissue)?;
+        }
     }
     let organ = match &scene.organ.shape {
         Shape::Mesh { path, .. } => path.display().to_string(),

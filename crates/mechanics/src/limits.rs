@@ -28,6 +28,8 @@ pub enum Limit {
     Pace,
     /// Nonlinear model: points of the organ beside neighbours in a step [-], and those that it was solved with.
     NeighbourContacts,
+    /// Nonlinear model: how deep a point lies in another place of the body, without a force that pushes it out [m].
+    LostContact,
 }
 
 /// How far a bound changed an answer.
@@ -47,7 +49,7 @@ pub struct Limits {
 
 impl Limit {
     /// All of them, in the order in which they are told.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Curvature,
         Self::LocalStiffness,
         Self::LocalShearStiffness,
@@ -59,6 +61,7 @@ impl Limit {
         Self::Carried,
         Self::Pace,
         Self::NeighbourContacts,
+        Self::LostContact,
     ];
 }
 

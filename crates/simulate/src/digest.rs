@@ -40,13 +40,13 @@ pub(crate) struct SceneDigest {
 
 impl SceneDigest {
     /// `felt` are the tissues of layers and inclusions that are felt, `enclosed` the surfaces of inclusions, `neighbours` those at which tools stop, with their
-    /// stiffness [N/m].
+    /// stiffness [N/m], and those that bend.
     pub(crate) fn of<'a>(
         scene: &Scene,
         surface: &Surface,
         (tissue, felt): (&Tissue, &[Tissue]),
         enclosed: &[Surface],
-        neighbours: impl Iterator<Item = (&'a Surface, f64)>,
+        neighbours: impl Iterator<Item = (&'a Surface, Option<f64>)>,
     ) -> Self {
         let mut form = canonical(scene, tissue);
         felt.iter().for_each(|tissue| form.tissue(tissue));
@@ -60,7 +60,7 @@ impl SceneDigest {
         }
         for (body, stiffness) in neighbours {
             form.word("neighbour", &digits(of_surface(body)));
-            if stiffness != EARLIER_STIFFNESS {
+            if let Some(stiffness) = stiffness.filter(|own| *own != EARLIER_STIFFNESS) {
                 form.numbers("neighbour_stiffness_n_per_m", &[stiffness]);
             }
         }
@@ -155,6 +155,17 @@ fn canonical(scene: &Scene, tissue: &Tissue) -> Form {
         .inclusions
         .iter()
         .for_each(|inclusion| form.inclusion(&inclusion.place));
+    if scene.organ.self_contact {
+        form.numbers("self_friction", &[scene.organ.self_friction]);
+    }
+    for (soft, neighbour) in scene
+        .neighbours
+        .iter()
+        .filter_map(|own| Some((own.soft.as_ref()?, own)))
+    {
+        form.region("soft_anchor", soft.anchor.as_ref());
+        form.numbers("soft", &[soft.nodes as f64, neighbour.friction]);
+    }
     form
 }
 

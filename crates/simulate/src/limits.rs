@@ -134,8 +134,13 @@ fn sentence(limit: Limit, reached: &Reached, tool: &str, when: &str) -> String {
             1e3 * used
         ),
         Limit::NeighbourContacts => format!(
-            "while the tool {tool:?} moved the organ, {asked:.0} points of it lay beside neighbours, and the {used:.0} \
-             nearest were kept out of them {when}: set `model.nodes` lower, or fewer neighbours that collide"
+            "while the tool {tool:?} moved the organ, {asked:.0} points of it lay beside neighbours or itself, and the \
+             {used:.0} nearest were kept out of them {when}: set `model.nodes` lower, or fewer neighbours that collide"
+        ),
+        Limit::LostContact => format!(
+            "while the tool {tool:?} moved the organ, a part of it went {:.1} mm deep into a neighbour that bends or into \
+             itself, and nothing pushed it out there {when}: move slower, or set `model.nodes` higher",
+            1e3 * asked
         ),
         Limit::Carried => format!(
             "what the other tool moves the organ by under the tip {tool:?} was taken as {used:.2} of what it moves it by \

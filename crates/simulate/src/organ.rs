@@ -84,6 +84,13 @@ pub fn read_neighbour(neighbour: &Neighbour) -> Result<(Surface, Vec<String>), E
     Ok((Surface::new(mesh).map_err(misplaced)?, warnings))
 }
 
+/// A `place` of the scene [m] in the frame of a body that stands at `location`.
+pub(crate) fn back(location: &Location, place: &Vec3) -> Vec3 {
+    let [x, y, z] = location.turn_rad;
+    let turn = Rotation3::from_euler_angles(x, y, z);
+    turn.inverse() * (place - Vec3::from(location.at_m)) / location.scale
+}
+
 /// Where an organ of `shape` is held: as `stated`, or else where a built-in one grows.
 pub fn held_region(shape: &Shape, stated: Option<&Region>) -> Region {
     match (stated, shape) {

@@ -9,7 +9,7 @@ use crate::cutting::CuttingModel;
 use crate::digest::SceneDigest;
 use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin, surround};
 use crate::neighbour::Neighbour;
-use crate::nonlinear::{NonlinearOrgan, Regions};
+use crate::nonlinear::{NonlinearOrgan, Regions, SoftBody};
 use crate::preparation::tell;
 use crate::region_places::read_regions;
 use crate::tool::{Tool, settings, typical_radius};
@@ -87,6 +87,23 @@ impl Simulation {
             ModelKind::Local | ModelKind::Hybrid => None,
             ModelKind::Nonlinear => Some(Regions::new(scene, map, (&tissue, &material))?),
         };
+        let (mut soft, more) = match is_nonlinear {
+            true => SoftBody::all(scene)?,
+            false => Default::default(),
+        };
+        warnings.extend(more);
+        let organ_surface = surface;
+        let (surface, tree) = match &soft[..] {
+            [] => (organ_surface.clone(), tree),
+            bodies => {
+                let own = std::iter::once(&organ_surface);
+                let all: Vec<_> = own.chain(bodies.iter().map(|body| &body.surface)).collect();
+                let misplaced = |fault| Error::Misplaced { fault };
+                let surface = Surface::together(&all).map_err(misplaced)?;
+                let tree = AabbTree::new(surface.mesh());
+                (surface, tree)
+            }
+        };
         let touched = scene.tools.iter().map(|tool| match &regions {
             Some(regions) => regions.touched(typical_radius(&tool.tip)),
             None => Ok((tissue.clone(), material.clone())),
@@ -111,7 +128,9 @@ impl Simulation {
                 Some(global)
             }
         };
-        let felt: Vec<_> = regions.iter().flat_map(Regions::beside).cloned().collect();
+        let beside = regions.iter().flat_map(Regions::beside);
+        let bending = soft.iter().map(|body| &body.tissue.tissue);
+        let felt: Vec<_> = beside.chain(bending).cloned().collect();
         let surface_material = regions
             .as_ref()
             .map(|regions| regions.at_surface().material.clone());
@@ -130,12 +149,20 @@ impl Simulation {
                     .to_owned(),
             });
         }
+        for body in &mut soft {
+            let at_step = &mut |part| {
+                let work = Work::ForceOverDepth;
+                // It cannot be cancelled, and takes seconds.
+                let _ = watch(Progress { work, part });
+            };
+            warnings.extend(body.meet(&tools, at_step)?);
+        }
         let nonlinear = match regions {
             None => None,
             Some(regions) => {
                 tell(watch, Work::Tetrahedra)?;
-                let (organ, more) =
-                    NonlinearOrgan::new(scene, (&surface, &tree), regions, &neighbours)?;
+                let (shown, organ) = ((&surface, &tree), (&organ_surface, regions));
+                let (organ, more) = NonlinearOrgan::new(scene, shown, organ, &soft, &neighbours)?;
                 warnings.extend(more);
                 Some(organ)
             }
@@ -174,6 +201,12 @@ impl Simulation {
                     .to_owned(),
             );
         }
+        if scene.organ.self_contact && nonlinear.is_none() {
+            warnings.push(
+                "only the nonlinear model has parts that touch; `organ.self_contact` changes nothing here"
+                    .to_owned(),
+            );
+        }
         if !scene.organ.inclusions.is_empty() && nonlinear.is_none() {
             warnings.push(
                 "only the nonlinear model feels inclusions; this one answers as if there were none"
@@ -181,15 +214,16 @@ impl Simulation {
             );
         }
         Ok(Self {
-            organ_radius: radius_of_hemisphere(&surface),
+            organ_radius: radius_of_hemisphere(&organ_surface),
             scene_digest: SceneDigest::of(
                 scene,
-                &surface,
+                &organ_surface,
                 (&tissue, &felt),
                 &enclosed,
                 neighbours
                     .iter()
-                    .map(|body| (&body.surface, body.stiffness)),
+                    .map(|body| (&body.surface, Some(body.stiffness)))
+                    .chain(soft.iter().map(|body| (&body.surface, None))),
             ),
             seed: scene.variant.as_ref().map_or(0, |own| own.seed),
             step: scene.model.step_s,

@@ -65,6 +65,7 @@ impl Studio {
         let neighbours = scene
             .neighbours
             .iter()
+            .filter(|neighbour| neighbour.soft.is_none())
             .map(|neighbour| {
                 let (surface, _) = read_neighbour(neighbour)?;
                 let tint = Tint::of(&neighbour.shape).receding();

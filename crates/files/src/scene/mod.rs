@@ -26,12 +26,13 @@ pub use draw::{Drawn, Draws, FindOnSurface, LARGEST_SEED, OnSurface, SurfacePoin
 pub use goal::{Goal, SoughtSize, TouchGoal};
 pub use inclusion::{Inclusion, InclusionPlace, InclusionShape};
 pub use jaws::Jaws;
+use model::Asked;
 pub use model::{Enhancement, LocalSettings, Model};
 pub use model_words::{
     Assembly, Calibration, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind,
     Placement, ResponseMethod, Smoothing, Solver,
 };
-pub use organ::{Layer, Location, Neighbour, Nodule, Organ};
+pub use organ::{Layer, Location, Neighbour, Nodule, Organ, SoftNeighbour};
 pub use region::{Region, RegionBox, RegionPlane, RegionSphere};
 pub use shape::{BuiltinOrgan, LengthUnit, Shape};
 pub use standing_alone::standing_alone;
@@ -51,7 +52,7 @@ pub struct Scene {
     pub folder: PathBuf,
     /// The organ that is touched.
     pub organ: Organ,
-    /// What is shown around it and not deformed.
+    /// What is around it.
     pub neighbours: Vec<Neighbour>,
     /// How the organ is moved.
     pub model: Model,
@@ -80,7 +81,7 @@ impl Scene {
         Key::tables(
             "neighbour",
             Neighbour::KEYS,
-            "Rigid bodies that are shown with the organ.",
+            "Bodies that are shown with the organ: rigid ones, and those that bend.",
         )
         .optional("", "none"),
         Key::table("model", Model::KEYS, "How the organ is moved.").optional("", "the defaults of its keys"),
@@ -138,11 +139,26 @@ impl Scene {
         let tools = tool::from_keys(&keys, &folder)?;
         let cutting = keys.table("cutting")?;
         let model = keys.table("model")?;
-        let model = Model::from_keys(model.as_ref(), &touched, &tools, cutting.is_some())?;
-        let neighbours: Vec<Neighbour> = neighbours
-            .iter()
+        let bodies = neighbours.iter();
+        let around: Vec<Neighbour> = bodies
             .map(|keys| Neighbour::from_keys(keys, &folder))
             .collect::<Result<_, _>>()?;
+        let does = Asked {
+            cuts: cutting.is_some(),
+            bends: touched.self_contact || around.iter().any(|body| body.soft.is_some()),
+        };
+        let model = Model::from_keys(model.as_ref(), &touched, &tools, does)?;
+        if model.kind != ModelKind::Nonlinear {
+            for keys in &neighbours {
+                if let Some(key) = organ::tissue_key(keys) {
+                    keys.refuse(
+                        key,
+                        "nothing, for only `model.kind = \"nonlinear\"` bends a neighbour",
+                    )?;
+                }
+            }
+        }
+        let neighbours = around;
         if let Some(draws) = &draws {
             draws.check_neighbours(neighbours.len())?;
         }

@@ -127,15 +127,27 @@ const CHOICE_MEANINGS: &[Word] = &[
     ),
 ];
 
+/// What else a scene asks of its model.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Asked {
+    /// Whether it has a table on cutting.
+    pub(super) cuts: bool,
+    /// Whether neighbours bend, or the organ touches itself.
+    pub(super) bends: bool,
+}
+
 /// The least model that answers what these tools do, and why.
-fn choose(organ: &Organ, tools: &[Tool], cuts: bool) -> (ModelKind, &'static str) {
+fn choose(organ: &Organ, tools: &[Tool], asked: Asked) -> (ModelKind, &'static str) {
     let any = |kinds: &[ToolKind]| tools.iter().any(|tool| kinds.contains(&tool.kind));
     let is_held = organ.anchor.is_some() || matches!(organ.shape, Shape::Builtin { .. });
     if !is_held {
         let reason = "the scene does not say where its mesh is fixed (organ.anchor)";
         return (ModelKind::Local, reason);
     }
-    if cuts || any(&[ToolKind::Scissors, ToolKind::Hook]) || !organ.layers.is_empty() {
+    if asked.bends {
+        let reason = "it alone has bodies that bend and touch";
+        (ModelKind::Nonlinear, reason)
+    } else if asked.cuts || any(&[ToolKind::Scissors, ToolKind::Hook]) || !organ.layers.is_empty() {
         (ModelKind::Hybrid, "a cut changes its forces alone")
     } else if any(&[ToolKind::Grasper]) {
         let reason = "a grasper pulls and lifts, and it alone is right at large deformation";
@@ -234,12 +246,12 @@ impl Model {
         .default("1.0"),
     ];
 
-    /// The model of a scene whose organ, tools and `cuts` decide what `auto` takes.
+    /// The model of a scene whose organ, tools and what else is `asked` decide what `auto` takes.
     pub(super) fn from_keys(
         keys: Option<&Keys<'_>>,
         organ: &Organ,
         tools: &[Tool],
-        cuts: bool,
+        asked: Asked,
     ) -> Result<Self, Error> {
         let default = Self::default();
         let Some(keys) = keys else {
@@ -252,7 +264,7 @@ impl Model {
             None => (default.kind, None),
             Some(Some(kind)) => (kind, None),
             Some(None) => {
-                let (kind, reason) = choose(organ, tools, cuts);
+                let (kind, reason) = choose(organ, tools, asked);
                 (kind, Some(reason))
             }
         };

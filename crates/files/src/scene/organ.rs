@@ -2,10 +2,13 @@ use std::ops::Bound::{Excluded, Included};
 use std::path::Path;
 
 use super::{Inclusion, Region, Shape, TissueChoice};
-use crate::{Domain, Error, Event, Key, Keys};
+use crate::{BuiltinTissue, Domain, Error, Event, Key, Keys, Tissue};
 
 /// Stiffness of a rigid body under a tip [N/m].
 const RIGID_STIFFNESS: f64 = 1000.0;
+
+/// Nodes of a neighbour that bends, about.
+const SOFT_NODES: usize = 500;
 
 /// The organ that is touched.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +28,10 @@ pub struct Organ {
     pub inclusions: Vec<Inclusion>,
     /// Stiff balls in it.
     pub nodules: Vec<Nodule>,
+    /// Whether its parts stay out of one another, with the nonlinear model.
+    pub self_contact: bool,
+    /// Coulomb's coefficient between them [-].
+    pub self_friction: f64,
 }
 
 /// A ball of stiffer tissue in an organ, such as a tumour.
@@ -55,7 +62,7 @@ pub struct Layer {
     pub toughness_j_per_m2: Option<f64>,
 }
 
-/// A body that is shown beside the organ and not deformed.
+/// A body beside the organ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Neighbour {
     /// Its surface.
@@ -66,8 +73,21 @@ pub struct Neighbour {
     pub collides: bool,
     /// Coulomb's coefficient between it and an organ of the nonlinear model [-].
     pub friction: f64,
-    /// The force on a tip per depth in it [N/m].
+    /// The force on a tip per depth in it [N/m], if it is rigid.
     pub stiffness_n_per_m: f64,
+    /// What it is made of, if it bends.
+    pub soft: Option<SoftNeighbour>,
+}
+
+/// What a neighbour is made of that bends with the organ of a nonlinear model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SoftNeighbour {
+    /// Its tissue.
+    pub tissue: TissueChoice,
+    /// Where it is held, in the scene; none for the attachment of a built-in organ, which stands where it does.
+    pub anchor: Option<Region>,
+    /// About how many nodes carry its mechanics.
+    pub nodes: usize,
 }
 
 /// Where a body stands in the scene: each of its points is scaled about the body's own origin, turned about
@@ -129,6 +149,17 @@ impl Organ {
             "Balls of stiffer tissue, whose answer the local and the hybrid model estimate.",
         )
         .optional("", "none"),
+        Key::truth(
+            "self_contact",
+            "Nonlinear model: whether its parts stay out of one another where it folds or closes.",
+        )
+        .default("false"),
+        Key::number(
+            "self_friction",
+            Domain::FRICTION,
+            "Coulomb's coefficient between its parts, with `self_contact`.",
+        )
+        .default("0.0"),
     ];
 
     pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
@@ -143,6 +174,8 @@ impl Organ {
         let nodules = keys.tables("nodule")?;
         let inclusions = keys.tables("inclusion")?;
         Ok(Self {
+            self_contact: keys.truth("self_contact")?.unwrap_or(false),
+            self_friction: keys.number("self_friction")?.unwrap_or(0.0),
             nodules: nodules
                 .iter()
                 .map(Nodule::from_keys)
@@ -251,10 +284,37 @@ impl Neighbour {
             "Whether it stops the tips of tools and an organ of the nonlinear model.",
         )
         .default("false"),
+        Key::path_or_table(
+            "tissue",
+            Tissue::KEYS,
+            "Nonlinear model: what it is made of, a tissue file or a table with a tissue's keys. It then bends, is touched as \
+             the organ is, and stays out of it.",
+        )
+        .optional("\"tissue.toml\"", "it is rigid, unless `builtin_tissue` names one"),
+        Key::word(
+            "builtin_tissue",
+            BuiltinTissue::MEANINGS,
+            "The same, of a tissue that comes with the program.",
+        )
+        .optional("\"pig-liver\"", "it is rigid, unless `tissue` says what it is made of"),
+        Key::table(
+            "anchor",
+            Region::KEYS,
+            "Where it is held, if it bends: its surface in one of these regions of the scene.",
+        )
+        .optional("", "the attachment of a built-in organ"),
+        // As for `model.nodes`.
+        Key::integer(
+            "nodes",
+            200,
+            6_000,
+            "About how many nodes carry its mechanics, if it bends.",
+        )
+        .default("500"),
         Key::number(
             "friction",
             Domain::FRICTION,
-            "Coulomb's coefficient between it and an organ of the nonlinear model, if it collides.",
+            "Coulomb's coefficient between it and an organ of the nonlinear model, if it collides or bends.",
         )
         .default("0.0"),
         // What a loop at 1 kHz displays without trembling on the devices of `docs/devices.md`.
@@ -277,6 +337,50 @@ impl Neighbour {
             collides: keys.truth("collides")?.unwrap_or(false),
             friction: keys.number("friction")?.unwrap_or(0.0),
             stiffness_n_per_m: keys.number("stiffness_n_per_m")?.unwrap_or(RIGID_STIFFNESS),
+            soft: SoftNeighbour::from_keys(keys, folder)?,
         })
     }
+}
+
+impl SoftNeighbour {
+    /// None of a neighbour without a tissue.
+    fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Option<Self>, Error> {
+        if tissue_key(keys).is_none() {
+            for key in ["anchor", "nodes"] {
+                keys.refuse(key, "nothing, for a neighbour without `tissue` is rigid")?;
+            }
+            return Ok(None);
+        }
+        if keys.truth("collides")? == Some(true) {
+            return Err(keys.bad(
+                "collides",
+                "nothing, for a neighbour with `tissue` bends, and is touched anyhow",
+            ));
+        }
+        let anchor = keys.table("anchor")?;
+        let anchor = anchor.map(|keys| Region::from_keys(&keys)).transpose()?;
+        let is_held = anchor.as_ref().is_some_and(|region| !region.is_empty());
+        if keys.contains("mesh") && !is_held {
+            return Err(keys.missing(
+                "anchor",
+                "fixed regions, with `planes`, `boxes` or `spheres`, for a neighbour that bends has to be held somewhere",
+            ));
+        }
+        let nodes = keys
+            .integer("nodes")?
+            .map_or(SOFT_NODES, |number| number as usize);
+        let tissue = TissueChoice::from_keys(keys, folder)?;
+        Ok(Some(Self {
+            tissue,
+            anchor,
+            nodes,
+        }))
+    }
+}
+
+/// The key that says what a neighbour is made of.
+pub(super) fn tissue_key(keys: &Keys<'_>) -> Option<&'static str> {
+    ["tissue", "builtin_tissue"]
+        .into_iter()
+        .find(|key| keys.contains(key))
 }

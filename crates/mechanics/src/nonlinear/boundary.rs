@@ -37,6 +37,8 @@ struct BoundaryFace {
     extent: f64,
     /// Its area along its outward normal [m²].
     area: Vec3,
+    /// Which of the connected parts of the body it belongs to.
+    piece: u32,
 }
 
 /// A load that is spread over the boundary around a place.
@@ -64,6 +66,7 @@ impl Boundary {
             vec![0.0; mesh.vertices().len()],
             vec![0_u32; mesh.vertices().len()],
         );
+        let pieces = pieces(mesh);
         let faces = numbers.iter().map(|&Face { corners, nodes, .. }| {
             let places = corners.map(|node| mesh.vertices()[node.index()]);
             let [a, b, c] = places;
@@ -82,6 +85,7 @@ impl Boundary {
                     .map(|corner| (corner - centroid).norm())
                     .fold(0.0, f64::max),
                 area,
+                piece: pieces[corners[0].index()],
             }
         });
         let faces = faces.collect();
@@ -104,7 +108,7 @@ impl Boundary {
         nodes
     }
 
-    /// Spreads a load around `place` [m], on what faces as `normal` [-] does: (1 − (r/R)²)² with R no less than `radius`
+    /// Spreads a load around `place` [m], on what is one piece with the nearest face and faces as `normal` [-] does: (1 − (r/R)²)² with R no less than `radius`
     /// [m] nor than the faces resolve.
     pub fn spread(&self, place: &Vec3, normal: &Vec3, radius: f64, load: &mut SpreadLoad) {
         let nearest = self.tree.nearest(&self.mesh, place);
@@ -119,7 +123,8 @@ impl Boundary {
         load.normal = *normal;
         let square = load.radius * load.radius;
         let mut all = 0.0;
-        for face in &self.faces {
+        let piece = self.faces[nearest.triangle.index()].piece;
+        for face in self.faces.iter().filter(|face| face.piece == piece) {
             let facing = face.area.dot(normal);
             let apart = (face.centroid - place).norm();
             if facing <= 0.0 || apart > load.radius + face.extent {
@@ -192,6 +197,26 @@ impl SpreadLoad {
         let mean = MEAN_INVERSE_DISTANCE / (self.radius * PI * law.youngs_modulus());
         [(1.0 + nu) * (1.0 - 0.5 * nu) * mean, (1.0 - nu * nu) * mean]
     }
+}
+
+/// Which connected part of the body each vertex belongs to, as the number of one of its vertices.
+fn pieces(mesh: &TetrahedronMesh) -> Vec<u32> {
+    fn root(pieces: &mut [u32], vertex: u32) -> u32 {
+        let mut at = vertex;
+        while pieces[at as usize] != at {
+            pieces[at as usize] = pieces[pieces[at as usize] as usize];
+            at = pieces[at as usize];
+        }
+        at
+    }
+    let mut pieces: Vec<u32> = (0..mesh.vertices().len() as u32).collect();
+    for [from, to] in mesh.edges() {
+        let [one, other] = [from, to].map(|vertex| root(&mut pieces, vertex.0));
+        pieces[one.max(other) as usize] = one.min(other);
+    }
+    (0..pieces.len() as u32)
+        .map(|vertex| root(&mut pieces, vertex))
+        .collect()
 }
 
 /// Shape functions of the six nodes of a face, at barycentric coordinates.

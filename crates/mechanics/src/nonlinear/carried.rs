@@ -1,5 +1,7 @@
 //! Points that a body carries: those of the surface that is seen.
 
+use std::ops::Range;
+
 use palpate_geometry::TetrahedronMesh;
 
 use super::elements::NODES;
@@ -7,17 +9,22 @@ use crate::Vec3;
 use crate::finite_elements::ElementKind;
 
 /// Points with the element that each belongs to.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct CarriedPoints {
     points: Vec<([u32; NODES], [f32; NODES])>,
 }
 
 impl CarriedPoints {
-    /// `elements` are the nodes of the quadratic tetrahedra of `mesh`. A point outside goes with the tetrahedron whose
+    /// `elements` are the nodes of the quadratic tetrahedra of `mesh`, of which those of `range` carry the `points`. A point outside goes with the tetrahedron whose
     /// smallest barycentric coordinate there is the largest, as the point of it does whose coordinates are cut off at zero:
     /// quadratic functions grow fast outside.
-    pub(super) fn new(mesh: &TetrahedronMesh, elements: &[u32], points: &[Vec3]) -> Self {
-        let frames: Vec<_> = (0..mesh.tetrahedra().len())
+    pub(super) fn new(
+        mesh: &TetrahedronMesh,
+        elements: &[u32],
+        (points, range): (&[Vec3], Range<usize>),
+    ) -> Self {
+        let frames: Vec<_> = range
+            .clone()
             .map(|t| {
                 let [a, b, c, d] = mesh.positions(t);
                 let edges = nalgebra::Matrix3::from_columns(&[b - a, c - a, d - a]);
@@ -27,7 +34,7 @@ impl CarriedPoints {
             .collect();
         let points = points.iter().map(|point| {
             let (mut best, mut found) = (f64::NEG_INFINITY, (0, [0.0; 3]));
-            for (number, (corner, inverse)) in frames.iter().enumerate() {
+            for (number, (corner, inverse)) in range.clone().zip(&frames) {
                 let [x, y, z]: [f64; 3] = (inverse * (point - corner)).into();
                 let least = (1.0 - x - y - z).min(x).min(y).min(z);
                 if least > best {
@@ -47,6 +54,11 @@ impl CarriedPoints {
         Self {
             points: points.collect(),
         }
+    }
+
+    /// Carries the points of `other` as well, after its own.
+    pub fn extend(&mut self, other: Self) {
+        self.points.extend(other.points);
     }
 
     /// How many there are.

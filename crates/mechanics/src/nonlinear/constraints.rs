@@ -59,7 +59,7 @@ pub(super) struct Constraints {
     pub(super) known: Vec<f64>,
     /// Forces in the rows that slide [N]; zero in the others.
     pub(super) slid: Vec<f64>,
-    pub(super) remembered: Vec<(u32, Rubbed)>,
+    pub(super) remembered: Vec<(usize, Rubbed)>,
     /// The contacts that have columns of Z, and these; three values a node [m/N].
     with_columns: Vec<usize>,
     columns: Vec<f32>,
@@ -132,11 +132,9 @@ impl Constraints {
             }
             *self.problem.at(row, row) += contact.compliance;
             self.force[row] = if number < self.contacts.normals() {
-                state.pressed[contact.point as usize]
+                state.pressed[contact.slot]
             } else {
-                contact
-                    .normal
-                    .dot(&state.rubbed[contact.point as usize].force)
+                contact.normal.dot(&state.rubbed[contact.slot].force)
             };
         }
         self.begin_kinds(state);
@@ -286,7 +284,7 @@ impl Constraints {
         let columns = self.columns.chunks_exact_mut(size);
         for (column, &number) in columns.zip(&self.with_columns) {
             let contact = &self.contacts.listed[number];
-            influence(body, &contact.nodes, &[contact.normal], column);
+            influence(body, contact.nodes(), &[contact.normal], column);
         }
     }
 

@@ -1,10 +1,13 @@
-//! Rigid bodies that the boundary stays out of, with Coulomb's friction.
+//! Bodies that the boundary stays out of, with Coulomb's friction.
 //!
 //! Three points of each face, those of a quadrature, stay out of half-spaces, through a small compliance c of their own:
 //!
 //! ```text
 //! g = n · u + o + c λ,   λ ≥ 0, g ≥ 0, λ g = 0
 //! ```
+//!
+//! The half-space stands still, or goes with another place of the boundary ([`super::touching`]): then u is the displacement
+//! of the point less that of the place, which bears −λ.
 //!
 //! A point that bears and sticks keeps its anchor a, through the same compliance; the force τ along the surface stays
 //! within the cone, and the anchor goes along where it slides:
@@ -31,6 +34,7 @@ pub const MOST_CONTACTS: usize = 192;
 /// Points of a face in barycentric coordinates: one of these, and two of the other [-].
 const NEAR: f64 = 2.0 / 3.0;
 const FAR: f64 = 1.0 / 6.0;
+pub(super) const AT: [[f64; 3]; 3] = [[NEAR, FAR, FAR], [FAR, NEAR, FAR], [FAR, FAR, NEAR]];
 
 /// c times the area over 1/E, in lengths of an edge [-]: a point that bears a tenth of E is that part of a tenth of an edge deep.
 const SOFTNESS: f64 = 0.005;
@@ -38,15 +42,16 @@ const SOFTNESS: f64 = 0.005;
 /// Directions of a contact with friction.
 pub(super) const ROWS: usize = 3;
 
-/// Nodes of a point.
-const NODES: usize = 6;
+/// Nodes of a point or a place of a face, and of both.
+pub(super) const NODES: usize = 6;
+const MOST_NODES: usize = 2 * NODES;
 const NOWHERE: u32 = u32::MAX;
 
-/// A point of the boundary that may bear on rigid bodies.
+/// A point of the boundary that may bear on bodies.
 #[derive(Debug, Clone)]
 pub struct BoundaryPoint {
     /// With their weights [-].
-    nodes: [(u32, f64); NODES],
+    pub(super) nodes: [(u32, f64); NODES],
     /// Where it is at rest [m].
     pub place: Vec3,
     /// c [m/N].
@@ -64,6 +69,8 @@ pub struct UnilateralContact {
     pub offset: f64,
     /// Coulomb's coefficient μ [-].
     pub friction: f64,
+    /// The place of the boundary that the half-space goes with, as nodes with their weights [-]; none where it stands still.
+    pub against: Option<[(u32, f64); NODES]>,
 }
 
 /// What a point of the boundary remembers of the friction on it.
@@ -71,7 +78,8 @@ pub struct UnilateralContact {
 pub(super) struct Rubbed {
     /// Force along the surface, on the body [N].
     pub(super) force: Vec3,
-    /// The displacement of the point at which it would bear none [m].
+    /// The displacement of the point at which it would bear none [m]; against a place of the boundary, less the
+    /// displacement itself.
     pub(super) anchor: Vec3,
     pub(super) slides: bool,
 }
@@ -84,7 +92,7 @@ impl BoundaryPoint {
             let area = 0.5 * (b - a).cross(&(c - a)).norm() / 3.0;
             let Moduli { c10, c01, .. } = moduli[face.tetrahedron];
             let compliance = SOFTNESS * edge / (6.0 * (c10 + c01) * area);
-            for at in [[NEAR, FAR, FAR], [FAR, NEAR, FAR], [FAR, FAR, NEAR]] {
+            for at in AT {
                 let ([u, v, w], weights) = (at, shape_on_face(at));
                 points.push(Self {
                     nodes: std::array::from_fn(|k| (face.nodes[k] as u32, weights[k])),
@@ -137,18 +145,47 @@ pub(super) struct Rub {
 /// One of them, with the force λ along `normal`: that of the half-space, or a direction along it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Contact {
-    pub(super) point: u32,
+    /// Where a state remembers it.
+    pub(super) slot: usize,
     /// c [m/N].
     pub(super) compliance: f64,
-    pub(super) nodes: [(u32, f64); NODES],
+    nodes: [(u32, f64); MOST_NODES],
+    /// Whether the half-space goes with a place of the boundary, whose nodes are the second half.
+    pub(super) is_between: bool,
     pub(super) normal: Vec3,
     offset: f64,
 }
 
 impl Contact {
+    fn new(model: &NonlinearModel, contact: &UnilateralContact) -> Self {
+        let points = model.boundary_points();
+        let point = &points[contact.point as usize];
+        let mut nodes = [(0, 0.0); MOST_NODES];
+        nodes[..NODES].copy_from_slice(&point.nodes);
+        let opposite = contact.against.iter().flatten();
+        for (own, &(node, weight)) in nodes[NODES..].iter_mut().zip(opposite) {
+            *own = (node, -weight);
+        }
+        let is_between = contact.against.is_some();
+        Self {
+            slot: contact.point as usize + if is_between { points.len() } else { 0 },
+            compliance: point.compliance,
+            nodes,
+            is_between,
+            normal: contact.normal,
+            offset: contact.offset,
+        }
+    }
+
+    /// With their weights [-].
+    pub(super) fn nodes(&self) -> &[(u32, f64)] {
+        let count = if self.is_between { MOST_NODES } else { NODES };
+        &self.nodes[..count]
+    }
+
     /// Along the normal, of `values` on all nodes.
     pub(super) fn along(&self, values: &[f32]) -> f64 {
-        let along = self.nodes.iter().map(|&(node, weight)| {
+        let along = self.nodes().iter().map(|&(node, weight)| {
             let value = &values[3 * node as usize..][..3];
             let along = value.iter().zip(self.normal.iter());
             weight * along.map(|(u, n)| f64::from(*u) * n).sum::<f64>()
@@ -161,14 +198,23 @@ impl Contact {
         self.offset + self.normal.dot(&self.displacement(displacements))
     }
 
-    /// Where the point is displaced to [m].
+    /// How far the point is displaced [m]; against a place of the boundary, how much farther than that.
     pub(super) fn displacement(&self, displacements: &[f64]) -> Vec3 {
-        mean(&self.nodes, displacements)
+        mean(self.nodes(), displacements)
+    }
+
+    /// The displacement at which the point would bear no friction [m].
+    fn anchor(&self, state: &NonlinearState) -> Vec3 {
+        let known = state.rubbed[self.slot].anchor;
+        match self.is_between {
+            true => self.displacement(&state.displacements) + known,
+            false => known,
+        }
     }
 
     /// Adds a `force` [N] on the body to the forces on all nodes.
     pub(super) fn add(&self, force: f64, forces: &mut [f32]) {
-        for &(node, weight) in &self.nodes {
+        for &(node, weight) in self.nodes() {
             let own = &mut forces[3 * node as usize..][..3];
             for (own, n) in own.iter_mut().zip(self.normal.iter()) {
                 *own += (force * weight * n) as f32;
@@ -190,9 +236,9 @@ impl Contacts {
         Self {
             listed: Vec::with_capacity(ROWS * MOST_CONTACTS),
             rubs: Vec::with_capacity(MOST_CONTACTS),
-            nodes: Vec::with_capacity(NODES * MOST_CONTACTS),
+            nodes: Vec::with_capacity(MOST_NODES * MOST_CONTACTS),
             places: vec![NOWHERE; nodes],
-            columns: Vec::with_capacity(NODES * MOST_CONTACTS * ROWS * MOST_CONTACTS),
+            columns: Vec::with_capacity(MOST_NODES * MOST_CONTACTS * ROWS * MOST_CONTACTS),
         }
     }
 
@@ -212,27 +258,19 @@ impl Contacts {
         self.listed.clear();
         self.rubs.clear();
         let contacts = &contacts[..contacts.len().min(MOST_CONTACTS)];
-        self.listed.extend(contacts.iter().map(|contact| {
-            let point = &model.boundary_points()[contact.point as usize];
-            Contact {
-                point: contact.point,
-                compliance: point.compliance,
-                nodes: point.nodes,
-                normal: contact.normal,
-                offset: contact.offset,
-            }
-        }));
+        let listed = contacts.iter().map(|contact| Contact::new(model, contact));
+        self.listed.extend(listed);
         for (normal, contact) in contacts.iter().enumerate() {
-            let bears = state.pressed[contact.point as usize] > 0.0;
+            let own = self.listed[normal];
+            let bears = state.pressed[own.slot] > 0.0;
             if bears && contact.friction > 0.0 {
                 let along = self.listed.len();
-                let rubbed = &state.rubbed[contact.point as usize];
+                let anchor = own.anchor(state);
                 let [first, second] = tangents(&contact.normal);
                 for direction in [first, second] {
-                    let own = self.listed[normal];
                     self.listed.push(Contact {
                         normal: direction,
-                        offset: -direction.dot(&rubbed.anchor),
+                        offset: -direction.dot(&anchor),
                         ..own
                     });
                 }
@@ -246,7 +284,7 @@ impl Contacts {
         for node in self.nodes.drain(..) {
             self.places[node as usize] = NOWHERE;
         }
-        for (node, _) in self.listed.iter().flat_map(|own| own.nodes) {
+        for &(node, _) in self.listed.iter().flat_map(Contact::nodes) {
             let place = &mut self.places[node as usize];
             if *place == NOWHERE {
                 *place = self.nodes.len() as u32;
@@ -263,7 +301,7 @@ impl Contacts {
             let first = self.columns.len();
             self.columns.resize(first + self.nodes.len(), [0.0; 3]);
             let columns = &mut self.columns[first..];
-            for &(node, weight) in &own.nodes {
+            for &(node, weight) in own.nodes() {
                 let Some(place) = model.loaded[node as usize] else {
                     continue;
                 };
@@ -292,7 +330,7 @@ impl Contacts {
     pub(super) fn shared(&self, to: usize, from: usize) -> f64 {
         let columns = &self.columns[from * self.nodes.len()..];
         let own = &self.listed[to];
-        let along = own.nodes.iter().map(|&(node, weight)| {
+        let along = own.nodes().iter().map(|&(node, weight)| {
             let column = &columns[self.places[node as usize] as usize];
             let along = column.iter().zip(own.normal.iter());
             weight * along.map(|(u, n)| f64::from(*u) * n).sum::<f64>()

@@ -9,6 +9,7 @@ use super::complementarity::Kind;
 use super::constraints::Constraints;
 use super::contact::{Rub, Rubbed};
 use super::state::NonlinearState;
+use crate::Vec3;
 
 /// Problems of complementarity to solve: a few are the rule.
 const MOST_TRIALS: usize = 12;
@@ -30,8 +31,8 @@ impl Constraints {
         kinds[..tools].fill(Kind::Bilateral);
         kinds[tools..tools + normals].fill(Kind::Unilateral);
         for rub in &self.contacts.rubs {
-            let point = self.contacts.listed[rub.normal].point as usize;
-            let kind = match state.rubbed[point].slides {
+            let slot = self.contacts.listed[rub.normal].slot;
+            let kind = match state.rubbed[slot].slides {
                 true => Kind::Open,
                 false => Kind::Bilateral,
             };
@@ -166,7 +167,10 @@ impl Constraints {
         for (number, contact) in normals.iter().enumerate() {
             if self.force[tools + number] > 0.0 {
                 let begun = Rubbed {
-                    anchor: contact.displacement(&state.displacements),
+                    anchor: match contact.is_between {
+                        false => contact.displacement(&state.displacements),
+                        true => Vec3::zeros(),
+                    },
                     ..Rubbed::default()
                 };
                 let mut rubs = self.contacts.rubs.iter();
@@ -174,16 +178,16 @@ impl Constraints {
                     Some(rub) => self.rubbed(rub, state),
                     None => begun,
                 };
-                self.remembered.push((contact.point, rubbed));
+                self.remembered.push((contact.slot, rubbed));
             }
         }
         state.pressed.fill(0.0);
         for (contact, force) in normals.iter().zip(&self.force[tools..]) {
-            state.pressed[contact.point as usize] = *force;
+            state.pressed[contact.slot] = *force;
         }
         state.rubbed.fill(Rubbed::default());
-        for (point, rubbed) in self.remembered.drain(..) {
-            state.rubbed[point as usize] = rubbed;
+        for (slot, rubbed) in self.remembered.drain(..) {
+            state.rubbed[slot] = rubbed;
         }
     }
 
@@ -192,9 +196,15 @@ impl Constraints {
         let [first, second] = [0, 1].map(|k| &self.contacts.listed[rub.along + k]);
         let force = first.normal * self.force[along] + second.normal * self.force[along + 1];
         let slides = self.problem.kinds[along] == Kind::Open;
-        let anchor = match slides {
-            true => first.displacement(&state.displacements) + first.compliance * force,
-            false => state.rubbed[first.point as usize].anchor,
+        let lag = first.compliance * force;
+        let anchor = match (first.is_between, slides) {
+            (false, true) => first.displacement(&state.displacements) + lag,
+            (false, false) => state.rubbed[first.slot].anchor,
+            (true, true) => lag,
+            (true, false) => {
+                let lags = [first, second].map(|own| own.normal * -own.gap(&state.displacements));
+                lags[0] + lags[1]
+            }
         };
         Rubbed {
             force,

@@ -38,6 +38,8 @@ mod state;
 mod step;
 #[cfg(test)]
 mod tests;
+mod touching;
+mod touching_search;
 
 pub use boundary::{Boundary, SpreadLoad};
 pub use carried::CarriedPoints;
@@ -48,3 +50,5 @@ pub use law::Moduli;
 pub use model::{MOST_INFLUENCE_BYTES, NonlinearModel};
 pub use state::NonlinearState;
 pub use step::{Advance, Pace, Workspace, advance};
+pub use touching::TouchingBoundary;
+pub use touching_search::TouchingSearch;

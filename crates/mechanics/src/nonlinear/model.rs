@@ -1,10 +1,12 @@
+use std::ops::Range;
+
 use nalgebra::Matrix3;
 use palpate_geometry::TetrahedronMesh;
 
 use super::boundary::{Boundary, SpreadLoad};
 use super::carried::CarriedPoints;
 use super::contact::BoundaryPoint;
-use super::elements::Pack;
+use super::elements::{NODES, Pack};
 use super::law::Moduli;
 use super::relaxation::Relaxation;
 use super::rest::{Influence, RestFactors};
@@ -114,21 +116,27 @@ impl NonlinearModel {
         })
     }
 
-    /// As [`Self::new`], held where the boundary is and `is_fixed` says so; tools may act on all of the boundary.
+    /// As [`Self::new`], held where the boundary is and `is_fixed` says so of a place [m] of a tetrahedron; tools may act on
+    /// all of the boundary.
     ///
     /// # Errors
     /// As [`Self::new`].
     pub fn on_boundary(
         mesh: &TetrahedronMesh,
         moduli: &[Moduli<f64>],
-        is_fixed: impl Fn(&Vec3) -> bool,
+        is_fixed: impl Fn(usize, &Vec3) -> bool,
     ) -> Result<Self, Error> {
         let nodes = Boundary::new(mesh)?.nodes();
+        let ElementMesh { elements, .. } = ElementMesh::from_tetrahedra(mesh);
+        let mut owners = vec![0; elements.iter().max().map_or(0, |most| *most as usize + 1)];
+        for (place, node) in elements.iter().enumerate() {
+            owners[*node as usize] = place / NODES;
+        }
         let is_on = |node: usize| nodes.binary_search(&(node as u32)).is_ok();
         Self::new(
             mesh,
             moduli,
-            |node, place| is_on(node) && is_fixed(place),
+            |node, place| is_on(node) && is_fixed(owners[node], place),
             |node, _| is_on(node),
         )
     }
@@ -172,9 +180,9 @@ impl NonlinearModel {
         SpreadLoad::with_room(self.nodes.len())
     }
 
-    /// The `points` [m], to be carried along.
-    pub fn carried(&self, points: &[Vec3]) -> CarriedPoints {
-        CarriedPoints::new(&self.mesh, &self.elements, points)
+    /// The `points` [m], to be carried along by the tetrahedra of a range.
+    pub fn carried(&self, points: &[Vec3], tetrahedra: Range<usize>) -> CarriedPoints {
+        CarriedPoints::new(&self.mesh, &self.elements, (points, tetrahedra))
     }
 
     /// What a force on the weighted mean of `nodes` moves it by [m/N], by the factors of the stiffness at rest, turned as

@@ -25,7 +25,7 @@ pub struct NonlinearState {
     /// Rotations of the nodes in the last step, each column by column [-].
     pub(super) rotations: Vec<[f32; 9]>,
     pub(super) tools: Vec<ToolMemory>,
-    /// Force of the contact at each point of the boundary [N].
+    /// Force of the contact at each point of the boundary with what stands still [N], then with the boundary itself.
     pub(super) pressed: Vec<f64>,
     pub(super) rubbed: Vec<Rubbed>,
     /// Stress at the integration points in the past; none where nothing relaxes.
@@ -61,8 +61,8 @@ impl NonlinearState {
             is_smooth: true,
             rotations: vec![UNTURNED; nodes],
             tools: vec![tool; tools],
-            pressed: vec![0.0; model.boundary_points().len()],
-            rubbed: vec![Rubbed::default(); model.boundary_points().len()],
+            pressed: vec![0.0; 2 * model.boundary_points().len()],
+            rubbed: vec![Rubbed::default(); 2 * model.boundary_points().len()],
             stress: model
                 .relaxation
                 .as_ref()
@@ -179,7 +179,7 @@ impl NonlinearState {
         self.fades == 0 && self.largest(model) <= most
     }
 
-    /// Force of the contact at a point of the boundary [N], along its normal.
+    /// Force of the contact at a point of the boundary with what stands still [N], along its normal.
     ///
     /// # Panics
     /// When there is no such point.
@@ -187,12 +187,35 @@ impl NonlinearState {
         self.pressed[point as usize]
     }
 
-    /// Force of friction at a point of the boundary [N], on the body.
+    /// The same with another place of the boundary, which bears as much the other way.
+    ///
+    /// # Panics
+    /// When there is no such point.
+    pub fn force_between(&self, point: u32) -> f64 {
+        self.pressed[self.pressed.len() / 2 + point as usize]
+    }
+
+    /// Force of friction at a point of the boundary against what stands still [N], on the body.
     ///
     /// # Panics
     /// When there is no such point.
     pub fn friction_force(&self, point: u32) -> Vec3 {
         self.rubbed[point as usize].force
+    }
+
+    /// The same against another place of the boundary, on the point.
+    ///
+    /// # Panics
+    /// When there is no such point.
+    pub fn friction_between(&self, point: u32) -> Vec3 {
+        self.rubbed[self.rubbed.len() / 2 + point as usize].force
+    }
+
+    /// Whether any place of the boundary bears on another.
+    pub fn touches_itself(&self) -> bool {
+        self.pressed[self.pressed.len() / 2..]
+            .iter()
+            .any(|force| *force > 0.0)
     }
 
     /// Force of a tool on the body [N].

@@ -42,6 +42,7 @@ mod nonlinear_friction;
 mod nonlinear_judges;
 mod nonlinear_regions;
 mod nonlinear_relaxation;
+mod nonlinear_touching;
 mod orders;
 mod patch_on_hemisphere;
 mod path;

@@ -81,6 +81,7 @@ impl Pressed {
                     normal,
                     offset: distance - normal.dot(&moved),
                     friction: 0.0,
+                    against: None,
                 })
             })
             .collect()

@@ -67,6 +67,7 @@ impl Block {
                 normal: -Vec3::z(),
                 offset: HEIGHT - depth - point.place.z,
                 friction: self.friction,
+                against: None,
             })
             .collect()
     }

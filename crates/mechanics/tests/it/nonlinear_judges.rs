@@ -120,7 +120,9 @@ impl Moved {
         (steps, iterations, more): (usize, usize, usize),
         places: &[Vec3],
     ) -> Vec<Instant> {
-        let carried = self.model.carried(places);
+        let carried = self
+            .model
+            .carried(places, 0..self.model.mesh().tetrahedra().len());
         let mut workspace = self.model.workspace(1);
         let pace = Pace {
             iterations,

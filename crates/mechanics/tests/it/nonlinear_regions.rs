@@ -97,7 +97,7 @@ fn found(cells: [usize; 3], c10: &Tissue, way: Vec3) -> Vec3 {
             Moduli::mixed(parts)
         })
         .collect();
-    let model = NonlinearModel::on_boundary(&mesh, &moduli, base).unwrap();
+    let model = NonlinearModel::on_boundary(&mesh, &moduli, |_, place| base(place)).unwrap();
     let load = load(&model);
     let mut state = NonlinearState::at_rest(&model, 1);
     let mut workspace = model.workspace(1);
@@ -190,7 +190,7 @@ fn parts_of_a_column_are_in_series() {
             }))
         })
         .collect();
-    let model = NonlinearModel::on_boundary(&mesh, &all, base).unwrap();
+    let model = NonlinearModel::on_boundary(&mesh, &all, |_, place| base(place)).unwrap();
     // Far wider than the block, so that its weights are even.
     let mut load = model.spread_load();
     let top = Vec3::new(0.5 * SIZE[0], 0.5 * SIZE[1], SIZE[2]);

@@ -113,6 +113,11 @@ const ALL: &[Example] = &[
         "a grasper pulls it"
     ),
     example!(
+        "esophagus/beside.toml",
+        "esophagus/beside.toml",
+        "the esophagus beside a body that bends: for pull.csv"
+    ),
+    example!(
         "tasks/palpation.toml",
         "tasks/palpation.toml",
         "a task: find the lump"

@@ -1,5 +1,6 @@
 //! Jaws that take hold of the organ as it is now.
 
+use super::soft::Piece;
 use super::target::Now;
 use super::touch::carry_back_anew;
 use super::{Body, NonlinearOrgan, REACH_IN_RADII, jaws_radius};
@@ -34,13 +35,14 @@ impl NonlinearOrgan {
         let Some(body) = &mut state.body else {
             return false;
         };
-        let Body { loads, .. } = body;
+        let Body { loads, on, .. } = body;
+        on[number] = Piece::with(&self.pieces, contact.place.triangle.0);
         let (point, frame) = (contact.point(), contact.place.frame);
         let reach = REACH_IN_RADII * radius;
         let boundary = self.model.boundary();
         boundary.spread(&point, &contact.rest_normal(), reach, &mut loads[number]);
         let now = Now::of(self, body, number);
-        let Some(compliance) = self.of_jaws(tool, (&frame, &now)) else {
+        let Some(compliance) = self.of_jaws((tool, body.on[number]), (&frame, &now)) else {
             return false;
         };
         let offset = -(compliance * now.force);

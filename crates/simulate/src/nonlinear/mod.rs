@@ -17,9 +17,9 @@
 //!
 //! Layers and inclusions are tissues of their own elements (`regions`).
 //!
-//! Neighbours that collide keep the organ out (`neighbours`).
+//! Neighbours that collide keep the organ out (`neighbours`); those that bend are pieces of the body (`soft`).
 //!
-//! *Limits*: quasi-static; of tools, only tips and jaws touch the organ, and it does not touch itself. A body that is nearly incompressible is taken with a Poisson's ratio of 0.49.
+//! *Limits*: quasi-static; of tools, only tips and jaws touch the organ. A body that is nearly incompressible is taken with a Poisson's ratio of 0.49.
 //!
 //! [`TipField`]: palpate_mechanics::surface_response::TipField
 
@@ -27,12 +27,15 @@ mod hold;
 mod neighbours;
 mod regions;
 mod shape;
+mod soft;
 mod target;
 mod touch;
 
 use neighbours::{Candidates, Skin};
 use regions::Elements;
 pub(crate) use regions::Regions;
+pub(crate) use soft::SoftBody;
+use soft::{Merged, Piece, touching};
 pub(crate) use touch::Moved;
 
 use nalgebra::Rotation3;
@@ -41,10 +44,10 @@ use palpate_geometry::{
     AabbTree, FillSettings, NodeId, Surface, TetrahedronError, TetrahedronMesh, TriangleMesh, Vec3,
     coarsen, fill, refine_to,
 };
+use palpate_mechanics::ForceHistory;
 use palpate_mechanics::nonlinear::{
-    CarriedPoints, NonlinearModel, NonlinearState, SpreadLoad, Workspace,
+    CarriedPoints, NonlinearModel, NonlinearState, SpreadLoad, TouchingBoundary, Workspace,
 };
-use palpate_mechanics::{ForceHistory, LinearElastic};
 
 use crate::grip::Swept;
 use crate::neighbour::Neighbour;
@@ -76,10 +79,12 @@ const REACH_IN_RADII: f64 = 1.7;
 pub(crate) struct NonlinearOrgan {
     pub(crate) model: NonlinearModel,
     regions: Regions,
-    /// The tissue at the surface at rest.
-    law: LinearElastic,
+    /// The organ, then the neighbours that bend.
+    pieces: Vec<Piece>,
     shown: CarriedPoints,
     skin: Skin,
+    /// How they touch one another, if anything does.
+    touching: Option<TouchingBoundary>,
     /// The shown surface as the organ hangs under its weight, if it has any.
     hangs: Option<(TriangleMesh, AabbTree)>,
     iterations: usize,
@@ -95,6 +100,8 @@ pub(crate) struct Body {
     is_at_rest: bool,
     /// Per tool.
     loads: Vec<SpreadLoad>,
+    /// Which piece each tool touched last.
+    on: Vec<usize>,
     /// Which tools act on it; those that have let go, for so many steps more at most.
     is_loaded: Vec<bool>,
     lets_go: Vec<u32>,
@@ -114,29 +121,49 @@ pub(crate) struct NonlinearWorkspace {
 }
 
 impl NonlinearOrgan {
-    /// That of the organ of `scene` and its tissues, which is seen as `shown` beside its `neighbours`; with warnings.
+    /// That of the organ of `scene` with this surface and its tissues, and of the neighbours that bend, `soft`, which are seen
+    /// together as `shown` beside its rigid `neighbours`; with warnings.
     pub(crate) fn new(
         scene: &Scene,
         (shown, tree): (&Surface, &AabbTree),
-        regions: Regions,
+        (surface, regions): (&Surface, Regions),
+        soft: &[SoftBody],
         neighbours: &[Neighbour],
     ) -> Result<(Self, Vec<String>), Error> {
-        let mesh = tetrahedra(shown, scene.model.nodes.unwrap_or(NODES), &regions)?;
+        let organ = tetrahedra(surface, scene.model.nodes.unwrap_or(NODES), &regions)?;
+        let mut series = regions.series();
+        let own = regions.of_elements(&organ);
+        let filled = soft.iter().map(|body| plain(&body.surface, body.nodes));
+        let merged = Merged::new(organ, filled.collect::<Result<_, _>>()?)?;
         let Elements {
             moduli,
             numbers,
             densities,
             mut warnings,
-        } = regions.of_elements(&mesh);
+        } = merged.elements(own, series.len(), soft);
+        series.extend(soft.iter().map(|body| body.tissue.material.prony.clone()));
         warnings.extend(regions.warnings.iter().cloned());
         let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
-        let mut model =
-            NonlinearModel::on_boundary(&mesh, &moduli, |place| anchor.holds((*place).into()))?
-                .relaxing(&regions.series(), &numbers)?;
+        let is_held = |tetrahedron: usize, place: &Vec3| {
+            let number = merged.pieces[tetrahedron].checked_sub(1);
+            match number {
+                None => anchor.holds((*place).into()),
+                Some(number) => soft[number as usize].holds(place),
+            }
+        };
+        let mut model = NonlinearModel::on_boundary(&merged.mesh, &moduli, is_held)?
+            .relaxing(&series, &numbers)?;
         if let Some(gravity) = scene.model.gravity_m_per_s2 {
             model = model.under_gravity(&densities, &gravity.into())?;
         }
-        let carried = model.carried(shown.mesh().vertices());
+        let mut carried = CarriedPoints::default();
+        let mut vertices = shown.mesh().vertices();
+        let surfaces = std::iter::once(surface).chain(soft.iter().map(|body| &body.surface));
+        for (surface, range) in surfaces.zip(&merged.ranges) {
+            let (own, others) = vertices.split_at(surface.mesh().vertices().len());
+            carried.extend(model.carried(own, range.clone()));
+            vertices = others;
+        }
         let hangs = scene.model.gravity_m_per_s2.map(|_| {
             let rest = NonlinearState::at_rest(&model, 0);
             let mut mesh = shown.mesh().clone();
@@ -148,16 +175,21 @@ impl NonlinearOrgan {
             (mesh, tree)
         });
         let (low, high) = shown.mesh().bounds();
+        let ratios = soft
+            .iter()
+            .map(|body| body.tissue.at_rest().poissons_ratio());
+        let ratio = ratios.fold(regions.largest_ratio(), f64::max);
         let organ = Self {
             size: (high - low).norm(),
             shown: carried,
             skin: Skin::new(&model, (shown, tree), neighbours),
             hangs,
-            iterations: match regions.largest_ratio() < NEARLY_INCOMPRESSIBLE {
+            iterations: match ratio < NEARLY_INCOMPRESSIBLE {
                 true => ITERATIONS.0,
                 false => ITERATIONS.1,
             },
-            law: *regions.at_rest(),
+            pieces: Piece::all((surface, regions.at_rest()), soft),
+            touching: touching(scene, &model, (&merged, soft))?,
             regions,
             model,
         };
@@ -175,6 +207,7 @@ impl NonlinearOrgan {
             state: NonlinearState::at_rest(&self.model, tools),
             is_at_rest: true,
             loads: vec![self.model.spread_load(); tools],
+            on: vec![0; tools],
             is_loaded: vec![false; tools],
             lets_go: vec![0; tools],
             histories: vec![ForceHistory::default(); tools],
@@ -186,7 +219,7 @@ impl NonlinearOrgan {
         NonlinearWorkspace {
             solver: self.model.workspace(tools),
             targets: vec![None; tools],
-            candidates: Candidates::new(&self.model, self.skin.neighbours()),
+            candidates: Candidates::new(self),
             shown: vec![Vec3::zeros(); self.shown.len()],
         }
     }
@@ -235,6 +268,13 @@ fn has_topology_of(surface: &Surface, filling: &TetrahedronMesh) -> bool {
     filling
         .boundary_surface()
         .is_ok_and(|boundary| euler(&boundary) == euler(surface))
+}
+
+/// About so many nodes in the body of one tissue within `surface`.
+fn plain(surface: &Surface, nodes: usize) -> Result<TetrahedronMesh, Error> {
+    let filling = filled(surface, TETRAHEDRA_PER_NODE * nodes);
+    let mesh = filling.and_then(|fine| coarsen(&fine, nodes, surface.mesh().volume(), |_| 1.0));
+    mesh.map_err(|error| palpate_mechanics::Error::from(error).into())
 }
 
 /// About so many nodes in the body within `surface`: a filling that has all of its walls, made coarser, finer at inclusions.

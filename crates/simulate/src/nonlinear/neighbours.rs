@@ -1,4 +1,4 @@
-//! Neighbours that the organ stays out of: rigid bodies, with Coulomb's friction.
+//! Neighbours that the organ stays out of, with Coulomb's friction: rigid bodies, and with them what bends (`soft`).
 //!
 //! Each point of the boundary keeps the distance that it has from a neighbour at rest, as far as it lies within it there:
 //! where an organ grows through a neighbour, nothing pushes it out.
@@ -7,10 +7,11 @@
 
 use palpate_geometry::{AabbTree, Surface, Vec3};
 use palpate_mechanics::nonlinear::{
-    BoundaryPoint, MOST_CONTACTS, NonlinearModel, NonlinearState, UnilateralContact,
+    MOST_CONTACTS, NonlinearModel, NonlinearState, TouchingSearch, UnilateralContact,
 };
 use palpate_mechanics::{Limit, Reached};
 
+use super::NonlinearOrgan;
 use crate::neighbour::Neighbour;
 use crate::state::ToolState;
 
@@ -73,31 +74,46 @@ pub(super) struct Candidates {
     pub(super) contacts: Vec<UnilateralContact>,
     /// Such points beyond those that a step takes.
     left_out: usize,
+    touching: Option<TouchingSearch>,
+    /// How deep a point lies in the body itself that nothing pushes out any more [m].
+    lost: f64,
 }
 
 impl Candidates {
-    pub(super) fn new(model: &NonlinearModel, neighbours: usize) -> Self {
+    pub(super) fn new(organ: &NonlinearOrgan) -> Self {
+        let points = organ.model.boundary_points().len();
         let unknown = Known {
             place: Vec3::zeros(),
             distance: f64::NEG_INFINITY,
         };
-        let count = neighbours * model.boundary_points().len();
+        let count = organ.skin.neighbours() * points;
+        let touching = organ.touching.as_ref().map(TouchingSearch::new);
+        let beside = if touching.is_some() { points } else { 0 };
         Self {
             known: vec![unknown; count],
-            found: Vec::with_capacity(count),
+            found: Vec::with_capacity(count + beside),
             contacts: Vec::with_capacity(MOST_CONTACTS),
             left_out: 0,
+            touching,
+            lost: 0.0,
         }
     }
 
     /// Finds them where the body is in `state`; those that are deepest if a step cannot take all.
     pub(super) fn find(
         &mut self,
-        (points, neighbours): (&[BoundaryPoint], &[Neighbour]),
-        skin: &Skin,
+        organ: &NonlinearOrgan,
+        neighbours: &[Neighbour],
         state: &NonlinearState,
     ) {
+        let (points, skin) = (organ.model.boundary_points(), &organ.skin);
         self.found.clear();
+        if let (Some(search), Some(boundary)) = (&mut self.touching, &organ.touching) {
+            let found = &mut self.found;
+            self.lost = search.find(boundary, (&organ.model, state), |gap, contact| {
+                found.push((gap, contact));
+            });
+        }
         let bodies = neighbours.iter().zip(&skin.overlaps);
         for ((neighbour, overlap), known) in bodies.zip(self.known.chunks_mut(points.len())) {
             for (number, (point, known)) in points.iter().zip(known).enumerate() {
@@ -118,6 +134,7 @@ impl Candidates {
                         normal,
                         offset: gap - normal.dot(&moved),
                         friction: neighbour.friction,
+                        against: None,
                     };
                     self.found.push((gap, contact));
                 }
@@ -142,6 +159,13 @@ impl Candidates {
                 used: MOST_CONTACTS as f64,
             };
             tool.limited.add(Limit::NeighbourContacts, reached);
+        }
+        if self.lost > 0.0 {
+            let reached = Reached {
+                asked: self.lost,
+                used: 0.0,
+            };
+            tool.limited.add(Limit::LostContact, reached);
         }
     }
 }

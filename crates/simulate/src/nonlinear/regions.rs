@@ -233,7 +233,17 @@ impl Regions {
 }
 
 impl RegionTissue {
-    fn read(choice: &TissueChoice, warnings: &mut Vec<String>) -> Result<Self, Error> {
+    /// As the elements take it.
+    pub(super) fn moduli(&self) -> &Moduli<f64> {
+        &self.moduli
+    }
+
+    /// At rest, as the elements take it.
+    pub(super) fn at_rest(&self) -> &LinearElastic {
+        &self.law
+    }
+
+    pub(super) fn read(choice: &TissueChoice, warnings: &mut Vec<String>) -> Result<Self, Error> {
         let (tissue, material) = read_tissue(choice)?;
         warnings.extend(material.warnings.iter().cloned());
         Self::new((tissue, material), warnings)

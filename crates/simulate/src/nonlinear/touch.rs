@@ -26,6 +26,7 @@ use palpate_mechanics::contact::{Friction, half_space_stiffness, half_space_tang
 use palpate_mechanics::nonlinear::{Conditions, NonlinearModel, Pace, advance};
 use palpate_mechanics::{ForceHistory, Limits, PronySeries};
 
+use super::soft::Piece;
 use super::target::{Now, Target, farthest, positive, slippery};
 use super::{Body, NonlinearOrgan, NonlinearWorkspace};
 use crate::grip::Held;
@@ -156,9 +157,7 @@ impl NonlinearOrgan {
             return;
         }
         let before = body.state.largest(&self.model);
-        let around = (self.model.boundary_points(), &simulation.neighbours[..]);
-        workspace.candidates.find(around, &self.skin, &body.state);
-        let ended = self.go(relaxes, body, workspace);
+        let ended = self.go((simulation, elapsed), body, workspace);
         if ended.was_reset || body.state.largest(&self.model) > self.size || self.is_unsound(body) {
             body.state.reset(&self.model);
             body.histories.fill(ForceHistory::default());
@@ -168,7 +167,7 @@ impl NonlinearOrgan {
         // Rest is where an organ goes that nothing loads; elements that were turned inside out may not find there. What
         // relaxes takes its time.
         let is_late = body.state.largest(&self.model) > SLOWEST_RETURN * before;
-        let is_held = body.state.bears_friction();
+        let is_held = body.state.bears_friction() || body.state.touches_itself();
         if is_free && is_late && !is_held && (ended.is_inverted || !self.model.relaxes()) {
             body.state.shrink(&self.model, SLOWEST_RETURN);
         }
@@ -188,7 +187,8 @@ impl NonlinearOrgan {
     /// Whether a tool bears on the organ with more than any tissue withstands: the step had no answer.
     fn is_unsound(&self, body: &Body) -> bool {
         body.loads.iter().enumerate().any(|(number, load)| {
-            let most = MOST_PRESSURE * self.law.youngs_modulus() * PI * load.radius.powi(2);
+            let law = &self.pieces[body.on[number]].law;
+            let most = MOST_PRESSURE * law.youngs_modulus() * PI * load.radius.powi(2);
             body.is_loaded[number] && body.state.force(number).norm() > most
         })
     }
@@ -241,15 +241,15 @@ impl NonlinearOrgan {
         }
     }
 
-    /// Moves the organ as far as the tools have it, and no farther than a step can, while it relaxes by the series for so
-    /// long [s].
+    /// Moves the organ as far as the tools have it, and no farther than a step can, while it relaxes for so long [s].
     fn go(
         &self,
-        (series, elapsed): (&PronySeries, f64),
+        (simulation, elapsed): (&Simulation, f64),
         body: &mut Body,
         workspace: &mut NonlinearWorkspace,
     ) -> Ended {
         body.is_at_rest = false;
+        let series = &simulation.material.prony;
         let targets = &workspace.targets;
         let ways = targets
             .iter()
@@ -264,6 +264,11 @@ impl NonlinearOrgan {
         };
         let mut ended = Ended::default();
         for part in 1..=parts {
+            // What bends moves under what it touches.
+            if part == 1 || self.touching.is_some() {
+                let candidates = &mut workspace.candidates;
+                candidates.find(self, &simulation.neighbours, &body.state);
+            }
             let left = 1.0 - reach * part as f64;
             let relaxes: [_; MOST_TOOLS] = std::array::from_fn(|number| {
                 let history = body.histories.get(number);
@@ -314,6 +319,7 @@ impl NonlinearOrgan {
     ) -> Option<Target> {
         let (pose, contact) = (own.pose?, own.contact.as_mut()?);
         let place = contact.place;
+        body.on[number] = Piece::with(&self.pieces, place.triangle.0);
         let load = &mut body.loads[number];
         let boundary = self.model.boundary();
         boundary.spread(
@@ -333,7 +339,8 @@ impl NonlinearOrgan {
         let moved = contact.displacement(tool, &tip);
         own.displaced = own.moved.by + frame * moved;
         let further = frame.tr_mul(&now.yields) * frame - self.of_load(&now);
-        let law = tool.law.beside(place.mean_curvature());
+        let law = self.pieces[body.on[number]].tip_law((number, tool));
+        let law = law.beside(place.mean_curvature());
         let answer = law.force_in_series(&moved, &further);
         own.stiffness = answer.stiffness;
         own.limited = answer.limits;
@@ -373,7 +380,7 @@ impl NonlinearOrgan {
             return None;
         };
         let now = Now::of(self, body, number);
-        let compliance = self.of_jaws(tool, (&area.frame, &now))?;
+        let compliance = self.of_jaws((tool, body.on[number]), (&area.frame, &now))?;
         own.stiffness = (compliance + now.yields).try_inverse()?;
         let displacement = hold.displaced();
         let offset = hold.in_scene(&area.offset);
@@ -414,17 +421,21 @@ impl NonlinearOrgan {
         Matrix3::from_diagonal(&Vec3::new(along, along, normal))
     }
 
-    /// The compliance of jaws [m/N] beyond that of their load: that of a bonded flat tip of their faces' area, in
+    /// The compliance of jaws [m/N] beyond that of their load: that of a bonded flat tip of their faces' area on a piece, in
     /// the `frame` at rest that the organ has turned since.
     pub(super) fn of_jaws(
         &self,
-        tool: &Tool,
+        (tool, piece): (&Tool, usize),
         (frame, now): (&Matrix3<f64>, &Now),
     ) -> Option<Matrix3<f64>> {
         let radius = super::jaws_radius(tool)?;
-        let [along, normal] = self.regions.yields_to_tip(radius);
-        let along = along / half_space_tangential_stiffness(&self.law, radius);
-        let normal = normal / half_space_stiffness(&self.law, radius, Friction::Bonded);
+        let [along, normal] = match piece {
+            0 => self.regions.yields_to_tip(radius),
+            _ => [1.0; 2],
+        };
+        let law = &self.pieces[piece].law;
+        let along = along / half_space_tangential_stiffness(law, radius);
+        let normal = normal / half_space_stiffness(law, radius, Friction::Bonded);
         let own = Matrix3::from_diagonal(&Vec3::new(along, along, normal)) - self.of_load(now);
         let frame = now.turn * frame;
         Some(positive(&(frame * own * frame.transpose())))

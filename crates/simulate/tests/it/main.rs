@@ -36,6 +36,7 @@ mod nodules;
 mod nonlinear;
 mod nonlinear_neighbours;
 mod nonlinear_regions;
+mod nonlinear_soft;
 mod performance;
 mod precision_cutting;
 mod random_scenes;

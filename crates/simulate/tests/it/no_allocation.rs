@@ -43,6 +43,12 @@ fn a_sliding_step_allocates_nothing() {
             "nodes = 400\n[[neighbour]]\nbuiltin = \"cube\"\ncollides = true\nfriction = 0.3",
         ),
         (
+            "nonlinear",
+            "slip",
+            "nodes = 400\n[[neighbour]]\nbuiltin = \"hemisphere\"\nnodes = 300\nfriction = 0.3\n\
+             builtin_tissue = \"pig-liver\"\nat_m = [0.0, 0.0, -0.04]",
+        ),
+        (
             "hybrid",
             "slip",
             "mechanical_triangles = 400\nenhancement = { area = \"vertex\", levels = 3 }",

@@ -90,7 +90,7 @@ impl Prepared {
     ) -> Result<Self, Error> {
         let mut warnings = simulation.warnings().to_vec();
         let mut neighbours = Vec::new();
-        for neighbour in &scene.neighbours {
+        for neighbour in scene.neighbours.iter().filter(|own| own.soft.is_none()) {
             let (surface, more) = read_neighbour(neighbour)?;
             warnings.extend(more);
             let tint = Tint::of(&neighbour.shape).receding();

@@ -1,0 +1,323 @@
+//! The boundary of a body as it touches itself: the pieces of a body one another, and the folds of a piece.
+//!
+//! Faces are taken as smooth: the middle of each edge lies beside it at rest, by an eighth of the change of the normals along
+//! the edge, and goes and turns with the body. So the surface is quadratic, and its normals are means over the faces
+//! around each node, quadratic between nodes. Edges that are sharp at rest stay so.
+//!
+//! Of two pieces, the points of the finer one stay out of the other; a piece that touches itself has both sides stay out
+//! of one another.
+//!
+//! A place does not touch what it is one body with at rest: what lies behind the surface there and nearer than
+//! [`APART`], or nearer than that along the surface. What faces it across a gap it does.
+
+use palpate_geometry::{SHARP_EDGE, TetrahedronMesh, TriangleMesh};
+
+use super::boundary::shape_on_face;
+use super::model::NonlinearModel;
+use super::state::NonlinearState;
+use super::touching_search::TouchingSearch;
+use crate::finite_elements::Mismatch;
+use crate::finite_elements::solid::{Face, faces};
+use crate::{Error, Vec3};
+
+/// Nearer than so many mean edges at rest, a piece does not touch itself, but across a gap [-].
+const APART: f64 = 2.0;
+
+/// Cosine of the angle between the line of two places and their normals, below which they do not face each other at rest [-].
+const FACES: f64 = 0.5;
+
+/// Part of the change of the normals along an edge by which its middle lies beside it [-].
+const BULGE: f64 = 0.125;
+
+/// Nodes of a face; triangles that it is searched as, each of three of its nodes.
+const NODES: usize = 6;
+pub(super) const PARTS: usize = 4;
+pub(super) const PART_NODES: [[usize; 3]; PARTS] = [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]];
+
+/// Barycentric coordinates of its nodes.
+pub(super) const NODE_PLACES: [[f64; 3]; NODES] = [
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [0.5, 0.5, 0.0],
+    [0.0, 0.5, 0.5],
+    [0.5, 0.0, 0.5],
+];
+
+/// The node between the ends of the edge opposite to each corner.
+const OPPOSITE: [usize; 3] = [4, 5, 3];
+
+pub(super) const NOWHERE: u32 = u32::MAX;
+
+/// The boundary of a body as it touches itself.
+#[derive(Debug, Clone)]
+pub struct TouchingBoundary {
+    /// Those of the body.
+    pub(super) nodes: Vec<u32>,
+    /// Where each lies beside its edge at rest [m]; nothing at corners.
+    pub(super) bulges: Vec<Vec3>,
+    /// At rest, as triangles.
+    pub(super) rest: TriangleMesh,
+    pub(super) faces: Vec<TouchingFace>,
+    /// Faces around a node of a face, with the node's number there and what their normals count [-].
+    pub(super) around: Vec<(u32, u8, f64)>,
+    pub(super) pieces: usize,
+    /// μ of each pair of pieces [-]; none where they do not touch.
+    pub(super) friction: Vec<Option<f64>>,
+    /// How deep each point of the boundary may lie in the boundary: as deep as at rest, as a negative distance [m].
+    pub(super) allowed: Vec<f64>,
+    /// Mean length of its edges [m], of all and of each piece.
+    pub(super) edge: f64,
+    edges: Vec<f64>,
+    parts: Vec<Part>,
+    /// Outward normal of each point at rest, and where it is.
+    points: Vec<(Vec3, Vec3)>,
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct TouchingFace {
+    /// Their places in the list of nodes.
+    pub(super) nodes: [u32; NODES],
+    pub(super) piece: usize,
+    /// For each node, which part of `around` is around it.
+    pub(super) around: [[u32; 2]; NODES],
+    /// Face beyond the edge opposite to each corner, where the edge is smooth.
+    pub(super) across: [u32; 3],
+}
+
+/// A triangle of a face at rest.
+#[derive(Debug, Clone)]
+struct Part {
+    middle: Vec3,
+    normal: Vec3,
+}
+
+impl TouchingBoundary {
+    /// That of `model`, whose tetrahedra belong to these `pieces`, which share no nodes. `friction` says of two pieces, or
+    /// of one twice, with what coefficient they touch [-], and none where they do not.
+    ///
+    /// # Errors
+    /// When there is not one piece for each tetrahedron.
+    pub fn new(
+        model: &NonlinearModel,
+        pieces: &[u32],
+        friction: impl Fn(usize, usize) -> Option<f64>,
+    ) -> Result<Self, Error> {
+        let mesh = model.mesh();
+        if pieces.len() != mesh.tetrahedra().len() {
+            return Err(Mismatch::WrongLength {
+                what: "the list of the elements' pieces",
+                found: pieces.len(),
+                expected: mesh.tetrahedra().len(),
+            }
+            .into());
+        }
+        let list = faces(mesh);
+        let nodes = model.boundary().nodes();
+        let number = |node: usize| nodes.binary_search(&(node as u32)).unwrap_or(0);
+        let numbers: Vec<[usize; NODES]> = list.iter().map(|face| face.nodes.map(number)).collect();
+        let flat: Vec<Vec3> = list.iter().map(|face| flat_normal(mesh, face)).collect();
+        let mut owners = vec![Vec::new(); nodes.len()];
+        for (face, own) in numbers.iter().enumerate() {
+            for (place, &node) in own.iter().enumerate() {
+                owners[node].push((face, place));
+            }
+        }
+        let mut around = Vec::new();
+        let smooth = numbers.iter().enumerate().map(|(face, own)| {
+            let is_smooth = |other: &usize| flat[face].dot(&flat[*other]) >= SHARP_EDGE;
+            let lists = own.map(|node| {
+                let first = around.len() as u32;
+                let beside = owners[node].iter().filter(|(other, _)| is_smooth(other));
+                around.extend(beside.map(|&(other, place)| {
+                    let weight = angle(mesh, &list[other], place);
+                    (other as u32, place as u8, weight)
+                }));
+                [first, around.len() as u32]
+            });
+            let beyond = OPPOSITE.map(|middle| {
+                let mut others = owners[own[middle]].iter().map(|&(other, _)| other);
+                let other = others.find(|other| *other != face && is_smooth(other));
+                other.map_or(NOWHERE, |other| other as u32)
+            });
+            TouchingFace {
+                nodes: own.map(|node| node as u32),
+                piece: pieces[list[face].tetrahedron] as usize,
+                around: lists,
+                across: beyond,
+            }
+        });
+        let faces: Vec<TouchingFace> = smooth.collect();
+        let mut places: Vec<Vec3> = nodes
+            .iter()
+            .map(|&node| model.nodes()[node as usize])
+            .collect();
+        let bulges = bulges(&faces, &around, &flat, &places);
+        for (place, bulge) in places.iter_mut().zip(&bulges) {
+            *place += bulge;
+        }
+        let parts = faces.iter().flat_map(|face| {
+            PART_NODES.map(|part| part.map(|k| palpate_geometry::NodeId(face.nodes[k])))
+        });
+        let rest = TriangleMesh::new(places, parts.collect()).map_err(|_| Error::NoElements)?;
+        let count = pieces.iter().max().map_or(0, |most| *most as usize + 1);
+        let (mut edges, mut each) = (vec![0.0; count], vec![0_u32; count]);
+        for (face, own) in list.iter().zip(&faces) {
+            let [a, b, c] = face.corners.map(|node| mesh.vertices()[node.index()]);
+            edges[own.piece] += (b - a).norm() + (c - b).norm() + (a - c).norm();
+            each[own.piece] += 3;
+        }
+        let edge = edges.iter().sum::<f64>() / (3 * list.len()) as f64;
+        for (sum, number) in edges.iter_mut().zip(each) {
+            *sum /= f64::from(number.max(1));
+        }
+        let pairs = (0..count * count).map(|pair| friction(pair % count, pair / count));
+        let mut boundary = Self {
+            edge,
+            edges,
+            parts: rest
+                .triangle_ids()
+                .map(|part| Part {
+                    middle: rest.positions(part).iter().sum::<Vec3>() / 3.0,
+                    normal: rest.area_vector(part).normalize(),
+                })
+                .collect(),
+            points: Vec::new(),
+            allowed: vec![0.0; model.boundary_points().len()],
+            friction: pairs.collect(),
+            pieces: count,
+            nodes,
+            bulges,
+            rest,
+            faces,
+            around,
+        };
+        boundary.points = model
+            .boundary_points()
+            .iter()
+            .enumerate()
+            .map(|(point, own)| (flat[point / POINTS], own.place))
+            .collect();
+        boundary.find_overlaps(model);
+        Ok(boundary)
+    }
+
+    /// Where it overlaps at rest it may stay so.
+    fn find_overlaps(&mut self, model: &NonlinearModel) {
+        let rest = NonlinearState::at_rest(model, 0);
+        let mut allowed = vec![0.0_f64; self.allowed.len()];
+        TouchingSearch::new(self).find_all(self, (model, &rest), |found| {
+            allowed[found.point] = found.distance.min(0.0);
+        });
+        self.allowed = allowed;
+    }
+
+    /// Whether a point of the boundary may touch a triangle of a face, and with what friction [-].
+    pub(super) fn pair(&self, point: usize, part: usize) -> Option<f64> {
+        let (own, other) = (&self.faces[point / POINTS], &self.faces[part / PARTS]);
+        let friction = self.friction[own.piece * self.pieces + other.piece]?;
+        if own.piece != other.piece {
+            let [fine, coarse] = [own.piece, other.piece].map(|piece| (self.edges[piece], piece));
+            return (fine < coarse).then_some(friction);
+        }
+        let (normal, place) = &self.points[point];
+        let Part {
+            middle,
+            normal: opposite,
+        } = &self.parts[part];
+        let apart = middle - place;
+        let distance = apart.norm();
+        if distance > APART * self.edge {
+            return Some(friction);
+        }
+        let facing = normal.dot(&apart).min(-opposite.dot(&apart));
+        let shares = own.nodes.iter().any(|node| other.nodes.contains(node));
+        (facing > FACES * distance && !shares).then_some(friction)
+    }
+}
+
+/// Points of the boundary on each face.
+pub(super) const POINTS: usize = 3;
+
+fn flat_normal(mesh: &TetrahedronMesh, face: &Face) -> Vec3 {
+    let [a, b, c] = face.corners.map(|node| mesh.vertices()[node.index()]);
+    (b - a).cross(&(c - a)).normalize()
+}
+
+/// Angle of a face at one of its nodes [rad].
+fn angle(mesh: &TetrahedronMesh, face: &Face, node: usize) -> f64 {
+    if node >= 3 {
+        return std::f64::consts::PI;
+    }
+    let place = |k: usize| mesh.vertices()[face.corners[k % 3].index()];
+    let here = place(node);
+    (place(node + 1) - here).angle(&(place(node + 2) - here))
+}
+
+/// How far the middles of edges lie beside them.
+fn bulges(
+    faces: &[TouchingFace],
+    around: &[(u32, u8, f64)],
+    flat: &[Vec3],
+    places: &[Vec3],
+) -> Vec<Vec3> {
+    let normal = |face: &TouchingFace, node: usize| -> Vec3 {
+        let [from, to] = face.around[node].map(|at| at as usize);
+        let each = around[from..to].iter();
+        let sum: Vec3 = each
+            .map(|&(other, _, weight)| weight * flat[other as usize])
+            .sum();
+        sum.normalize()
+    };
+    let mut bulges = vec![Vec3::zeros(); places.len()];
+    for face in faces {
+        for (corner, &middle) in OPPOSITE.iter().enumerate() {
+            if face.across[corner] == NOWHERE {
+                continue;
+            }
+            let [from, to] = [(corner + 1) % 3, (corner + 2) % 3];
+            let along = places[face.nodes[to] as usize] - places[face.nodes[from] as usize];
+            let turn = normal(face, to) - normal(face, from);
+            // Half from the face on either side.
+            let height = 0.5 * BULGE * turn.dot(&along);
+            bulges[face.nodes[middle] as usize] += height * normal(face, middle);
+        }
+    }
+    bulges
+}
+
+/// A place on the six nodes of a face: the weights, and how they change with the first two barycentric coordinates.
+pub(super) fn slopes_on_face([u, v, w]: [f64; 3]) -> [[f64; NODES]; 2] {
+    [
+        [
+            4.0 * u - 1.0,
+            0.0,
+            1.0 - 4.0 * w,
+            4.0 * v,
+            -4.0 * v,
+            4.0 * (w - u),
+        ],
+        [
+            0.0,
+            4.0 * v - 1.0,
+            1.0 - 4.0 * w,
+            4.0 * u,
+            4.0 * (w - v),
+            -4.0 * u,
+        ],
+    ]
+}
+
+/// The weighted sum over the nodes of a face.
+pub(super) fn on_face(values: &[Vec3; NODES], weights: &[f64; NODES]) -> Vec3 {
+    values
+        .iter()
+        .zip(weights)
+        .map(|(value, weight)| value * *weight)
+        .sum()
+}
+
+/// Shape functions at a point of the boundary, by its number.
+pub(super) fn shape_at_point(point: usize) -> [f64; NODES] {
+    shape_on_face(super::contact::AT[point % POINTS])
+}

@@ -1,0 +1,179 @@
+//! An organ at large deformation beside neighbours that bend.
+
+use palpate_files::Scene;
+use palpate_geometry::{AabbTree, Surface, Vec3};
+use palpate_simulate::{Simulation, read_neighbour};
+
+use crate::grip::{grasping, pose};
+use crate::nonlinear::{LIVER, STRONG, displaced, holding};
+use crate::scenes::{Hand, Setting};
+
+/// What stands beside the esophagus.
+#[derive(Clone, Copy)]
+enum Beside {
+    Rigid,
+    /// With this modulus [Pa].
+    Soft(f64),
+    Nothing,
+}
+
+/// Half a ball of 15 mm, 5 mm beside the esophagus and 15 mm above the place that is pulled.
+fn scene(beside: Beside, friction: f64) -> Scene {
+    let setting = Setting {
+        organ: "builtin = \"esophagus\"",
+        contact: "stick",
+        ..LIVER
+    };
+    let kind = match beside {
+        Beside::Rigid => "collides = true\n".to_owned(),
+        Beside::Soft(modulus) => format!(
+            "nodes = 500\n[neighbour.tissue]\nlaw = \"linear\"\nyoungs_modulus_pa = {modulus:?}\n\
+             poissons_ratio = 0.45\n"
+        ),
+        Beside::Nothing => String::new(),
+    };
+    let text = format!(
+        "format = 1\n[organ]\nbuiltin = \"hemisphere\"\nbuiltin_tissue = \"pig-liver\"\n[model]\nkind = \"nonlinear\"\n\
+         [[neighbour]]\nbuiltin = \"hemisphere\"\nscale = 0.3\nturn_deg = [-90, 0, 0]\nat_m = [0.0, -0.0275, 0.015]\n\
+         friction = {friction:?}\n{kind}"
+    );
+    let beside = Scene::parse(&text, "scene.toml").unwrap();
+    Scene {
+        neighbours: beside.neighbours,
+        ..grasping(&setting, STRONG, 1)
+    }
+}
+
+/// How it ended: the force of the pull [N], how far the ball moved [m], how deep what is seen of the tube lies in it at
+/// most, and what is left once the tube is let go.
+struct Pulled {
+    force: Vec3,
+    ball: f64,
+    deepest: f64,
+    left: f64,
+}
+
+/// The esophagus is pulled aside by 20 mm, past the ball, held for a moment, and let go.
+fn pull(beside: Beside, friction: f64) -> Pulled {
+    let scene = scene(beside, friction);
+    let simulation = Simulation::new(&scene).unwrap();
+    let (ball, _) = read_neighbour(&scene.neighbours[0]).unwrap();
+    let count = match beside {
+        Beside::Soft(_) => ball.mesh().vertices().len(),
+        Beside::Rigid | Beside::Nothing => 0,
+    };
+    let (mut hands, point, turned) = holding(&simulation, &Vec3::new(0.0, -0.0075, 0.0));
+    let mut pulled = Pulled {
+        force: Vec3::zeros(),
+        ball: 0.0,
+        deepest: 0.0,
+        left: 0.0,
+    };
+    for step in 0..=60 {
+        let way = (5e-4 * f64::from(step)).min(0.02);
+        hands.go(&[pose(&(point - Vec3::y() * way), &turned, 1.0)]);
+    }
+    let seen = hands.state.deformed.vertices();
+    let (tube, bent) = seen.split_at(seen.len() - count);
+    let there = ball.mesh().vertices().iter().zip(bent);
+    pulled.ball = there
+        .map(|(rest, now)| (now - rest).norm())
+        .fold(0.0, f64::max);
+    let mut moved = ball.mesh().clone();
+    for (number, now) in bent.iter().enumerate() {
+        moved.move_vertex(palpate_geometry::NodeId(number as u32), *now);
+    }
+    let moved = Surface::new(moved).unwrap();
+    let boxes = AabbTree::new(moved.mesh());
+    let depths = tube
+        .iter()
+        .map(|place| -moved.signed_distance(&boxes, place).1);
+    pulled.deepest = depths.fold(0.0, f64::max);
+    pulled.force = hands.state.tools[0].force;
+    for _ in 0..80 {
+        hands.go(&[pose(&(point - Vec3::y() * 0.02), &turned, 0.0)]);
+    }
+    pulled.left = displaced(&hands, &simulation);
+    pulled
+}
+
+/// Judge: the rigid neighbour, which one of a hundred times the tube's modulus is to 3 % (its base is bonded, and it stands
+/// 12 mm high), and no neighbour. One as soft as the tube yields, and the hand feels less; the tube stays out of it but
+/// for what the surface that is seen lies beside the one that touches, 0.3 mm as with the rigid ball.
+#[test]
+fn a_pulled_tube_pushes_a_neighbour_that_bends() {
+    let show = |name: &str, pulled: &Pulled| {
+        println!(
+            "{name}: {:.3} N, ball moved {:.2} mm, {:.2} mm deep, {:.1e} m left",
+            pulled.force.y,
+            1e3 * pulled.ball,
+            1e3 * pulled.deepest,
+            pulled.left
+        );
+    };
+    let free = pull(Beside::Nothing, 0.0);
+    let rigid = pull(Beside::Rigid, 0.0);
+    let stiff = pull(Beside::Soft(1e6), 0.0);
+    let soft = pull(Beside::Soft(1e4), 0.0);
+    let rubbed = pull(Beside::Soft(1e4), 0.3);
+    for (name, pulled) in [
+        ("free", &free),
+        ("rigid", &rigid),
+        ("stiff", &stiff),
+        ("soft", &soft),
+        ("rubbed", &rubbed),
+    ] {
+        show(name, pulled);
+    }
+    let felt = |pulled: &Pulled| (pulled.force.y - free.force.y) / (rigid.force.y - free.force.y);
+    assert!(
+        (stiff.force.y / rigid.force.y - 1.0).abs() < 0.03,
+        "{}",
+        stiff.force
+    );
+    assert!((0.1..0.9).contains(&felt(&soft)), "{}", felt(&soft));
+    assert!(soft.ball > 5e-4, "{}", soft.ball);
+    assert!(
+        rubbed.force.norm() > 1.01 * soft.force.norm(),
+        "{}",
+        rubbed.force
+    );
+    for pulled in [&stiff, &soft, &rubbed] {
+        assert!(pulled.deepest < 0.3e-3, "{}", pulled.deepest);
+        assert!(pulled.left < 1e-4, "{}", pulled.left);
+    }
+}
+
+/// Judge: the same body and tissue as the organ of a scene of its own, pressed at the same place: 1 %, of a filling that
+/// another place rounds otherwise.
+#[test]
+fn a_tip_presses_a_neighbour_as_an_organ() {
+    let tool = "[[tool]]\nname = \"probe\"\nkind = \"probe\"\ntip = { shape = \"flat\", radius_m = 0.003 }\n";
+    let tissue = "law = \"linear\"\nyoungs_modulus_pa = 20000.0\npoissons_ratio = 0.4\n";
+    let body = "builtin = \"hemisphere\"\n";
+    let alone = format!(
+        "format = 1\n[organ]\n{body}[organ.tissue]\n{tissue}[model]\nkind = \"nonlinear\"\nnodes = 700\n{tool}"
+    );
+    let beside = format!(
+        "format = 1\n[organ]\nbuiltin = \"cube\"\nbuiltin_tissue = \"pig-liver\"\n[[neighbour]]\n{body}nodes = 700\n\
+         at_m = [0.3, 0.0, 0.0]\n[neighbour.tissue]\n{tissue}[model]\nkind = \"nonlinear\"\nnodes = 300\n{tool}"
+    );
+    let press = |text: &str, at: Vec3| {
+        let simulation = Simulation::new(&Scene::parse(text, "scene.toml").unwrap()).unwrap();
+        let mut hand = Hand::new(&simulation);
+        let mut force = Vec3::zeros();
+        for step in 0..=30 {
+            let depth = 1e-4 * f64::from(step.min(20));
+            force = hand.at(&(at - Vec3::z() * depth));
+        }
+        force
+    };
+    let expected = press(&alone, Vec3::z() * 0.05);
+    let found = press(&beside, Vec3::new(0.3, 0.0, 0.05));
+    println!("{expected:?} {found:?}");
+    assert!(expected.z > 0.05, "{expected}");
+    assert!(
+        (found - expected).norm() < 0.01 * expected.norm(),
+        "{found}"
+    );
+}
