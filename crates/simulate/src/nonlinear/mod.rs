@@ -44,10 +44,11 @@ use palpate_geometry::{
     AabbTree, FillSettings, NodeId, Surface, TetrahedronError, TetrahedronMesh, TriangleMesh, Vec3,
     coarsen, fill, refine_to,
 };
-use palpate_mechanics::ForceHistory;
+use palpate_mechanics::contact::{Tip, hertz_force};
 use palpate_mechanics::nonlinear::{
     CarriedPoints, NonlinearModel, NonlinearState, SpreadLoad, TouchingBoundary, Workspace,
 };
+use palpate_mechanics::{ForceHistory, LinearElastic};
 
 use crate::grip::Swept;
 use crate::neighbour::Neighbour;
@@ -71,7 +72,7 @@ const FILLINGS: usize = 5;
 const ITERATIONS: (usize, usize) = (4, 6);
 const NEARLY_INCOMPRESSIBLE: f64 = 0.46;
 
-/// R of a load over the largest touching area's radius [-]: it then yields less than the tip itself.
+/// R of a load over the touching area's radius [-]: it then yields less than the tip itself.
 const REACH_IN_RADII: f64 = 1.7;
 
 /// An organ that bends. Built once.
@@ -224,10 +225,17 @@ impl NonlinearOrgan {
         }
     }
 
-    /// Radius of the load of a tool's tip [m].
-    fn reach(tool: &Tool) -> f64 {
-        // A sphere's touching area grows to its own radius.
-        REACH_IN_RADII * tool.shaft_radius()
+    /// Radius of the load of a tool's tip [m] that bears so much force [N] on tissue of `law`.
+    fn reach(tool: &Tool, law: &LinearElastic, force: f64) -> f64 {
+        let touching = match tool.tip {
+            Tip::Flat { radius } => radius,
+            Tip::Sphere { radius } => {
+                // The inverse of Hertz's law. How deep it is in all says nothing: a thin wall bends away.
+                let depth = (force / hertz_force(law, radius, 1.0)).powf(2.0 / 3.0);
+                tool.tip.contact_radius(depth)
+            }
+        };
+        REACH_IN_RADII * touching
     }
 }
 

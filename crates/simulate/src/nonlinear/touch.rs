@@ -320,14 +320,11 @@ impl NonlinearOrgan {
         let (pose, contact) = (own.pose?, own.contact.as_mut()?);
         let place = contact.place;
         body.on[number] = Piece::with(&self.pieces, place.triangle.0);
+        let force = body.histories[number].elastic().norm();
+        let reach = Self::reach(tool, &self.pieces[body.on[number]].law, force);
         let load = &mut body.loads[number];
         let boundary = self.model.boundary();
-        boundary.spread(
-            &place.point,
-            &contact.rest_normal(),
-            Self::reach(tool),
-            load,
-        );
+        boundary.spread(&place.point, &contact.rest_normal(), reach, load);
         let now = Now::of(self, body, number);
         own.moved = Moved {
             by: now.mean - now.yields * now.force,

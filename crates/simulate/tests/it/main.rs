@@ -37,6 +37,7 @@ mod nonlinear;
 mod nonlinear_neighbours;
 mod nonlinear_regions;
 mod nonlinear_soft;
+mod nonlinear_tube;
 mod performance;
 mod precision_cutting;
 mod random_scenes;
