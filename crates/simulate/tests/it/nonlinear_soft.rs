@@ -178,3 +178,37 @@ fn a_tip_presses_a_neighbour_as_an_organ() {
         "{found}"
     );
 }
+
+/// Judge: the sentences. A neighbour that bends needs the nonlinear model, and has to be held.
+#[test]
+fn neighbours_that_cannot_bend_are_refused() {
+    let text = |kind: &str, more: &str| {
+        format!(
+            "format = 1\n[organ]\nbuiltin = \"hemisphere\"\nbuiltin_tissue = \"pig-liver\"\n[model]\nkind = \"{kind}\"\n\
+             nodes = 300\n[[neighbour]]\nbuiltin = \"cube\"\nat_m = [0.3, 0.0, 0.0]\n{more}"
+        )
+    };
+    let refused = |kind: &str, more: &str| match Scene::parse(&text(kind, more), "scene.toml") {
+        Err(error) => error.to_string(),
+        Ok(scene) => Simulation::new(&scene).unwrap_err().to_string(),
+    };
+    let tissue = "builtin_tissue = \"pig-liver\"\n";
+    let sphere = "[[neighbour.anchor.spheres]]\ncenter_m = [0.0, 0.0, 1.0]\nradius_m = 0.01\n";
+    for (kind, more, says) in [
+        ("local", tissue.to_owned(), "nonlinear"),
+        ("hybrid", tissue.to_owned(), "nonlinear"),
+        (
+            "nonlinear",
+            format!("{tissue}collides = true\n"),
+            "collides",
+        ),
+        ("nonlinear", "nodes = 300\n".to_owned(), "nodes"),
+        ("nonlinear", format!("{tissue}{sphere}"), "number 1"),
+    ] {
+        let sentence = refused(kind, &more);
+        println!("{sentence}");
+        assert!(sentence.contains(says), "{sentence}");
+    }
+    let auto = Scene::parse(&text("auto", tissue), "scene.toml").unwrap();
+    assert_eq!(auto.model.kind.word(), "nonlinear");
+}
