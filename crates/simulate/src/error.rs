@@ -34,6 +34,15 @@ pub enum Error {
         /// What is wrong with it there.
         fault: MeshError,
     },
+    /// A neighbour that bends is held nowhere.
+    #[error(
+        "the anchor of `[[neighbour]]` number {number} takes in no vertex of it, and it could move without force; give \
+         planes, boxes or spheres of the scene that take in a part of its surface"
+    )]
+    LooseNeighbour {
+        /// In the order of the scene, from 1.
+        number: usize,
+    },
     /// A built-in organ cannot be made.
     #[error(transparent)]
     Organ(#[from] OrganError),
@@ -253,6 +262,7 @@ impl Error {
             Self::Unrecorded { .. } | Self::ModelPanicked | Self::NoTakeOver { .. } => false,
             Self::NotDrawn
             | Self::NothingTouchable
+            | Self::LooseNeighbour { .. }
             | Self::LayersTooThick { .. }
             | Self::CutTooDeep { .. }
             | Self::OtherResponse { .. }

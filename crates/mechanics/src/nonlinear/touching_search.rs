@@ -21,6 +21,10 @@ const REACH: f64 = 1.0;
 /// A point touches what lies below it along the surface's normal there, but for this [mean edges].
 const BESIDE: f64 = 0.02;
 
+/// What a point lies behind is by so much at most farther than the nearest face, whatever way that faces [mean edges]: else it
+/// is beyond a wall or a whole piece.
+const BEYOND: f64 = 0.1;
+
 /// Cosine of the angle between two normals, above which their surfaces do not touch [-].
 const OPPOSES: f64 = -0.2;
 
@@ -231,6 +235,9 @@ impl TouchingSearch {
         let (part, barycentric, friction) = best.1?;
         let on = on_whole_face(part, &barycentric);
         let (on, normal, distance) = self.project(boundary, on, &place)?;
+        if distance < 0.0 && best.0 > nearest + BEYOND * boundary.edge {
+            return None;
+        }
         Some(Found {
             point,
             face: on.face,

@@ -46,19 +46,22 @@ struct Touching {
 }
 
 impl Touching {
-    /// Fixed below `low` and above `high` [m].
+    /// Fixed below `low` and above `high` [m]; contacts are no farther than `near` [m] from half-way between.
     fn new(
         (mesh, pieces): &(TetrahedronMesh, Vec<u32>),
         ratio: f64,
-        [low, high]: [f64; 2],
+        [low, high, near]: [f64; 3],
         friction: f64,
     ) -> Self {
         let moduli = Moduli::mooney_rivlin(C10, 0.0, ratio).unwrap();
         let moduli = vec![moduli; mesh.tetrahedra().len()];
         let is_fixed = |place: &Vec3| place.z < low + 1e-9 || place.z > high - 1e-9;
-        let model = NonlinearModel::on_boundary(mesh, &moduli, |_, place| is_fixed(place)).unwrap();
+        let middle = 0.5 * (low + high);
+        let is_loaded = |_: usize, place: &Vec3| (place.z - middle).abs() < near;
+        let fixed = |_: usize, place: &Vec3| is_fixed(place);
+        let model = NonlinearModel::new(mesh, &moduli, fixed, is_loaded).unwrap();
         let one = pieces.iter().all(|piece| *piece == 0);
-        let touch = |a: usize, b: usize| (one || a != b).then_some(friction);
+        let touch = |a, b| (one || a != b).then_some(friction);
         let boundary = TouchingBoundary::new(&model, pieces, touch).unwrap();
         let places = model.nodes().iter().enumerate();
         let upper = places.filter(|(_, place)| place.z > high - 1e-9);
@@ -195,7 +198,7 @@ fn two_blocks(upper: [usize; 3], friction: f64) -> Touching {
     let gap = 2e-4;
     let pieces = [block([4, 4, 2]), mirrored(&block(upper), HEIGHT, gap)];
     let top = 2.0 * HEIGHT + gap;
-    Touching::new(&together(&pieces), 0.4, [0.0, top], friction)
+    Touching::new(&together(&pieces), 0.4, [0.0, top, top], friction)
 }
 
 /// Judge: by symmetry, one block below a rigid plane. Of the same mesh both bear at the same points, and differ by what a
@@ -230,75 +233,80 @@ fn two_blocks_press_as_one_on_a_plane() {
     }
 }
 
-/// Judge: Coulomb's law of the whole face, as of a block below a rigid plane (`nonlinear_friction`): while the upper block
-/// is dragged aside, no point leaves its cone; what the lower one feels grows up to μ N.
+/// Judge: Coulomb's law: while the upper block is dragged aside, no point leaves its cone. Once all slide, their forces add up
+/// to μ times those along the normals, which tilt with the blocks: all along the drag, but for 2 % as below a rigid plane
+/// (`nonlinear_friction`).
 #[test]
 fn a_dragged_block_takes_the_other_along_up_to_coulombs_force() {
     let mut blocks = two_blocks([3, 3, 2], 0.3);
     blocks.go(&(Vec3::z() * -2.2e-3), 20);
     let mut last = 0.0;
-    for step in 0..60 {
+    for step in 0..45 {
         blocks.step(&(Vec3::x() * 1e-4), 8);
-        let force = blocks.force();
-        last = force.x / (0.3 * -force.z);
-        assert!(last < 1.0 + 1e-9, "{last}");
-        assert!(step > 0 || last < 0.5, "slides at once: {last}");
+        let (mut normal, mut along) = (0.0, Vec3::zeros());
         for contact in &blocks.contacts {
-            let along = blocks.state.friction_between(contact.point).norm();
-            let normal = blocks.state.force_between(contact.point);
-            assert!(along <= 0.3 * normal * (1.0 + 1e-9), "{along} {normal}");
+            let pressed = blocks.state.force_between(contact.point);
+            let rubbed = blocks.state.friction_between(contact.point);
+            assert!(rubbed.norm() <= 0.3 * pressed * (1.0 + 1e-9));
+            normal += pressed;
+            along += rubbed;
         }
+        last = along.x / (0.3 * normal);
+        assert!(step > 0 || last < 0.5, "slides at once: {last}");
     }
     println!("{last:.4} of the cone");
-    assert!(last > 0.97, "{last}");
+    assert!(last > 0.98, "{last}");
 }
 
-/// Where the vertices crowd around the middle of the upper face of a block, which bulges as a ball does.
+/// Width and height of a block whose upper face bulges as a ball of this radius does, up to half of it aside [m].
 const WIDE: f64 = 0.4;
 const HIGH: f64 = 0.2;
 const RADIUS: f64 = 0.1;
 
-fn curved(cells: [usize; 3]) -> TetrahedronMesh {
-    let high = Vec3::new(WIDE, WIDE, HIGH);
-    let even = TetrahedronMesh::block(Vec3::zeros(), high, cells).unwrap();
-    let crowd = |x: f64| x.signum() * x.abs().powf(2.8);
+/// Where its vertices are, from the middle of its upper face: aside, and below [m].
+const ASIDE: [f64; 6] = [0.0, 4e-3, 8e-3, 14e-3, 45e-3, 0.5 * WIDE];
+const BELOW: [f64; 6] = [0.0, 4e-3, 9e-3, 22e-3, 70e-3, HIGH];
+
+fn curved() -> TetrahedronMesh {
+    let even = TetrahedronMesh::block(Vec3::zeros(), Vec3::repeat(10.0), [10, 10, 5]).unwrap();
     let place = |place: &Vec3| {
-        let about = |x: f64| 0.5 * WIDE * crowd(2.0 * x / WIDE - 1.0);
+        let about = |x: f64| (x - 5.0).signum() * ASIDE[(x - 5.0).abs().round() as usize];
         let (x, y) = (about(place.x), about(place.y));
-        let up = 1.0 - crowd(1.0 - place.z / HIGH);
-        // A ball of this radius up to a quarter of it aside.
+        let below = BELOW[5 - (0.5 * place.z).round() as usize];
         let aside = x.hypot(y).min(0.5 * RADIUS);
-        let below = RADIUS - (RADIUS * RADIUS - aside * aside).sqrt();
-        Vec3::new(x, y, HIGH * up - below * up)
+        let bulge = RADIUS - (RADIUS * RADIUS - aside * aside).sqrt();
+        Vec3::new(x, y, HIGH - below - bulge * (1.0 - below / HIGH))
     };
     mapped(&even, place, false)
 }
 
-/// Judge: Hertz, F = 4/3 E* √R* d^(3/2), of two balls. Each has a block under it that is 28 times as high as the contact
+/// Judge: Hertz, F = 4/3 E* √R* d^(3/2), of two balls. Each has a block under it that is 20 times as high as the contact
 /// is wide, and by the correction of a bonded layer [Dimitriadis et al. 2002], 1 + 0.88 χ with χ = √(R d/2)/h at this
-/// Poisson's ratio, 3.1 % stiffer than a half-space. 5 %.
+/// Poisson's ratio, 4.4 % stiffer than a half-space. 5 %. The upper one is turned, so that no edges meet.
 #[test]
 fn two_balls_press_as_hertz_has_it() {
-    let ratio = 0.3;
-    for cells in [[10, 10, 5], [9, 9, 5]] {
-        let upper = mirrored(&curved(cells), HIGH, 1e-5);
-        let pieces = [curved([10, 10, 5]), upper];
-        let top = 2.0 * HIGH + 1e-5;
-        let mut balls = Touching::new(&together(&pieces), ratio, [0.0, top], 0.0);
-        let depth = 1e-3;
-        balls.go(&(Vec3::z() * -(depth + 1e-5)), 10);
-        let modulus = 4.0 * C10 * (1.0 + ratio);
-        let both = modulus / (2.0 * (1.0 - ratio * ratio));
-        let hertz = 4.0 / 3.0 * both * (0.5 * RADIUS).sqrt() * depth.powf(1.5);
-        let layer = 1.0 + 0.88 * (0.5 * RADIUS * depth).sqrt() / HIGH;
-        let hertz = layer * hertz;
-        let force = balls.force();
-        println!(
-            "{cells:?}: {force:?} N, Hertz {hertz:.5}, {} contacts",
-            balls.contacts.len()
-        );
-        assert!((-force.z / hertz - 1.0).abs() < 0.05, "{force} {hertz}");
-    }
+    let (ratio, depth, gap) = (0.3, 2e-3, 1e-5);
+    let (sin, cos) = 0.4_f64.sin_cos();
+    let turned = |at: &Vec3| Vec3::new(cos * at.x - sin * at.y, sin * at.x + cos * at.y, at.z);
+    let upper = mapped(&mirrored(&curved(), HIGH, gap), turned, false);
+    let top = 2.0 * HIGH + gap;
+    let pieces = together(&[curved(), upper]);
+    let mut balls = Touching::new(&pieces, ratio, [0.0, top, 6e-3], 0.0);
+    balls.go(&(Vec3::z() * -(depth + gap)), 20);
+    let modulus = 4.0 * C10 * (1.0 + ratio);
+    let both = modulus / (2.0 * (1.0 - ratio * ratio));
+    let hertz = 4.0 / 3.0 * both * (0.5 * RADIUS).sqrt() * depth.powf(1.5);
+    let layer = 1.0 + 0.88 * (0.5 * RADIUS * depth).sqrt() / HIGH;
+    let force = balls.force();
+    println!(
+        "{force:?} N, Hertz {hertz:.5}, on a layer {:.5}, {} contacts",
+        layer * hertz,
+        balls.contacts.len()
+    );
+    assert!(
+        (-force.z / (layer * hertz) - 1.0).abs() < 0.05,
+        "{force} {hertz}"
+    );
 }
 
 /// Vertices at the same place become one.
@@ -337,7 +345,7 @@ fn a_slit_closes_as_its_half_does_on_a_plane() {
     let slit = welded(&[half.clone(), mirrored(&half, plane, 0.0)]);
     let pieces = vec![0; slit.tetrahedra().len()];
     let high = 2.0 * plane;
-    let mut slit = Touching::new(&(slit, pieces), 0.4, [0.0, high], 0.0);
+    let mut slit = Touching::new(&(slit, pieces), 0.4, [0.0, high, high], 0.0);
     slit.go(&(Vec3::z() * -5e-3), 40);
     let force = slit.force();
     println!(
@@ -350,9 +358,9 @@ fn a_slit_closes_as_its_half_does_on_a_plane() {
     assert!(left < 1e-6, "{left}");
 }
 
-/// Judge: friction takes energy, and the law itself: along random paths the work of the support from the pressed state is
-/// not negative, but for one part in a hundred of the work that it does back and forth (steps are not converged). Let
-/// go, the pieces go back to rest.
+/// Judge: friction takes energy, and what is elastic gives none: along random paths the work of the support from rest on is
+/// not negative, but for one part in a hundred of the work that it does back and forth (steps are not converged). Let go,
+/// the pieces go back to rest.
 #[test]
 fn random_gestures_of_a_piece_give_no_energy() {
     let mut random = 7_u64;
@@ -363,11 +371,10 @@ fn random_gestures_of_a_piece_give_no_energy() {
         (random >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     };
     let mut blocks = two_blocks([3, 3, 2], 0.4);
-    blocks.go(&(Vec3::z() * -2.2e-3), 20);
-    let (mut at, mut force) = (Vec3::zeros(), blocks.force());
+    let (mut at, mut force) = (Vec3::zeros(), Vec3::zeros());
     let (mut work, mut turnover) = (0.0, 0.0);
     for _ in 0..8 {
-        let goal = 2e-3 * Vec3::new(draw(), draw(), 0.5 * draw());
+        let goal = 2e-3 * Vec3::new(draw(), draw(), 0.5 * draw() - 0.5);
         for _ in 0..12 {
             let by = (goal - at) / 12.0;
             blocks.step(&by, 8);
@@ -382,7 +389,10 @@ fn random_gestures_of_a_piece_give_no_energy() {
     }
     println!("work {work:.3e} J of {turnover:.3e} J");
     assert!(turnover > 1e-4, "{turnover}");
-    blocks.go(&(Vec3::z() * 2.2e-3 - at), 20);
+    assert!(work > 0.01 * turnover, "{work} of {turnover}");
+    blocks.go(&-at, 20);
+    blocks.go(&(Vec3::z() * 1e-3), 5);
+    blocks.go(&(Vec3::z() * -1e-3), 5);
     let left = blocks.state.largest(&blocks.model);
     assert!(left < 1e-6, "{left}");
 }

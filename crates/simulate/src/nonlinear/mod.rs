@@ -70,6 +70,8 @@ const FILLINGS: usize = 5;
 
 /// Iterations in a step: below, and from this Poisson's ratio [-] on more (`docs/theory/large_deformation.md`).
 const ITERATIONS: (usize, usize) = (4, 6);
+/// The same where the body touches itself: bodies push one another until they are in equilibrium.
+const ITERATIONS_TOUCHING: usize = 8;
 const NEARLY_INCOMPRESSIBLE: f64 = 0.46;
 
 /// R of a load over the touching area's radius [-]: it then yields less than the tip itself.

@@ -151,6 +151,11 @@ impl Candidates {
             .extend(self.found.iter().map(|(_, contact)| *contact));
     }
 
+    /// Whether places of the body may bear on one another in the step.
+    pub(super) fn touches_itself(&self) -> bool {
+        self.contacts.iter().any(|own| own.against.is_some())
+    }
+
     /// Reports points that were left out, under a tool that touches.
     pub(super) fn report(&self, tool: &mut ToolState) {
         if self.left_out > 0 {

@@ -37,7 +37,7 @@ impl SoftBody {
     /// Those of `scene`, and warnings.
     pub(crate) fn all(scene: &Scene) -> Result<(Vec<Self>, Vec<String>), Error> {
         let (mut all, mut warnings) = (Vec::new(), Vec::new());
-        for neighbour in &scene.neighbours {
+        for (number, neighbour) in scene.neighbours.iter().enumerate() {
             let Some(SoftNeighbour {
                 tissue,
                 anchor,
@@ -48,7 +48,7 @@ impl SoftBody {
             };
             let (surface, more) = read_neighbour(neighbour)?;
             warnings.extend(more);
-            all.push(Self {
+            let body = Self {
                 surface,
                 tissue: RegionTissue::read(tissue, &mut warnings)?,
                 anchor: held_region(&neighbour.shape, anchor.as_ref()),
@@ -56,7 +56,12 @@ impl SoftBody {
                 nodes: *nodes,
                 friction: neighbour.friction,
                 laws: Vec::new(),
-            });
+            };
+            let mut vertices = body.surface.mesh().vertices().iter();
+            if !vertices.any(|vertex| body.holds(vertex)) {
+                return Err(Error::LooseNeighbour { number: number + 1 });
+            }
+            all.push(body);
         }
         Ok((all, warnings))
     }
@@ -152,7 +157,7 @@ impl Merged {
             return Ok(Self {
                 mesh: organ,
                 pieces: vec![0; count],
-                ranges: vec![0..count],
+                ranges: std::iter::once(0..count).collect(),
             });
         }
         let (mut vertices, mut tetrahedra) = (Vec::new(), Vec::new());

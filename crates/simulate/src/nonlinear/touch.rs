@@ -28,7 +28,7 @@ use palpate_mechanics::{ForceHistory, Limits, PronySeries};
 
 use super::soft::Piece;
 use super::target::{Now, Target, farthest, positive, slippery};
-use super::{Body, NonlinearOrgan, NonlinearWorkspace};
+use super::{Body, ITERATIONS_TOUCHING, NonlinearOrgan, NonlinearWorkspace};
 use crate::grip::Held;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, ToolState};
@@ -258,7 +258,7 @@ impl NonlinearOrgan {
         let way = ways.fold(0.0, f64::max);
         let parts = (way.ceil() as usize).clamp(1, MOST_PARTS);
         let reach = (MOST_PARTS as f64 / way).min(1.0) / parts as f64;
-        let pace = Pace {
+        let mut pace = Pace {
             iterations: self.iterations,
             elapsed: elapsed / parts as f64,
         };
@@ -268,6 +268,10 @@ impl NonlinearOrgan {
             if part == 1 || self.touching.is_some() {
                 let candidates = &mut workspace.candidates;
                 candidates.find(self, &simulation.neighbours, &body.state);
+                pace.iterations = match candidates.touches_itself() {
+                    true => ITERATIONS_TOUCHING,
+                    false => self.iterations,
+                };
             }
             let left = 1.0 - reach * part as f64;
             let relaxes: [_; MOST_TOOLS] = std::array::from_fn(|number| {

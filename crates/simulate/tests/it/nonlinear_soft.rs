@@ -44,10 +44,11 @@ fn scene(beside: Beside, friction: f64) -> Scene {
     }
 }
 
-/// How it ended: the force of the pull [N], how far the ball moved [m], how deep what is seen of the tube lies in it at
+/// How it went: the force at the end of the pull [N], its work [J], how far the ball moved [m], how deep what is seen of the tube lies in it at
 /// most, and what is left once the tube is let go.
 struct Pulled {
     force: Vec3,
+    work: f64,
     ball: f64,
     deepest: f64,
     left: f64,
@@ -65,13 +66,18 @@ fn pull(beside: Beside, friction: f64) -> Pulled {
     let (mut hands, point, turned) = holding(&simulation, &Vec3::new(0.0, -0.0075, 0.0));
     let mut pulled = Pulled {
         force: Vec3::zeros(),
+        work: 0.0,
         ball: 0.0,
         deepest: 0.0,
         left: 0.0,
     };
-    for step in 0..=60 {
-        let way = (5e-4 * f64::from(step)).min(0.02);
+    let mut before = 0.0;
+    for step in 0..=100 {
+        let way = (2.5e-4 * f64::from(step)).min(0.02);
         hands.go(&[pose(&(point - Vec3::y() * way), &turned, 1.0)]);
+        let force = hands.state.tools[0].force;
+        pulled.work += 0.5 * (pulled.force + force).y * (way - before);
+        (pulled.force, before) = (force, way);
     }
     let seen = hands.state.deformed.vertices();
     let (tube, bent) = seen.split_at(seen.len() - count);
@@ -89,7 +95,6 @@ fn pull(beside: Beside, friction: f64) -> Pulled {
         .iter()
         .map(|place| -moved.signed_distance(&boxes, place).1);
     pulled.deepest = depths.fold(0.0, f64::max);
-    pulled.force = hands.state.tools[0].force;
     for _ in 0..80 {
         hands.go(&[pose(&(point - Vec3::y() * 0.02), &turned, 0.0)]);
     }
@@ -97,15 +102,17 @@ fn pull(beside: Beside, friction: f64) -> Pulled {
     pulled
 }
 
-/// Judge: the rigid neighbour, which one of a hundred times the tube's modulus is to 3 % (its base is bonded, and it stands
-/// 12 mm high), and no neighbour. One as soft as the tube yields, and the hand feels less; the tube stays out of it but
-/// for what the surface that is seen lies beside the one that touches, 0.3 mm as with the rigid ball.
+/// Judge: energy. What is elastic and free of friction takes less work the softer it is: less than a stiffer ball, and more
+/// than none; friction takes more. A ball of a hundred times the tube's modulus takes as much as the rigid one but for 10 %:
+/// 8 % were found, which fall with the tube's elements (beside 400 nodes 4.4, 3.3 and 1.4 % with 1,500, 3,000 and 5,000). What
+/// is seen of tube and ball lies beside the surfaces that touch by 6²/(8 · 7.5) and 3²/(8 · 15) mm.
 #[test]
 fn a_pulled_tube_pushes_a_neighbour_that_bends() {
     let show = |name: &str, pulled: &Pulled| {
         println!(
-            "{name}: {:.3} N, ball moved {:.2} mm, {:.2} mm deep, {:.1e} m left",
+            "{name}: {:.3} N, {:.3} mJ, ball moved {:.2} mm, {:.2} mm deep, {:.1e} m left",
             pulled.force.y,
+            1e3 * pulled.work,
             1e3 * pulled.ball,
             1e3 * pulled.deepest,
             pulled.left
@@ -114,38 +121,34 @@ fn a_pulled_tube_pushes_a_neighbour_that_bends() {
     let free = pull(Beside::Nothing, 0.0);
     let rigid = pull(Beside::Rigid, 0.0);
     let stiff = pull(Beside::Soft(1e6), 0.0);
-    let soft = pull(Beside::Soft(1e4), 0.0);
-    let rubbed = pull(Beside::Soft(1e4), 0.3);
+    let firm = pull(Beside::Soft(3e4), 0.0);
+    let soft = pull(Beside::Soft(3e3), 0.0);
+    let rubbed = pull(Beside::Soft(3e3), 0.3);
     for (name, pulled) in [
         ("free", &free),
         ("rigid", &rigid),
         ("stiff", &stiff),
+        ("firm", &firm),
         ("soft", &soft),
         ("rubbed", &rubbed),
     ] {
         show(name, pulled);
     }
-    let felt = |pulled: &Pulled| (pulled.force.y - free.force.y) / (rigid.force.y - free.force.y);
-    assert!(
-        (stiff.force.y / rigid.force.y - 1.0).abs() < 0.03,
-        "{}",
-        stiff.force
-    );
-    assert!((0.1..0.9).contains(&felt(&soft)), "{}", felt(&soft));
+    let falls = [&stiff, &firm, &soft, &free].map(|pulled| pulled.work);
+    for pair in falls.windows(2) {
+        assert!(pair[0] > 1.01 * pair[1], "{falls:?}");
+    }
+    assert!((stiff.work / rigid.work - 1.0).abs() < 0.1, "{falls:?}");
     assert!(soft.ball > 5e-4, "{}", soft.ball);
-    assert!(
-        rubbed.force.norm() > 1.01 * soft.force.norm(),
-        "{}",
-        rubbed.force
-    );
-    for pulled in [&stiff, &soft, &rubbed] {
-        assert!(pulled.deepest < 0.3e-3, "{}", pulled.deepest);
+    assert!(rubbed.work > 1.02 * soft.work, "{}", rubbed.work);
+    for pulled in [&stiff, &firm, &soft, &rubbed] {
+        assert!(pulled.deepest < 0.68e-3, "{}", pulled.deepest);
         assert!(pulled.left < 1e-4, "{}", pulled.left);
     }
 }
 
-/// Judge: the same body and tissue as the organ of a scene of its own, pressed at the same place: 1 %, of a filling that
-/// another place rounds otherwise.
+/// Judge: the same body and tissue as the organ of a scene of its own, pressed at the same place: 3 %, for another place
+/// has another filling, as `nonlinear::a_press_does_not_depend_on_the_number_of_nodes`.
 #[test]
 fn a_tip_presses_a_neighbour_as_an_organ() {
     let tool = "[[tool]]\nname = \"probe\"\nkind = \"probe\"\ntip = { shape = \"flat\", radius_m = 0.003 }\n";
@@ -173,7 +176,41 @@ fn a_tip_presses_a_neighbour_as_an_organ() {
     println!("{expected:?} {found:?}");
     assert!(expected.z > 0.05, "{expected}");
     assert!(
-        (found - expected).norm() < 0.01 * expected.norm(),
+        (found - expected).norm() < 0.03 * expected.norm(),
         "{found}"
     );
+}
+
+/// Judge: the sentences. A neighbour that bends needs the nonlinear model, and has to be held.
+#[test]
+fn neighbours_that_cannot_bend_are_refused() {
+    let text = |kind: &str, more: &str| {
+        format!(
+            "format = 1\n[organ]\nbuiltin = \"hemisphere\"\nbuiltin_tissue = \"pig-liver\"\n[model]\nkind = \"{kind}\"\n\
+             nodes = 300\n[[neighbour]]\nbuiltin = \"cube\"\nat_m = [0.3, 0.0, 0.0]\n{more}"
+        )
+    };
+    let refused = |kind: &str, more: &str| match Scene::parse(&text(kind, more), "scene.toml") {
+        Err(error) => error.to_string(),
+        Ok(scene) => Simulation::new(&scene).unwrap_err().to_string(),
+    };
+    let tissue = "builtin_tissue = \"pig-liver\"\n";
+    let sphere = "[[neighbour.anchor.spheres]]\ncenter_m = [0.0, 0.0, 1.0]\nradius_m = 0.01\n";
+    for (kind, more, says) in [
+        ("local", tissue.to_owned(), "nonlinear"),
+        ("hybrid", tissue.to_owned(), "nonlinear"),
+        (
+            "nonlinear",
+            format!("{tissue}collides = true\n"),
+            "collides",
+        ),
+        ("nonlinear", "nodes = 300\n".to_owned(), "nodes"),
+        ("nonlinear", format!("{tissue}{sphere}"), "number 1"),
+    ] {
+        let sentence = refused(kind, &more);
+        println!("{sentence}");
+        assert!(sentence.contains(says), "{sentence}");
+    }
+    let auto = Scene::parse(&text("auto", tissue), "scene.toml").unwrap();
+    assert_eq!(auto.model.kind.word(), "nonlinear");
 }
