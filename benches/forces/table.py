@@ -6,7 +6,8 @@
 Runs are kept in target/forces and not repeated without --fresh. Engines may be installed apart: --python says which
 interpreter runs one. --write renews docs/comparisons/forces.md and its picture; without it the tables are printed.
 An engine that is not installed, and a scene that it cannot do, are rows that say so. With --scene, --write keeps the
-sections of the other scenes as they are in the page; the scenes of the call get a picture of their own.
+sections of the other scenes as they are in the page; the scenes of the call get a picture of their own. With --engine it
+keeps the rows of the other engines, and the pictures.
 """
 
 import argparse
@@ -173,10 +174,10 @@ def summary(scenes, results, before):
             kind = title if mesh == "own" else f"{title}, {mesh}"
             cells = []
             for scene in scenes:
-                if scene.title in before.sections:
+                answer = results.get((engine, scene.name, mesh), {"missing": ""})
+                if scene.title in before.sections or "skipped" in answer:
                     cells.append(before.cells.get((kind, scene.title), ""))
                     continue
-                answer = results.get((engine, scene.name, mesh), {"missing": ""})
                 if "force" not in answer:
                     cells.append("no" if "unfit" in answer else "failed" if "failed" in answer else "")
                     continue
@@ -188,7 +189,8 @@ def summary(scenes, results, before):
 
 
 class Before:
-    """What the page has of scenes that are not in the call: sections and cells of the summary by title, and settings."""
+    """What the page has: sections of scenes that are not in the call, by title; of all, rows, cells of the summary and
+    settings."""
 
     def __init__(self, text, renewed):
         summary_, *parts = re.split(r"^### ", text, flags=re.MULTILINE)[1:]
@@ -198,9 +200,16 @@ class Before:
         self.sections = {
             title: part.split("\n", 1)[1].strip("\n") for title, part in zip(titles, parts) if title not in renewed
         }
+        self.rows = {title: re.findall(r"^\| .*\|$", part, flags=re.MULTILINE) for title, part in zip(titles, parts)}
         rows = re.findall(r"^\| (.*) \|$", summary_, flags=re.MULTILINE)
         rows = [[cell.strip() for cell in row.split(" |")] for row in rows]
         self.cells = {(row[0], title): cell for row in rows for title, cell in zip(titles, row[1:])}
+
+
+    def row(self, scene, engine, mesh):
+        """The row of an engine that is not in the call, none where there is none."""
+        rows = [row for row in self.rows.get(scene.title, []) if row.startswith(f"| {ENGINES[engine]} |") or row.startswith(f"| {ENGINES[engine]},")]
+        return dict(zip(meshes_of(engine, scene), rows)).get(mesh)
 
 
 def meshes_of(engine, scene):
@@ -231,7 +240,10 @@ def text_of(scenes, results, before):
         where = f"{'Pulled by ' if scene.gripped else ''}{depths} mm{'' if scene.gripped else ' deep'}"
         where += f", at {at} s" if scene.prony else ""
         parts += [f"{where}. {converged(scene)}\n", HEADER]
-        parts += [row(scene, e, m, results[e, scene.name, m]) for e in ENGINES for m in meshes_of(e, scene)]
+        for engine, mesh in [(engine, mesh) for engine in ENGINES for mesh in meshes_of(engine, scene)]:
+            answer = results[engine, scene.name, mesh]
+            known = before.row(scene, engine, mesh) if "skipped" in answer else None
+            parts.append(known or row(scene, engine, mesh, answer))
     parts.append("\n### Settings\n")
     for engine, title in ENGINES.items():
         own = [answer for (name, *_), answer in results.items() if name == engine]
@@ -315,8 +327,9 @@ def main():
     if not chosen.write:
         print(text)
         return
-    name = PICTURE if not chosen.scene else PICTURE.with_stem(f"forces_{'_'.join(chosen.scene)}")
-    drawn(scenes, results, name)
+    if not chosen.engine:
+        name = PICTURE if not chosen.scene else PICTURE.with_stem(f"forces_{'_'.join(chosen.scene)}")
+        drawn(scenes, results, name)
     page = re.sub(f"{begin}.*{end}", lambda _: f"{begin}\n{text}{end}", page, flags=re.DOTALL)
     PAGE.write_text(page)
 
