@@ -23,6 +23,8 @@ use palpate_files::{Scene, Tissue};
 use palpate_geometry::Surface;
 use sha2::{Digest, Sha256};
 
+use crate::neighbour::Neighbour;
+
 /// Of every neighbour, before a scene could state it [N/m].
 const EARLIER_STIFFNESS: f64 = 1000.0;
 
@@ -39,14 +41,14 @@ pub(crate) struct SceneDigest {
 }
 
 impl SceneDigest {
-    /// `felt` are the tissues of layers and inclusions that are felt, `enclosed` the surfaces of inclusions, `neighbours` those at which tools stop, with their
-    /// stiffness [N/m], and those that bend.
+    /// `felt` are the tissues of layers and inclusions that are felt, `enclosed` the surfaces of inclusions, and `neighbours`
+    /// those of bodies beside the organ, each with the neighbour at which tools stop if it is rigid.
     pub(crate) fn of<'a>(
         scene: &Scene,
         surface: &Surface,
         (tissue, felt): (&Tissue, &[Tissue]),
         enclosed: &[Surface],
-        neighbours: impl Iterator<Item = (&'a Surface, Option<f64>)>,
+        neighbours: impl Iterator<Item = (&'a Surface, Option<&'a Neighbour>)>,
     ) -> Self {
         let mut form = canonical(scene, tissue);
         felt.iter().for_each(|tissue| form.tissue(tissue));
@@ -58,10 +60,14 @@ impl SceneDigest {
         for body in enclosed {
             form.word("enclosed", &digits(of_surface(body)));
         }
-        for (body, stiffness) in neighbours {
-            form.word("neighbour", &digits(of_surface(body)));
-            if let Some(stiffness) = stiffness.filter(|own| *own != EARLIER_STIFFNESS) {
-                form.numbers("neighbour_stiffness_n_per_m", &[stiffness]);
+        for (surface, rigid) in neighbours {
+            form.word("neighbour", &digits(of_surface(surface)));
+            let Some(rigid) = rigid else { continue };
+            if rigid.stiffness != EARLIER_STIFFNESS {
+                form.numbers("neighbour_stiffness_n_per_m", &[rigid.stiffness]);
+            }
+            if rigid.friction != 0.0 {
+                form.numbers("neighbour_friction", &[rigid.friction]);
             }
         }
         let of_surface = of_surface(surface);
@@ -418,7 +424,8 @@ mod tests {
         prony = [{ g = 0.3, tau_s = 0.5 }]\n[[organ.layer]]\nname = \"outer\"\nthickness_m = 0.001\n\
         builtin_tissue = \"pig-liver\"\n[[organ.nodule]]\ncenter_m = [0.0, 0.0, 0.03]\nradius_m = 0.005\n\
         stiffness_ratio = 6.0\n[model]\nkind = \"local\"\n[[tool]]\nname = \"right\"\ndevice = \"mouse\"\n\
-        tip = { shape = \"flat\", radius_m = 0.002, contact = \"slip\" }\n";
+        tip = { shape = \"flat\", radius_m = 0.002, contact = \"slip\" }\n[[neighbour]]\nbuiltin = \"cube\"\n\
+        at_m = [0.3, 0.0, 0.0]\ncollides = true\nfriction = 0.2\n";
 
     fn digest(text: &str) -> SceneDigest {
         let scene = Scene::parse(text, "scene.toml").unwrap();
@@ -453,6 +460,7 @@ mod tests {
             ("0.002, c", "0.0021, c"),
             ("triangles = 800", "triangles = 900"),
             ("\"flat\"", "\"sphere\""),
+            ("friction = 0.2", "friction = 0.25"),
         ] {
             let mut changed = SCENE.replace(from, to);
             if to == "neo_hookean" {

@@ -141,8 +141,8 @@ impl Simulation {
         )?;
         if !neighbours.is_empty() {
             warnings.push(match is_nonlinear {
-                true => "neighbours that collide keep their shape: they stop the tips of tools and, without friction, the \
-                         organ; shafts pass through them"
+                true => "neighbours that collide keep their shape: they stop the tips of tools and the organ, with their \
+                         `friction`; shafts pass through them"
                     .to_owned(),
                 false => "neighbours that collide keep their shape: they stop the tips of tools; shafts and the organ pass \
                           through them: `model.kind = \"nonlinear\"` keeps the organ out"
@@ -222,7 +222,7 @@ impl Simulation {
                 &enclosed,
                 neighbours
                     .iter()
-                    .map(|body| (&body.surface, Some(body.stiffness)))
+                    .map(|body| (&body.surface, Some(body)))
                     .chain(soft.iter().map(|body| (&body.surface, None))),
             ),
             seed: scene.variant.as_ref().map_or(0, |own| own.seed),
