@@ -294,7 +294,7 @@ def drawn(scenes, results, path):
         axis.set_ylabel("force [mN]", fontsize=7)
         axis.tick_params(labelsize=7)
     figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=5 if columns > 1 else 2, fontsize=8)
-    figure.tight_layout(rect=(0, 0.08 if columns > 1 else 0.3, 1, 1))
+    figure.tight_layout(rect=(0, max(0.08, 0.55 / (3.0 * rows)) if columns > 1 else 0.3, 1, 1))
     figure.savefig(path, dpi=110)
 
 
