@@ -96,6 +96,11 @@ impl Constraints {
         self.tools.rows.len() + self.contacts.listed.len()
     }
 
+    /// Whether points of the boundary may bear in this step.
+    pub(super) fn has_contacts(&self) -> bool {
+        !self.contacts.listed.is_empty()
+    }
+
     /// Takes the conditions of a step, and S of all of them.
     #[inline(always)]
     pub(super) fn prepare(
