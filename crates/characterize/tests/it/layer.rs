@@ -116,6 +116,25 @@ const OF_RATIOS: [(f64, [f64; 16]); 4] = [
     ),
 ];
 
+/// Judge: the other code. Tolerances: 1 % at the largest depth, of which both sides' elements are half a percent each; 1.5 % at half of
+/// it, where the contact is three elements of the other code wide.
+#[test]
+#[ignore = "slow: finite elements of four bases"]
+fn forces_on_layers_are_those_of_another_code() {
+    for (contrast, forces) in OF_RATIOS {
+        let body = Body::of(&header_of_sphere(contrast), 2e-3).unwrap();
+        let mut curves = Curves::new(body, SoughtLaw::NeoHookean, 2e-3);
+        let unit = curves.of(MODULUS, &[]).unwrap();
+        let off = |depth: f64, force: f64| MODULUS * unit.force.force(depth) / force - 1.0;
+        let [half, whole] = [off(1e-3, forces[7]), off(2e-3, forces[15])];
+        println!(
+            "{contrast}: {half:.4} and {whole:.4}, bound {:.4}",
+            unit.discretisation
+        );
+        assert!(whole.abs() < 0.01 && half.abs() < 0.015, "{contrast}");
+    }
+}
+
 /// What is asked of the intervals of 95 %: 17 of 20, of which fewer are held once in sixty by chance; where the base hardly matters,
 /// or elements do most, they are wider, which their bounds are for.
 #[test]
