@@ -208,7 +208,7 @@ impl SimulationState {
             whole.return_to_rest();
         }
         if let (Some(body), Some(organ)) = (body, &simulation.nonlinear) {
-            body.begin_anew(organ);
+            body.reset(organ);
         }
         if let Some(cuts) = cuts {
             cuts.reset();

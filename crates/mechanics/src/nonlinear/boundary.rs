@@ -108,8 +108,8 @@ impl Boundary {
         nodes
     }
 
-    /// Spreads a load around `place` [m], on what is one piece with the nearest face and faces as `normal` [-] does: (1 − (r/R)²)² with R no less than `radius`
-    /// [m] nor than the faces resolve.
+    /// Spreads a load around `place` [m], on what is one piece with the nearest face and faces as `normal` [-] does:
+    /// (1 − (r/R)²)² with R no less than `radius` [m] nor than the faces resolve.
     pub fn spread(&self, place: &Vec3, normal: &Vec3, radius: f64, load: &mut SpreadLoad) {
         let nearest = self.tree.nearest(&self.mesh, place);
         let corners = self.mesh.corners(nearest.triangle);

@@ -13,9 +13,9 @@ const SLOPE_LEFT: f64 = 0.3;
 /// Largest factor with which the last displacement is continued, or gone back [-].
 const MOST_CONTINUED: f64 = 1.5;
 
-/// Without contacts, conjugate gradients go on, up to twice as many, until they have reduced the residual's energy so many times
-/// [-]. Thin walls need it: what they leave makes the organ too stiff within a step, and the force under a tip swings ever
-/// more. With contacts more are not steadier.
+/// Without contacts, conjugate gradients go on, up to twice as many, until they have reduced the residual's energy so many
+/// times [-]. Thin walls need it: the residual that is left makes the organ too stiff within a step, and the force under a tip
+/// oscillates with a growing amplitude. With contacts, more iterations are not steadier.
 const REDUCED: f64 = 1e3;
 
 /// How a step is taken.

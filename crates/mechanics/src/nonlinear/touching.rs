@@ -13,6 +13,7 @@
 use palpate_geometry::{SHARP_EDGE, TetrahedronMesh, TriangleMesh};
 
 use super::boundary::shape_on_face;
+use super::contact::{AT, NODES};
 use super::model::NonlinearModel;
 use super::state::NonlinearState;
 use super::touching_search::TouchingSearch;
@@ -29,8 +30,7 @@ const FACES: f64 = 0.5;
 /// Part of the change of the normals along an edge by which its middle lies beside it [-].
 const BULGE: f64 = 0.125;
 
-/// Nodes of a face; triangles that it is searched as, each of three of its nodes.
-const NODES: usize = 6;
+/// Triangles that a face is searched as, each of three of its nodes.
 pub(super) const PARTS: usize = 4;
 pub(super) const PART_NODES: [[usize; 3]; PARTS] = [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]];
 
@@ -237,7 +237,7 @@ impl TouchingBoundary {
 }
 
 /// Points of the boundary on each face.
-pub(super) const POINTS: usize = 3;
+pub(super) const POINTS: usize = AT.len();
 
 fn flat_normal(mesh: &TetrahedronMesh, face: &Face) -> Vec3 {
     let [a, b, c] = face.corners.map(|node| mesh.vertices()[node.index()]);
@@ -319,5 +319,5 @@ pub(super) fn on_face(values: &[Vec3; NODES], weights: &[f64; NODES]) -> Vec3 {
 
 /// Shape functions at a point of the boundary, by its number.
 pub(super) fn shape_at_point(point: usize) -> [f64; NODES] {
-    shape_on_face(super::contact::AT[point % POINTS])
+    shape_on_face(AT[point % POINTS])
 }

@@ -3,7 +3,7 @@
 use palpate_geometry::{AabbTree, NodeId, TriangleId, TriangleMesh, closest_on_triangle};
 
 use super::boundary::shape_on_face;
-use super::contact::UnilateralContact;
+use super::contact::{NODES, UnilateralContact};
 use super::model::NonlinearModel;
 use super::state::NonlinearState;
 use super::touching::{
@@ -34,8 +34,6 @@ const FASTEST: f64 = 2.5;
 /// Steps in which a point is projected onto the surface, and its lag below which it is [mean edges].
 const PROJECTIONS: usize = 8;
 const PROJECTED: f64 = 1e-9;
-
-const NODES: usize = 6;
 
 /// Scratch of the search; dropping it changes nothing.
 #[derive(Debug, Clone)]

@@ -104,7 +104,7 @@ struct Ended {
 
 impl Body {
     /// At rest, and touched by nothing; nothing is allocated.
-    pub(crate) fn begin_anew(&mut self, organ: &NonlinearOrgan) {
+    pub(crate) fn reset(&mut self, organ: &NonlinearOrgan) {
         self.state.reset(&organ.model);
         self.is_at_rest = true;
         self.is_loaded.fill(false);
