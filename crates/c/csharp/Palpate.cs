@@ -62,6 +62,11 @@ namespace Palpate
         OpensLayer6 = 1u << 20,
         /// <summary>Its shaft no longer touches the organ.</summary>
         ShaftRelease = 1u << 21,
+        /// <summary>From this step on the direction of its shaft is not known, so that only its tip and jaws touch an organ
+        /// that bends.</summary>
+        ShaftUnknown = 1u << 22,
+        /// <summary>The direction of its shaft is known again.</summary>
+        ShaftKnown = 1u << 23,
     }
 
     /// <summary>Three numbers along x, y and z.</summary>
@@ -144,6 +149,8 @@ namespace Palpate
         public Rotation Orientation;
         /// <summary>With how much each of its jaws presses on the tissue between them [N].</summary>
         public double GripForce;
+        /// <summary>The torque on it about its tip [N m]: of tissue that bears on the shaft of a tool without a trocar.</summary>
+        public Vector Torque;
         /// <summary>What happened to it in this step.</summary>
         public Events Events;
         byte contact, holds;

@@ -115,6 +115,16 @@
 #define PALPATE_EVENT_SHAFT_RELEASE (1 << 21)
 
 /**
+ * From this step on the direction of its shaft is not known, so that only its tip and jaws touch an organ that bends.
+ */
+#define PALPATE_EVENT_SHAFT_UNKNOWN (1 << 22)
+
+/**
+ * The direction of its shaft is known again.
+ */
+#define PALPATE_EVENT_SHAFT_KNOWN (1 << 23)
+
+/**
  * The version of this header.
  */
 #define PALPATE_VERSION_MAJOR 0
@@ -264,6 +274,11 @@ typedef struct palpate_touch {
      * With how much each of its jaws presses on the tissue between them [N].
      */
     double grip_force_n;
+    /**
+     * The torque on it about its tip, in the scene's frame [N m]: of tissue that bears on the shaft of a tool without a
+     * trocar.
+     */
+    double torque_nm[3];
     /**
      * What happened to it in this step: a sum of PALPATE_EVENT_....
      */

@@ -40,6 +40,10 @@ pub const PALPATE_EVENT_OPENS_LAYER_5: u32 = 1 << 19;
 pub const PALPATE_EVENT_OPENS_LAYER_6: u32 = 1 << 20;
 /// Its shaft no longer touches the organ.
 pub const PALPATE_EVENT_SHAFT_RELEASE: u32 = 1 << 21;
+/// From this step on the direction of its shaft is not known, so that only its tip and jaws touch an organ that bends.
+pub const PALPATE_EVENT_SHAFT_UNKNOWN: u32 = 1 << 22;
+/// The direction of its shaft is known again.
+pub const PALPATE_EVENT_SHAFT_KNOWN: u32 = 1 << 23;
 
 /// The bit of an event: none for what a caller has done itself.
 fn bit(event: Event) -> u32 {
@@ -64,6 +68,8 @@ fn bit(event: Event) -> u32 {
         Event::OpensLayer5 => PALPATE_EVENT_OPENS_LAYER_5,
         Event::OpensLayer6 => PALPATE_EVENT_OPENS_LAYER_6,
         Event::ShaftRelease => PALPATE_EVENT_SHAFT_RELEASE,
+        Event::ShaftUnknown => PALPATE_EVENT_SHAFT_UNKNOWN,
+        Event::ShaftKnown => PALPATE_EVENT_SHAFT_KNOWN,
     }
 }
 

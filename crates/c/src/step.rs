@@ -52,6 +52,9 @@ pub struct ToolTouch {
     pub orientation: [f64; 4],
     /// With how much each of its jaws presses on the tissue between them [N].
     pub grip_force_n: f64,
+    /// The torque on it about its tip, in the scene's frame [N m]: of tissue that bears on the shaft of a tool without a
+    /// trocar.
+    pub torque_nm: [f64; 3],
     /// What happened to it in this step: a sum of PALPATE_EVENT_....
     pub events: u32,
     /// 1 if its tip touches or its jaws hold, else 0.
@@ -190,6 +193,7 @@ fn touch(simulation: &Simulation, number: usize, state: &SimulationState, time: 
         depth_m: if contact { own.row.depth_m } else { 0.0 },
         orientation: own.row.orientation,
         grip_force_n: own.grip_force,
+        torque_nm: own.torque.into(),
         events: events::bits(own.row.events),
         contact: contact.into(),
         holds: own.holds().into(),

@@ -39,6 +39,7 @@ impl Session {
                 header: model.prepared.session_header(),
                 tools: tools.map(|tool| tool.name.clone()).collect(),
                 rows,
+                has_torques: true,
                 incomplete: None,
             },
             scene: Some(model.scene.clone()),
@@ -144,6 +145,9 @@ impl Session {
         truths("cut", &|row| row.cut)?;
         for (axis, name) in ["fx_n", "fy_n", "fz_n"].into_iter().enumerate() {
             add(name, &|row| row.force_n[axis])?;
+        }
+        for (axis, name) in ["tx_nm", "ty_nm", "tz_nm"].into_iter().enumerate() {
+            add(name, &|row| row.torque_nm[axis])?;
         }
         truths("contact", &|row| row.contact)?;
         add("depth_m", &|row| row.depth_m)?;

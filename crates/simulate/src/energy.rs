@@ -126,6 +126,10 @@ pub(crate) fn check(simulation: &Simulation, state: &mut SimulationState) {
 
 /// Whether the force on a tool is the derivative of an energy.
 fn has_energy(tool: &Tool, state: &ToolState) -> bool {
+    if state.is_pushed() {
+        // What bears on a shaft moves with other than the tip.
+        return false;
+    }
     match &state.grip.hold {
         Some(hold) => hold.has_turned() <= MOST_TURNED,
         None => {

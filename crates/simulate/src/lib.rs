@@ -58,6 +58,7 @@ mod preparation;
 mod region_places;
 mod replay;
 mod session_folder;
+mod shaft;
 mod simulation;
 mod state;
 mod step;

@@ -6,8 +6,8 @@
 //! *How we know*: `replay::what_was_felt_is_felt_again`, `replay::going_back_is_exact`,
 //! `replay::states_from_ahead_are_those_of_the_session`.
 //!
-//! *Limits*: without an orientation of its own a free tool's shaft was not known; played again it is, and may
-//! touch where it did not before. Rows that were lost stay lost.
+//! *Limits*: without an orientation of its own a free tool's shaft was not known; played again with another model than the
+//! nonlinear one it is, and may be told to touch where it did not before. Rows that were lost stay lost.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -44,6 +44,8 @@ pub struct Replay {
 struct Course {
     simulation: Arc<Simulation>,
     rows: Arc<[SessionRow]>,
+    /// The pose of each.
+    poses: Arc<[Pose]>,
     /// The rows of each step.
     steps: Arc<[Range<usize>]>,
 }
@@ -88,6 +90,7 @@ impl Replay {
         Ok(Self::of(Course {
             simulation,
             rows: session.rows.iter().map(in_scene).collect(),
+            poses: session.poses().collect(),
             steps: steps.into(),
         }))
     }
@@ -166,10 +169,10 @@ impl Replay {
     /// Plays the next step. Whether there was one.
     pub fn advance(&mut self) -> bool {
         let course = &self.course;
-        let Some(rows) = course.steps.get(self.played).cloned() else {
+        let Some(step_rows) = course.steps.get(self.played).cloned() else {
             return false;
         };
-        let rows = &course.rows[rows];
+        let (rows, poses) = (&course.rows[step_rows.clone()], &course.poses[step_rows]);
         let time = rows[0].time_s;
         let mut before = self.played.checked_sub(1).map(|last| course.time(last));
         let happened = |event| rows.iter().any(|row| row.events.contains(event));
@@ -181,16 +184,10 @@ impl Replay {
             self.state.undo_cut();
         }
         self.poses.fill(None);
-        for row in rows
-            .iter()
-            .filter(|row| !row.events.contains(Event::Lifted))
-        {
-            self.poses[row.tool] = Some(Pose {
-                position_m: row.position_m,
-                orientation: Some(row.orientation),
-                grip: row.grip,
-                cut: row.cut,
-            });
+        for (row, pose) in rows.iter().zip(poses) {
+            if !row.events.contains(Event::Lifted) {
+                self.poses[row.tool] = Some(*pose);
+            }
         }
         step(
             &course.simulation,

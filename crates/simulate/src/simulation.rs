@@ -9,7 +9,7 @@ use crate::cutting::CuttingModel;
 use crate::digest::SceneDigest;
 use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin, surround};
 use crate::neighbour::Neighbour;
-use crate::nonlinear::{NonlinearOrgan, Regions, SoftBody};
+use crate::nonlinear::{Beside, NonlinearOrgan, Regions, SoftBody};
 use crate::preparation::tell;
 use crate::region_places::read_regions;
 use crate::tool::{Tool, settings, typical_radius};
@@ -162,7 +162,12 @@ impl Simulation {
             Some(regions) => {
                 tell(watch, Work::Tetrahedra)?;
                 let (shown, organ) = ((&surface, &tree), (&organ_surface, regions));
-                let (organ, more) = NonlinearOrgan::new(scene, shown, organ, &soft, &neighbours)?;
+                let beside = Beside {
+                    tools: &tools,
+                    soft: &soft,
+                    neighbours: &neighbours,
+                };
+                let (organ, more) = NonlinearOrgan::new(scene, shown, organ, beside)?;
                 warnings.extend(more);
                 Some(organ)
             }

@@ -13,7 +13,7 @@ use crate::global::{GlobalWorkspace, OrganField};
 use crate::grip::Grip;
 use crate::limits::LimitCounts;
 use crate::neighbour::Stopped;
-use crate::nonlinear::{Body, Moved, NonlinearWorkspace};
+use crate::nonlinear::{Body, Moved, NonlinearWorkspace, Pushed};
 use crate::{Contact, Error, Simulation, nodule};
 
 /// All that a step changes.
@@ -76,8 +76,11 @@ pub struct ToolState {
     pub contact: Option<Contact>,
     /// How far it is from the organ at rest.
     pub(crate) clearance: Clearance,
-    /// Force on the tool [N], of the organ and of the neighbours at which it stops.
+    /// Force on the tool [N], of the organ and of the neighbours at which it stops. What bears on the shaft is taken to the
+    /// tip: by its work of a tool in a trocar, else with [`Self::torque`].
     pub force: Vec3,
+    /// Torque on a free tool about its tip [N m], of tissue that bears on its shaft; what the tip touches makes none.
+    pub torque: Vec3,
     /// Stiffness of the contact in its frame, of held tissue in the scene's [N/m]; zero without either.
     pub stiffness: nalgebra::Matrix3<f64>,
     /// With how much each of its jaws presses on the tissue that it holds [N]; zero without.
@@ -117,8 +120,12 @@ pub struct ToolState {
     /// Whether it was not there in the step before.
     pub(crate) is_away: bool,
     pub(crate) shaft_touches: bool,
+    /// Whether the direction of its shaft was not known when it was there last.
+    pub(crate) shaft_is_unknown: bool,
     /// What neighbours do to it.
     pub(crate) stopped: Stopped,
+    /// What tissue does to its shaft.
+    pub(crate) pushed: Pushed,
     pub(crate) beyond_trust: bool,
     /// Triangles from the end of an opening to the blade that makes it.
     pub cut_lag: usize,
@@ -276,6 +283,7 @@ impl ToolState {
             contact: None,
             clearance: Clearance::default(),
             force: Vec3::zeros(),
+            torque: Vec3::zeros(),
             stiffness: nalgebra::Matrix3::zeros(),
             grip_force: 0.0,
             row: SessionRow {
@@ -286,6 +294,7 @@ impl ToolState {
                 grip: 0.0,
                 cut: false,
                 force_n: [0.0; 3],
+                torque_nm: [0.0; 3],
                 contact: false,
                 depth_m: 0.0,
                 events: Events::NONE,
@@ -311,7 +320,9 @@ impl ToolState {
             history_frame: None,
             is_away: true,
             shaft_touches: false,
+            shaft_is_unknown: false,
             stopped: Stopped::default(),
+            pushed: Pushed::default(),
             beyond_trust: false,
             cut_lag: 0,
             blade: None,

@@ -7,6 +7,7 @@ use palpate_geometry::Vec3;
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::{ForceHistory, Limits};
 
+use crate::shaft::Shaft;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, SimulationWorkspace, ToolState};
 use crate::tool::Tool;
@@ -14,9 +15,6 @@ use crate::{cutting, deform, energy, grip, hand_speed, neighbour, nodule, orient
 
 /// Depth beyond which no model here has been compared with tissue [m].
 pub const TRUSTED_DEPTH: f64 = 0.010;
-
-/// Length of a shaft without a trocar [m].
-const SHAFT: f64 = 0.3;
 
 /// Takes `state` one step of `elapsed` [s] on to `time` [s], with the tools at `poses` (none: not there
 /// yet). A first step has an `elapsed` of zero: whatever depth there is then comes as a jump.
@@ -55,6 +53,9 @@ pub fn touch(
         let tip = at_rest(simulation, number, pose.as_ref(), state);
         let own = &mut state.tools[number];
         own.row.events = jumps | detect(simulation, tool, pose, tip, own);
+        if let (Some(pose), Some(_)) = (&pose, &simulation.nonlinear) {
+            own.tell_whether_shaft_is_known(tool, pose);
+        }
         if let (Some(model), Some(cuts)) = (&simulation.cutting, &state.cuts) {
             cutting::track_blade(simulation, model, cuts, number, own);
         }
@@ -67,8 +68,10 @@ pub fn touch(
         let failed = render_force(simulation, tool, time, elapsed, own);
         neighbour::press(simulation, number, state);
         let own = &mut state.tools[number];
+        own.force += own.pushed.force;
+        own.torque = own.pushed.torque;
         record(simulation, tool, time, failed, own);
-        if own.touches() {
+        if own.touches() || own.is_pushed() {
             own.limits.count(&own.limited);
         }
     }
@@ -173,6 +176,17 @@ fn detect(
 }
 
 impl ToolState {
+    /// Tells when the direction of its shaft is not known any more, or again: rows have an orientation all the same.
+    fn tell_whether_shaft_is_known(&mut self, tool: &Tool, pose: &Pose) {
+        let is_unknown = Shaft::of(tool, pose).is_none();
+        match (self.shaft_is_unknown, is_unknown) {
+            (false, true) => self.row.events.insert(Event::ShaftUnknown),
+            (true, false) => self.row.events.insert(Event::ShaftKnown),
+            _ => {}
+        }
+        self.shaft_is_unknown = is_unknown;
+    }
+
     /// Relaxes while the tool was not there; how long its way into the tissue took [s]. What happens while a
     /// tool is away follows from its rows alone, so that a session can be played again.
     fn re_enter(&mut self, simulation: &Simulation, time: f64, elapsed: f64) -> f64 {
@@ -369,6 +383,7 @@ fn record(simulation: &Simulation, tool: &Tool, time: f64, failed: Events, state
     row.grip = pose.grip;
     row.cut = pose.cut;
     row.force_n = state.force.into();
+    row.torque_nm = state.torque.into();
     row.contact = touches;
     row.depth_m = held_depth.unwrap_or(state.contact.map_or(0.0, |contact| contact.depth));
     row.grip_force_n = state.grip_force;
@@ -387,28 +402,18 @@ fn show_cuts(simulation: &Simulation, time: f64, state: &mut SimulationState) {
     }
 }
 
-/// Tells when the shaft begins to touch the deformed organ, and when it no longer does; it is not pushed by it.
+/// Tells when the shaft begins to touch the deformed organ, and when it no longer does. A shaft of unknown direction stands on
+/// the surface and touches nothing else.
 fn touch_with_shaft(tool: &Tool, number: usize, state: &mut SimulationState) {
     let own = &mut state.tools[number];
     let Some(pose) = &own.pose else {
         return;
     };
-    // A shaft of unknown direction stands on the surface and touches nothing else.
-    let known = tool.trocar.is_some() || pose.orientation.is_some();
-    // Near the tip the shaft stands in the dimple that the tip makes.
-    let clear = 2.0 * tool.patches.radius();
-    // Jaws are there for what is between them.
-    let clear = tool.jaws.map_or(clear, |jaws| clear.max(jaws.length_m));
-    let tip = Vec3::from(pose.position_m);
-    let [i, j, k, w] = own.row.orientation;
-    let turned = nalgebra::Unit::new_unchecked(nalgebra::Quaternion::new(w, i, j, k));
-    let along = turned * Vec3::z();
-    let reach = tool.trocar.map_or(SHAFT, |trocar| (trocar - tip).norm());
-    let touches = known && reach > clear && {
-        let (start, end) = (tip + along * clear, tip + along * reach);
+    let axis = Shaft::of(tool, pose).and_then(|shaft| shaft.axis(tool.shaft_begins()));
+    let touches = axis.is_some_and(|[start, end]| {
         let (mesh, radius) = (&state.deformed, tool.shaft_radius());
         state.tree.is_near_segment(mesh, [&start, &end], radius)
-    };
+    });
     match (own.shaft_touches, touches) {
         (false, true) => own.row.events.insert(Event::ShaftContact),
         (true, false) => own.row.events.insert(Event::ShaftRelease),

@@ -154,8 +154,12 @@ impl Tally {
         warn(
             self.shaft_contacts > 0,
             format!(
-                "the shaft of a tool touched the organ {} times; it was not pushed by it",
-                self.shaft_contacts
+                "the shaft of a tool touched the organ {} times{}",
+                self.shaft_contacts,
+                match simulation.nonlinear {
+                    Some(_) => "",
+                    None => "; it was not pushed by it",
+                }
             ),
         );
         warn(

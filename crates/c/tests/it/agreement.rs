@@ -53,6 +53,7 @@ fn assert_same(scene: &str, poses: &[Vec<ToolPose>]) -> u32 {
             assert_eq!(touch.holds != 0, own.holds());
             assert_eq!(touch.orientation, own.row.orientation);
             assert_eq!(touch.grip_force_n, own.grip_force);
+            assert_eq!(touch.torque_nm, <[f64; 3]>::from(own.torque));
             for (_, event) in Event::WORDS {
                 let bit = 1 << *event as u32;
                 assert_eq!(touch.events & bit != 0, own.row.events.contains(*event));

@@ -21,6 +21,8 @@ pub struct ShownTool {
     pub orientation: UnitQuaternion<f64>,
     /// The force on it [N].
     pub force: Vec3,
+    /// The torque on it about its tip [N m].
+    pub torque: Vec3,
     /// Why its device has no force, if it has none.
     pub fault: Option<Fault>,
 }

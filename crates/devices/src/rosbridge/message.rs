@@ -90,9 +90,9 @@ pub fn pose(tool: &ShownTool, time: SystemTime) -> Option<Value> {
     Some(json!({"header": header(time), "pose": pose}))
 }
 
-/// `geometry_msgs/WrenchStamped`: the force on the tool [N], at its tip, where the models compute no torque.
+/// `geometry_msgs/WrenchStamped`: the force on the tool [N] at its tip, and the torque about it [N m].
 pub fn wrench(tool: &ShownTool, time: SystemTime) -> Value {
-    let wrench = json!({"force": vector(&tool.force), "torque": vector(&Vec3::zeros())});
+    let wrench = json!({"force": vector(&tool.force), "torque": vector(&tool.torque)});
     json!({"header": header(time), "wrench": wrench})
 }
 

@@ -43,6 +43,7 @@ fn tool(fault: Option<Fault>) -> ShownTool {
         place: Some(PLACE),
         orientation: turned(),
         force: FORCE,
+        torque: Vec3::zeros(),
         fault,
     }
 }

@@ -23,6 +23,7 @@ fn server(fault: Option<Fault>) -> Publisher {
         place: Some(PLACE),
         orientation: UnitQuaternion::from_axis_angle(&Vec3::z_axis(), std::f64::consts::FRAC_PI_2),
         force: FORCE,
+        torque: Vec3::new(0.0, 0.125, 0.0),
         fault,
     };
     let surface = ShownSurface {
@@ -90,7 +91,7 @@ fn messages_are_those_of_ros() {
     let wrench = message(&server, "/palpate/the_right/wrench");
     assert_eq!(
         wrench["wrench"],
-        json!({"force": {"x": 0.25, "y": 0.5, "z": -1.5}, "torque": {"x": 0.0, "y": 0.0, "z": 0.0}})
+        json!({"force": {"x": 0.25, "y": 0.5, "z": -1.5}, "torque": {"x": 0.0, "y": 0.125, "z": 0.0}})
     );
     let seconds = wrench["header"]["stamp"]["sec"].as_u64().unwrap();
     let since = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);

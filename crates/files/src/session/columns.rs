@@ -13,6 +13,8 @@ pub(super) struct Columns {
     grip: Column,
     cut: Column,
     force: [Column; 3],
+    /// Sessions before there were torques have none.
+    pub(super) torque: Option<[Column; 3]>,
     contact: Column,
     depth: Column,
     event: Column,
@@ -34,6 +36,10 @@ impl Columns {
             grip: table.column("grip")?,
             cut: table.column("cut")?,
             force: three(["fx_n", "fy_n", "fz_n"])?,
+            torque: match table.optional_column("tx_nm")? {
+                Some(_) => Some(three(["tx_nm", "ty_nm", "tz_nm"])?),
+                None => None,
+            },
             contact: table.column("contact")?,
             depth: table.column("depth_m")?,
             event: table.column("event")?,
@@ -63,6 +69,7 @@ impl Columns {
             grip: row.number(&self.grip, Domain::FRACTION)?,
             cut: row.truth(&self.cut)?,
             force_n: three(&self.force)?,
+            torque_nm: self.torque.as_ref().map_or(Ok([0.0; 3]), three)?,
             contact: row.truth(&self.contact)?,
             depth_m: finite(&self.depth)?,
             events,

@@ -49,6 +49,11 @@ words! {
         OpensLayer6 = "opens_layer_6",
         /// Its shaft no longer touches the organ.
         ShaftRelease = "shaft_release",
+        /// From this step on the direction of its shaft is not known, so that only its tip and jaws touch an organ that bends;
+        /// its rows have the orientation that is seen.
+        ShaftUnknown = "shaft_unknown",
+        /// The direction of its shaft is known again.
+        ShaftKnown = "shaft_known",
     }
 }
 

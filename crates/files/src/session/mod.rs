@@ -27,6 +27,8 @@ pub struct Session {
     pub tools: Vec<String>,
     /// The rows, in the order of the file.
     pub rows: Vec<SessionRow>,
+    /// Whether the rows have torques; those of an older file are zero.
+    pub has_torques: bool,
     /// Why rows may be missing; none for a session with its end mark.
     pub incomplete: Option<Incomplete>,
 }
@@ -55,6 +57,7 @@ impl Session {
             header,
             tools: Vec::new(),
             rows: Vec::new(),
+            has_torques: columns.torque.is_some(),
             incomplete: None,
         };
         let mut previous = Vec::new();
@@ -84,15 +87,36 @@ impl Session {
     /// is the digest in the end mark of a session that this program wrote.
     pub fn digest(&self) -> String {
         let mut digest = RowDigest::default();
-        digest.add(row::COLUMNS);
+        digest.add(match self.has_torques {
+            true => row::COLUMNS,
+            false => row::COLUMNS_WITHOUT_TORQUE,
+        });
         let mut line = String::new();
         for row in &self.rows {
             line.clear();
-            row.print(&self.tools[row.tool], &mut line)
+            row.print_with((&self.tools[row.tool], self.has_torques), &mut line)
                 .expect("a string takes every text");
             digest.add(&line);
         }
         digest.hexadecimal()
+    }
+
+    /// The pose of each row, without an orientation where the direction of the tool's shaft was not known.
+    pub fn poses(&self) -> impl Iterator<Item = Pose> {
+        let mut is_known = vec![true; self.tools.len()];
+        self.rows.iter().map(move |row| {
+            let known = &mut is_known[row.tool];
+            // What began anew says it once more.
+            *known |= row.events.contains(Event::ShaftKnown);
+            *known |= row.events.contains(Event::BeginAnew);
+            *known &= !row.events.contains(Event::ShaftUnknown);
+            Pose {
+                position_m: row.position_m,
+                orientation: known.then_some(row.orientation),
+                grip: row.grip,
+                cut: row.cut,
+            }
+        })
     }
 
     /// The motion that was played, to be played again.
@@ -101,15 +125,11 @@ impl Session {
     /// When there is no row, or there are more than two tools.
     pub fn motion(&self) -> Result<Motion, Error> {
         let tools = self.tools.iter().enumerate().map(|(number, name)| {
-            let rows = self.rows.iter().filter(|row| row.tool == number);
-            let rows = rows.map(|row| MotionRow {
+            let rows = self.rows.iter().zip(self.poses());
+            let rows = rows.filter(|(row, _)| row.tool == number);
+            let rows = rows.map(|(row, pose)| MotionRow {
                 time_s: row.time_s,
-                pose: Pose {
-                    position_m: row.position_m,
-                    orientation: Some(row.orientation),
-                    grip: row.grip,
-                    cut: row.cut,
-                },
+                pose,
             });
             ToolMotion::new(name, rows.collect())
         });

@@ -20,6 +20,8 @@ pub struct SessionRow {
     pub cut: bool,
     /// The force on the tool [N].
     pub force_n: [f64; 3],
+    /// The torque on the tool about its tip [N m].
+    pub torque_nm: [f64; 3],
     /// Whether the tool touches the organ.
     pub contact: bool,
     /// How far the tip is below the rest surface [m]; 0 without contact.
@@ -34,7 +36,11 @@ pub struct SessionRow {
 
 /// The names of the columns, as written above the rows.
 pub(super) const COLUMNS: &str = "time_s,tool,x_m,y_m,z_m,qx,qy,qz,qw,grip,cut,\
-                                  fx_n,fy_n,fz_n,contact,depth_m,event,grip_force_n";
+                                  fx_n,fy_n,fz_n,tx_nm,ty_nm,tz_nm,contact,depth_m,event,grip_force_n";
+
+/// The same before there were torques.
+pub(super) const COLUMNS_WITHOUT_TORQUE: &str = "time_s,tool,x_m,y_m,z_m,qx,qy,qz,qw,grip,cut,\
+                                                 fx_n,fy_n,fz_n,contact,depth_m,event,grip_force_n";
 
 /// Before the diameter in the column `event`, the only value there.
 pub(super) const STATED_DIAMETER: &str = "stated_diameter_m=";
@@ -47,8 +53,9 @@ impl SessionRow {
             .find(|(_, value)| !value.is_finite())
     }
 
-    fn numbers(&self) -> [(&'static str, f64); 15] {
+    fn numbers(&self) -> [(&'static str, f64); 18] {
         let ([x, y, z], [fx, fy, fz]) = (self.position_m, self.force_n);
+        let [tx, ty, tz] = self.torque_nm;
         let [qx, qy, qz, qw] = self.orientation;
         [
             ("time_s", self.time_s),
@@ -63,6 +70,9 @@ impl SessionRow {
             ("fx_n", fx),
             ("fy_n", fy),
             ("fz_n", fz),
+            ("tx_nm", tx),
+            ("ty_nm", ty),
+            ("tz_nm", tz),
             ("depth_m", self.depth_m),
             ("grip_force_n", self.grip_force_n),
             ("event", self.stated_diameter_m.unwrap_or(0.0)),
@@ -72,12 +82,26 @@ impl SessionRow {
     /// Adds the row to a text. The same numbers are always the same text: each is printed with the
     /// fewest digits that read back to it.
     pub(super) fn print(&self, tool: &str, text: &mut String) -> fmt::Result {
+        self.print_with((tool, true), text)
+    }
+
+    /// The same with or without torques.
+    pub(super) fn print_with(
+        &self,
+        (tool, has_torques): (&str, bool),
+        text: &mut String,
+    ) -> fmt::Result {
         write!(text, "{:?},{}", self.time_s, field(tool))?;
         for value in self.position_m.iter().chain(&self.orientation) {
             write!(text, ",{value:?}")?;
         }
         write!(text, ",{:?},{}", self.grip, u8::from(self.cut))?;
-        for value in self.force_n {
+        let torque = if has_torques {
+            &self.torque_nm[..]
+        } else {
+            &[]
+        };
+        for value in self.force_n.iter().chain(torque) {
             write!(text, ",{value:?}")?;
         }
         let contact = u8::from(self.contact);

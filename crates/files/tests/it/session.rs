@@ -28,6 +28,7 @@ fn row(step: u32) -> SessionRow {
         grip: 0.25,
         cut: step % 2 == 1,
         force_n: [0.0, 1.0 / 3.0, 1e-12],
+        torque_nm: [0.0; 3],
         contact: true,
         depth_m: 0.001,
         events: [Event::Contact, Event::Cut].into_iter().collect(),

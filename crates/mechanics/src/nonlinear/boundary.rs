@@ -7,7 +7,7 @@ use palpate_geometry::{AabbTree, TetrahedronMesh, TriangleMesh};
 use crate::finite_elements::solid::{Face, faces};
 use crate::{Error, LinearElastic, Vec3};
 
-/// A face is taken at the centroids of its equal parts, in so many rows.
+/// A load takes a face at the centroids of its equal parts, in so many rows.
 const ROWS: usize = 4;
 
 /// R of a load over the length √(2 A) of the faces there [-]: less is not resolved by quadratic elements.
@@ -108,6 +108,11 @@ impl Boundary {
         nodes
     }
 
+    /// Areas of its faces [m²], in their order.
+    pub fn areas(&self) -> impl Iterator<Item = f64> {
+        self.faces.iter().map(|face| face.area.norm())
+    }
+
     /// Spreads a load around `place` [m], on what is one piece with the nearest face and faces as `normal` [-] does:
     /// (1 − (r/R)²)² with R no less than `radius` [m] nor than the faces resolve.
     pub fn spread(&self, place: &Vec3, normal: &Vec3, radius: f64, load: &mut SpreadLoad) {
@@ -131,7 +136,7 @@ impl Boundary {
                 continue;
             }
             let [a, b, c] = face.corners;
-            for_each_part(|[u, v, w]| {
+            for_each_part(ROWS, |[u, v, w]| {
                 let near = 1.0 - (a * u + b * v + c * w - place).norm_squared() / square;
                 if near <= 0.0 {
                     return;
@@ -232,12 +237,12 @@ pub(super) fn shape_on_face([u, v, w]: [f64; 3]) -> [f64; 6] {
     ]
 }
 
-/// The centroids of a triangle's equal parts, as barycentric coordinates.
-fn for_each_part(mut visit: impl FnMut([f64; 3])) {
+/// The centroids of a triangle's equal parts in so many rows, as barycentric coordinates.
+pub(super) fn for_each_part(rows: usize, mut visit: impl FnMut([f64; 3])) {
     for off in [1, 2] {
-        for i in 0..=ROWS - off {
-            for j in 0..=ROWS - off - i {
-                let [u, v] = [i, j].map(|n| (3 * n + off) as f64 / (3 * ROWS) as f64);
+        for i in 0..=rows - off {
+            for j in 0..=rows - off - i {
+                let [u, v] = [i, j].map(|n| (3 * n + off) as f64 / (3 * rows) as f64);
                 visit([u, v, 1.0 - u - v]);
             }
         }

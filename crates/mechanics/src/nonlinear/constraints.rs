@@ -7,6 +7,8 @@
 //! [`MOST_COLUMNS`]; where more bear, each projection takes a solution by the factors instead, which costs as much as
 //! some ten columns.
 
+use nalgebra::Matrix3;
+
 use super::complementarity::Complementarity;
 use super::contact::{Contacts, MOST_CONTACTS, ROWS, Rubbed, UnilateralContact};
 use super::coupling::{Coupling, Rows, influence};
@@ -137,7 +139,7 @@ impl Constraints {
             }
             *self.problem.at(row, row) += contact.compliance;
             self.force[row] = if number < self.contacts.normals() {
-                state.pressed[contact.slot]
+                state.pressed_at(contact.slot)
             } else {
                 contact.normal.dot(&state.rubbed[contact.slot].force)
             };
@@ -274,6 +276,28 @@ impl Constraints {
             }
         }
         self.remember_contacts(state);
+    }
+
+    /// Σ a (S⁻¹ a)ᵀ over the contacts that bear [N/m], with the vector a of each contact [-], in their order.
+    pub(super) fn stiffness(&mut self, ways: impl Iterator<Item = Vec3> + Clone) -> Matrix3<f64> {
+        let (count, tools) = (self.count(), self.tools.rows.len());
+        let normals = self.contacts.normals();
+        let mut sum = Matrix3::zeros();
+        for axis in 0..3 {
+            self.violation[..count].fill(0.0);
+            let own = self.violation[tools..tools + normals].iter_mut();
+            for (own, way) in own.zip(ways.clone()) {
+                *own = way[axis];
+            }
+            self.problem
+                .solve_bearing(&self.violation, &mut self.t[..count]);
+            for (force, way) in self.t[tools..tools + normals].iter().zip(ways.clone()) {
+                for row in 0..3 {
+                    sum[(row, axis)] += way[row] * force;
+                }
+            }
+        }
+        sum
     }
 
     /// Finds the columns of Z of the contacts that bear, or did before, if these are few enough.

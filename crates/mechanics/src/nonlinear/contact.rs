@@ -1,13 +1,15 @@
 //! Bodies that the boundary stays out of, with Coulomb's friction.
 //!
-//! Three points of each face, those of a quadrature, stay out of half-spaces, through a small compliance c of their own:
+//! Points of each face stay out of half-spaces, through a small compliance c of their own: three of a quadrature out of what
+//! stands still and of the boundary itself, and the centroids of four or sixteen equal parts out of tools, which are slender
+//! beside large faces.
 //!
 //! ```text
 //! g = n · u + o + c λ,   λ ≥ 0, g ≥ 0, λ g = 0
 //! ```
 //!
-//! The half-space stands still, or goes with another place of the boundary ([`super::touching`]): then u is the displacement
-//! of the point less that of the place, which bears −λ.
+//! The half-space stands still in the step, or goes with another place of the boundary ([`super::touching`]): then u is the
+//! displacement of the point less that of the place, which bears −λ.
 //!
 //! A point that bears and sticks keeps its anchor a, through the same compliance; the force τ along the surface stays
 //! within the cone, and the anchor goes along where it slides:
@@ -17,10 +19,11 @@
 //! ```
 //!
 //! A contact that is smaller than a face is not resolved. A point that begins to bear has friction from the next step on.
+//! Tools are taken without friction.
 
 use palpate_geometry::TetrahedronMesh;
 
-use super::boundary::shape_on_face;
+use super::boundary::{for_each_part, shape_on_face};
 use super::constraints::Turned;
 use super::law::Moduli;
 use super::model::NonlinearModel;
@@ -47,6 +50,9 @@ pub(super) const NODES: usize = 6;
 const MOST_NODES: usize = 2 * NODES;
 const NOWHERE: u32 = u32::MAX;
 
+/// Points of a face that may bear on tools: a few, then more in their place where a tool is slender.
+pub const TOOL_POINTS: [usize; 2] = [4, 16];
+
 /// A point of the boundary that may bear on bodies.
 #[derive(Debug, Clone)]
 pub struct BoundaryPoint {
@@ -58,19 +64,48 @@ pub struct BoundaryPoint {
     pub(super) compliance: f64,
 }
 
+/// What a point of the boundary bears on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Against {
+    /// What stands still.
+    Still,
+    /// A tool, where it is at the end of the step.
+    Tool {
+        /// Its number.
+        number: usize,
+        /// How far what is behind the half-space goes in the step [m].
+        way: Vec3,
+    },
+    /// Another place of the boundary, which bears as much the other way: nodes with their weights [-].
+    Boundary([(u32, f64); NODES]),
+}
+
 /// A half-space that a point of the boundary stays out of during a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UnilateralContact {
-    /// Number in [`NonlinearModel::boundary_points`].
+    /// Number in [`NonlinearModel::boundary_points`]; against a tool, in [`NonlinearModel::tool_points`].
     pub point: u32,
     /// Where the half-space's outside is [-].
     pub normal: Vec3,
     /// Distance of the point at rest from the half-space [m]; negative inside.
     pub offset: f64,
-    /// Coulomb's coefficient μ [-].
+    /// Coulomb's coefficient μ [-]; against a tool it is taken as zero.
     pub friction: f64,
-    /// The place of the boundary that the half-space goes with, as nodes with their weights [-]; none where it stands still.
-    pub against: Option<[(u32, f64); NODES]>,
+    /// What is behind the half-space.
+    pub against: Against,
+}
+
+impl UnilateralContact {
+    /// Where a state remembers it: those with what stands still, with the boundary itself, then with each tool.
+    pub(super) fn slot(&self, model: &NonlinearModel) -> usize {
+        let points = model.boundary_points().len();
+        let first = match self.against {
+            Against::Still => 0,
+            Against::Boundary(_) => points,
+            Against::Tool { number, .. } => 2 * points + number * model.tool_points().len(),
+        };
+        first + self.point as usize
+    }
 }
 
 /// What a point of the boundary remembers of the friction on it.
@@ -85,19 +120,51 @@ pub(super) struct Rubbed {
 }
 
 impl BoundaryPoint {
-    pub(super) fn all(mesh: &TetrahedronMesh, moduli: &[Moduli<f64>], edge: f64) -> Vec<Self> {
+    /// Those of a quadrature, which may bear on what stands still and on the boundary itself.
+    pub(super) fn of_quadrature(
+        mesh: &TetrahedronMesh,
+        moduli: &[Moduli<f64>],
+        edge: f64,
+    ) -> Vec<Self> {
+        Self::all(mesh, moduli, edge, &[AT.to_vec()])
+    }
+
+    /// Both [`TOOL_POINTS`] of each face, one face after the other, which may bear on tools.
+    pub(super) fn for_tools(
+        mesh: &TetrahedronMesh,
+        moduli: &[Moduli<f64>],
+        edge: f64,
+    ) -> Vec<Self> {
+        let parts = TOOL_POINTS.map(|count| {
+            let mut parts = Vec::with_capacity(count);
+            for_each_part(count.isqrt(), |part| parts.push(part));
+            parts
+        });
+        Self::all(mesh, moduli, edge, &parts)
+    }
+
+    /// Those of each face at barycentric coordinates [-]: each of `sets` shares the area equally.
+    fn all(
+        mesh: &TetrahedronMesh,
+        moduli: &[Moduli<f64>],
+        edge: f64,
+        sets: &[Vec<[f64; 3]>],
+    ) -> Vec<Self> {
         let mut points = Vec::new();
         for face in faces(mesh) {
             let [a, b, c] = face.corners.map(|node| mesh.vertices()[node.index()]);
-            let area = 0.5 * (b - a).cross(&(c - a)).norm() / 3.0;
+            let area = 0.5 * (b - a).cross(&(c - a)).norm();
             let Moduli { c10, c01, .. } = moduli[face.tetrahedron];
-            let compliance = SOFTNESS * edge / (6.0 * (c10 + c01) * area);
-            for at in AT {
-                let ([u, v, w], weights) = (at, shape_on_face(at));
+            let stiffness = 6.0 * (c10 + c01) * area / (SOFTNESS * edge);
+            let each = sets
+                .iter()
+                .flat_map(|set| set.iter().map(|at| (*at, set.len() as f64)));
+            for ([u, v, w], count) in each {
+                let weights = shape_on_face([u, v, w]);
                 points.push(Self {
                     nodes: std::array::from_fn(|k| (face.nodes[k] as u32, weights[k])),
                     place: a * u + b * v + c * w,
-                    compliance,
+                    compliance: count / stiffness,
                 });
             }
         }
@@ -158,20 +225,23 @@ pub(super) struct Contact {
 
 impl Contact {
     fn new(model: &NonlinearModel, contact: &UnilateralContact) -> Self {
-        let points = model.boundary_points();
+        let points = match contact.against {
+            Against::Still | Against::Boundary(_) => model.boundary_points(),
+            Against::Tool { .. } => model.tool_points(),
+        };
         let point = &points[contact.point as usize];
         let mut nodes = [(0, 0.0); MOST_NODES];
         nodes[..NODES].copy_from_slice(&point.nodes);
-        let opposite = contact.against.iter().flatten();
-        for (own, &(node, weight)) in nodes[NODES..].iter_mut().zip(opposite) {
-            *own = (node, -weight);
+        if let Against::Boundary(opposite) = contact.against {
+            for (own, (node, weight)) in nodes[NODES..].iter_mut().zip(opposite) {
+                *own = (node, -weight);
+            }
         }
-        let is_between = contact.against.is_some();
         Self {
-            slot: contact.point as usize + if is_between { points.len() } else { 0 },
+            slot: contact.slot(model),
             compliance: point.compliance,
             nodes,
-            is_between,
+            is_between: matches!(contact.against, Against::Boundary(_)),
             normal: contact.normal,
             offset: contact.offset,
         }
@@ -262,8 +332,9 @@ impl Contacts {
         self.listed.extend(listed);
         for (normal, contact) in contacts.iter().enumerate() {
             let own = self.listed[normal];
-            let bears = state.pressed[own.slot] > 0.0;
-            if bears && contact.friction > 0.0 {
+            let bears = state.pressed_at(own.slot) > 0.0;
+            let is_of_tool = matches!(contact.against, Against::Tool { .. });
+            if bears && contact.friction > 0.0 && !is_of_tool {
                 let along = self.listed.len();
                 let anchor = own.anchor(state);
                 let [first, second] = tangents(&contact.normal);

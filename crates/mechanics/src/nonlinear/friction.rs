@@ -8,7 +8,7 @@
 use super::complementarity::Kind;
 use super::constraints::Constraints;
 use super::contact::{Rub, Rubbed};
-use super::state::NonlinearState;
+use super::state::{NO_CONTACT, NonlinearState};
 use crate::Vec3;
 
 /// Problems of complementarity to solve: a few are the rule.
@@ -165,7 +165,8 @@ impl Constraints {
         self.remembered.clear();
         let normals = &self.contacts.listed[..self.contacts.normals()];
         for (number, contact) in normals.iter().enumerate() {
-            if self.force[tools + number] > 0.0 {
+            let remembers_friction = contact.slot < state.rubbed.len();
+            if self.force[tools + number] > 0.0 && remembers_friction {
                 let begun = Rubbed {
                     anchor: match contact.is_between {
                         false => contact.displacement(&state.displacements),
@@ -182,8 +183,18 @@ impl Constraints {
             }
         }
         state.pressed.fill(0.0);
+        state.on_tools.fill(NO_CONTACT);
+        let mut on_tools = state.on_tools.iter_mut();
         for (contact, force) in normals.iter().zip(&self.force[tools..]) {
-            state.pressed[contact.slot] = *force;
+            match state.pressed.get_mut(contact.slot) {
+                Some(pressed) => *pressed = *force,
+                None if *force > 0.0 => {
+                    if let Some(own) = on_tools.next() {
+                        *own = (contact.slot, *force);
+                    }
+                }
+                None => {}
+            }
         }
         state.rubbed.fill(Rubbed::default());
         for (slot, rubbed) in self.remembered.drain(..) {

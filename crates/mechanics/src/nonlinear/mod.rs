@@ -44,7 +44,7 @@ mod touching_search;
 pub use boundary::{Boundary, SpreadLoad};
 pub use carried::CarriedPoints;
 pub use constraints::Conditions;
-pub use contact::{BoundaryPoint, MOST_CONTACTS, UnilateralContact};
+pub use contact::{Against, BoundaryPoint, MOST_CONTACTS, TOOL_POINTS, UnilateralContact};
 pub use coupling::Coupling;
 pub use law::Moduli;
 pub use model::{MOST_INFLUENCE_BYTES, NonlinearModel};

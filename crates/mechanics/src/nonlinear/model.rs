@@ -44,6 +44,7 @@ pub struct NonlinearModel {
     elements: Vec<u32>,
     boundary: Boundary,
     points: Vec<BoundaryPoint>,
+    tool_points: Vec<BoundaryPoint>,
 }
 
 impl NonlinearModel {
@@ -110,7 +111,8 @@ impl NonlinearModel {
             nodes: places,
             farthest: (FARTHEST * mean_edge(mesh)) as f32,
             boundary: Boundary::new(mesh)?,
-            points: BoundaryPoint::all(mesh, moduli, mean_edge(mesh)),
+            points: BoundaryPoint::of_quadrature(mesh, moduli, mean_edge(mesh)),
+            tool_points: BoundaryPoint::for_tools(mesh, moduli, mean_edge(mesh)),
             mesh: mesh.clone(),
             elements: numbers,
         })
@@ -170,9 +172,14 @@ impl NonlinearModel {
         &self.boundary
     }
 
-    /// The points of its boundary that may bear on rigid bodies.
+    /// The points of its boundary that may bear on what stands still and on the boundary itself.
     pub fn boundary_points(&self) -> &[BoundaryPoint] {
         &self.points
+    }
+
+    /// The points of its boundary that may bear on tools: of each face both [`super::TOOL_POINTS`], one face after the other.
+    pub fn tool_points(&self) -> &[BoundaryPoint] {
+        &self.tool_points
     }
 
     /// Room for a load on its boundary.

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Rotation3};
 
-use super::contact::Rubbed;
+use super::contact::{MOST_CONTACTS, Rubbed, UnilateralContact};
 use super::coupling::Coupling;
 use super::model::NonlinearModel;
 use super::relaxation::{Relaxation, Remembered};
@@ -13,6 +13,9 @@ use crate::Vec3;
 const FADES: u32 = 10;
 
 const UNTURNED: [f32; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+
+/// In the place of a contact with a tool that is not there.
+pub(super) const NO_CONTACT: (usize, f64) = (usize::MAX, 0.0);
 
 /// A body between two steps.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +31,8 @@ pub struct NonlinearState {
     /// Force of the contact at each point of the boundary with what stands still [N], then with the boundary itself.
     pub(super) pressed: Vec<f64>,
     pub(super) rubbed: Vec<Rubbed>,
+    /// Slots and forces [N] of the contacts with tools, then [`NO_CONTACT`]: few of very many points.
+    pub(super) on_tools: Vec<(usize, f64)>,
     /// Stress at the integration points in the past; none where nothing relaxes.
     pub(super) stress: Vec<Remembered<f32>>,
     /// Forces on the nodes by tools that have let go [N], and the steps in which they still act.
@@ -63,6 +68,7 @@ impl NonlinearState {
             tools: vec![tool; tools],
             pressed: vec![0.0; 2 * model.boundary_points().len()],
             rubbed: vec![Rubbed::default(); 2 * model.boundary_points().len()],
+            on_tools: vec![NO_CONTACT; MOST_CONTACTS],
             stress: model
                 .relaxation
                 .as_ref()
@@ -93,6 +99,7 @@ impl NonlinearState {
         self.fading.fill(0.0);
         self.pressed.fill(0.0);
         self.rubbed.fill(Rubbed::default());
+        self.on_tools.fill(NO_CONTACT);
         self.fades = 0;
         self.is_smooth = true;
         for tool in &mut self.tools {
@@ -209,6 +216,30 @@ impl NonlinearState {
     /// When there is no such point.
     pub fn friction_between(&self, point: u32) -> Vec3 {
         self.rubbed[self.rubbed.len() / 2 + point as usize].force
+    }
+
+    /// Force of a contact [N] along its normal after the last step.
+    ///
+    /// # Panics
+    /// When it has no point of `model`, or the state is that of another.
+    pub fn force_of(&self, model: &NonlinearModel, contact: &UnilateralContact) -> f64 {
+        self.pressed_at(contact.slot(model))
+    }
+
+    /// Whether any place of the boundary bears on a tool beside its tip.
+    pub fn bears_on_tools(&self) -> bool {
+        self.on_tools[0] != NO_CONTACT
+    }
+
+    pub(super) fn pressed_at(&self, slot: usize) -> f64 {
+        match self.pressed.get(slot) {
+            Some(force) => *force,
+            None => {
+                let known = self.on_tools.iter().take_while(|own| **own != NO_CONTACT);
+                let mut own = known.filter(|own| own.0 == slot);
+                own.next().map_or(0.0, |own| own.1)
+            }
+        }
     }
 
     /// Whether any place of the boundary bears on another.

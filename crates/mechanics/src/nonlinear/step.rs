@@ -1,4 +1,7 @@
+use nalgebra::Matrix3;
+
 use super::constraints::{Conditions, Constraints, Turned};
+use super::contact::Against;
 use super::coupling::Coupling;
 use super::kernel::{self, Deformed};
 use super::model::NonlinearModel;
@@ -82,6 +85,14 @@ impl Workspace {
     }
 }
 
+impl Workspace {
+    /// How the forces of the contacts of the last step resist, where the half-space of each moves along its normal by `ways`
+    /// [-] times a small displacement x of what is behind them: Σ a (S⁻¹ a)ᵀ [N/m], with a of each in its order.
+    pub fn contact_stiffness(&mut self, ways: impl Iterator<Item = Vec3> + Clone) -> Matrix3<f64> {
+        self.constraints.stiffness(ways)
+    }
+}
+
 /// Takes the body to where the `conditions` have it: one step of Newton's method, whose linear system is solved by
 /// conjugate gradients.
 ///
@@ -111,7 +122,7 @@ fn step(
     let couplings = conditions.couplings;
     state.fade(couplings);
     workspace.begin(model, pace.elapsed, state);
-    guess(couplings, state, workspace);
+    guess(model, conditions, state, workspace);
     workspace.deform(model, GuessOrEnd::Guess, state);
     workspace.rotate(model, state);
     let body = Turned {
@@ -146,10 +157,15 @@ enum GuessOrEnd {
 
 /// Continues the last displacement as far as the tools continue their paths.
 fn guess(
-    couplings: &[Option<Coupling<'_>>],
+    model: &NonlinearModel,
+    conditions: Conditions<'_>,
     state: &mut NonlinearState,
     workspace: &mut Workspace,
 ) {
+    let Conditions {
+        couplings,
+        contacts,
+    } = conditions;
     let (mut along, mut length, mut all_known) = (0.0, 0.0, true);
     for (coupling, memory) in couplings.iter().zip(&state.tools) {
         all_known &= coupling.is_some() == memory.is_coupled;
@@ -157,6 +173,16 @@ fn guess(
             let last = state.last_advance(coupling.nodes);
             along += coupling.advance.dot(&last);
             length += last.norm_squared();
+        }
+    }
+    for contact in contacts {
+        if let Against::Tool { way, .. } = contact.against
+            && state.force_of(model, contact) > 0.0
+        {
+            let nodes = &model.tool_points()[contact.point as usize].nodes;
+            let last = contact.normal.dot(&state.last_advance(nodes));
+            along += contact.normal.dot(&way) * last;
+            length += last * last;
         }
     }
     let part = if all_known && state.is_smooth && length > 0.0 {

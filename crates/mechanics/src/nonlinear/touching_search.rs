@@ -3,7 +3,7 @@
 use palpate_geometry::{AabbTree, NodeId, TriangleId, TriangleMesh, closest_on_triangle};
 
 use super::boundary::shape_on_face;
-use super::contact::{NODES, UnilateralContact};
+use super::contact::{Against, NODES, UnilateralContact};
 use super::model::NonlinearModel;
 use super::state::NonlinearState;
 use super::touching::{
@@ -116,7 +116,7 @@ impl TouchingSearch {
                         normal: found.normal,
                         offset: gap - found.normal.dot(&moved),
                         friction: found.friction,
-                        against: Some(against),
+                        against: Against::Boundary(against),
                     },
                 );
             }

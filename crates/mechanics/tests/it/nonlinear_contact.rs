@@ -8,7 +8,8 @@ use palpate_mechanics::finite_elements::indentation::{
     Base, Block, IndentationRun, IndentationSettings, Indenter, IndenterShape,
 };
 use palpate_mechanics::nonlinear::{
-    Conditions, Moduli, NonlinearModel, NonlinearState, Pace, UnilateralContact, Workspace, advance,
+    Against, BoundaryPoint, Conditions, Moduli, NonlinearModel, NonlinearState, Pace, TOOL_POINTS,
+    UnilateralContact, Workspace, advance,
 };
 use palpate_mechanics::{NeoHookean, PronySeries, Vec3};
 
@@ -38,13 +39,14 @@ fn graded(place: &Vec3) -> Vec3 {
 }
 
 struct Pressed {
+    against: Against,
     model: NonlinearModel,
     state: NonlinearState,
     workspace: Workspace,
 }
 
 impl Pressed {
-    fn new(cells: [usize; 3], ratio: f64) -> Self {
+    fn new(cells: [usize; 3], ratio: f64, against: Against) -> Self {
         let high = Vec3::new(EDGE, EDGE, HEIGHT);
         let even = TetrahedronMesh::block(Vec3::zeros(), high, cells).unwrap();
         let mesh = TetrahedronMesh::new(
@@ -62,6 +64,7 @@ impl Pressed {
         )
         .unwrap();
         Self {
+            against,
             state: NonlinearState::at_rest(&model, 1),
             workspace: model.workspace(1),
             model,
@@ -70,21 +73,33 @@ impl Pressed {
 
     /// The contacts with `body` of the points that are nearer than a margin.
     fn contacts(&self, body: Body<'_>) -> Vec<UnilateralContact> {
-        let points = self.model.boundary_points().iter().enumerate();
+        let points = self.points();
         points
             .filter_map(|(number, point)| {
                 let moved = point.displacement(&self.state.displacements);
                 let (distance, normal) = body(&(point.place + moved));
-                let near = distance < 1e-3 || self.state.contact_force(number as u32) > 0.0;
-                (near && point.place.z > HEIGHT - 1e-6).then(|| UnilateralContact {
+                let contact = UnilateralContact {
                     point: number as u32,
                     normal,
                     offset: distance - normal.dot(&moved),
                     friction: 0.0,
-                    against: None,
-                })
+                    against: self.against,
+                };
+                let near = distance < 1e-3 || self.state.force_of(&self.model, &contact) > 0.0;
+                (near && point.place.z > HEIGHT - 1e-6).then_some(contact)
             })
             .collect()
+    }
+
+    /// The points that may bear on what is pressed.
+    fn points(&self) -> impl Iterator<Item = (usize, &BoundaryPoint)> {
+        let [few, more] = TOOL_POINTS;
+        let (points, of_face) = match self.against {
+            Against::Tool { .. } => (self.model.tool_points(), few + more),
+            Against::Still | Against::Boundary(_) => (self.model.boundary_points(), few),
+        };
+        let points = points.iter().enumerate();
+        points.filter(move |(number, _)| number % of_face < few)
     }
 
     fn step(&mut self, body: Body<'_>, iterations: usize) {
@@ -109,8 +124,7 @@ impl Pressed {
 
     /// Distance of the point of the boundary that is nearest to `body` [m].
     fn nearest(&self, body: Body<'_>) -> f64 {
-        let points = self.model.boundary_points().iter();
-        let distances = points.map(|point| {
+        let distances = self.points().map(|(_, point)| {
             let moved = point.displacement(&self.state.displacements);
             body(&(point.place + moved)).0
         });
@@ -122,7 +136,7 @@ impl Pressed {
         let contacts = self.contacts(body);
         let forces = contacts
             .iter()
-            .map(|contact| self.state.contact_force(contact.point) * contact.normal.z);
+            .map(|contact| self.state.force_of(&self.model, contact) * contact.normal.z);
         -forces.sum::<f64>()
     }
 }
@@ -167,9 +181,19 @@ fn judged(depth: f64, ratio: f64) -> f64 {
 #[test]
 fn a_sphere_presses_as_on_finite_elements_and_leaves_the_body_at_rest() {
     let (depth, steps) = (6e-3, 6);
-    for ratio in [0.3, 0.45] {
+    for (ratio, against) in [
+        (0.3, Against::Still),
+        (0.45, Against::Still),
+        (
+            0.45,
+            Against::Tool {
+                number: 0,
+                way: Vec3::zeros(),
+            },
+        ),
+    ] {
         let exact = judged(depth, ratio);
-        let mut pressed = Pressed::new([8, 8, 4], ratio);
+        let mut pressed = Pressed::new([8, 8, 4], ratio, against);
         for step in 1..=steps {
             pressed.step(&sphere(depth * f64::from(step) / f64::from(steps)), 4);
         }

@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use palpate_geometry::TetrahedronMesh;
 use palpate_mechanics::Vec3;
 use palpate_mechanics::nonlinear::{
-    Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace, UnilateralContact,
+    Against, Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace, UnilateralContact,
     Workspace, advance,
 };
 
@@ -67,7 +67,7 @@ impl Block {
                 normal: -Vec3::z(),
                 offset: HEIGHT - depth - point.place.z,
                 friction: self.friction,
-                against: None,
+                against: Against::Still,
             })
             .collect()
     }

@@ -3,8 +3,8 @@
 use palpate_geometry::{NodeId, TetrahedronMesh};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::nonlinear::{
-    Conditions, MOST_CONTACTS, Moduli, NonlinearModel, NonlinearState, Pace, TouchingBoundary,
-    TouchingSearch, UnilateralContact, Workspace, advance,
+    Against, Conditions, MOST_CONTACTS, Moduli, NonlinearModel, NonlinearState, Pace,
+    TouchingBoundary, TouchingSearch, UnilateralContact, Workspace, advance,
 };
 
 /// c₁₀ [Pa].
@@ -166,7 +166,7 @@ fn on_a_plane(
                 normal: -Vec3::z(),
                 offset: plane - depth - point.place.z,
                 friction: 0.0,
-                against: None,
+                against: Against::Still,
             });
         let contacts: Vec<_> = contacts.collect();
         let conditions = Conditions {

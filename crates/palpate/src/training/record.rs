@@ -59,6 +59,7 @@ mod tests {
                 grip: 0.0,
                 cut: false,
                 force_n: [0.0, 0.0, strength * press],
+                torque_nm: [0.0; 3],
                 contact: press > 0.0,
                 depth_m: 0.002 * press,
                 events: Events::default(),

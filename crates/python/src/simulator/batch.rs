@@ -275,6 +275,15 @@ impl SimulationBatch {
         numbers::array(py, [self.steppers.len(), self.tools(), 3], flat)
     }
 
+    /// Torques on the tools about their tips [N m]: shape (count, tools, 3).
+    #[getter]
+    fn torques<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray3<f64>> {
+        let tools = self.steppers.iter().flat_map(|own| &own.course.state.tools);
+        let flat = tools.flat_map(|tool| <[f64; 3]>::from(tool.torque));
+        let shape = [self.steppers.len(), self.tools(), 3];
+        numbers::array(py, shape, flat.collect())
+    }
+
     /// Parts of the tasks that are done [-]; NaN where that cannot be told: shape (count,).
     #[getter]
     fn progress<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {

@@ -22,6 +22,7 @@ struct Tool {
     position: Option<[f64; 3]>,
     orientation: [f64; 4],
     force: Vec3,
+    torque: Vec3,
     stiffness: nalgebra::Matrix3<f64>,
     depth: f64,
     contact: bool,
@@ -56,6 +57,7 @@ impl Tool {
                 false => [f64::NAN; 4],
             },
             force: tool.force,
+            torque: tool.torque,
             stiffness: tool.stiffness,
             depth: if is_there { tool.row.depth_m } else { 0.0 },
             contact: is_there && tool.row.contact,
@@ -100,6 +102,13 @@ impl State {
     #[getter]
     fn forces<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         numbers::rows(py, self.tools.iter().map(|tool| &tool.force))
+    }
+
+    /// Torques on the tools about their tips [N m]: shape (tools, 3). Tissue that bears on the shaft of a tool without a
+    /// trocar makes them.
+    #[getter]
+    fn torques<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        numbers::rows(py, self.tools.iter().map(|tool| &tool.torque))
     }
 
     /// Stiffnesses of the contacts in their frames (tangents, normal), of held tissue in the scene's [N/m]; zero

@@ -192,6 +192,7 @@ impl Demonstration {
             header: simulation.session_header(),
             tools,
             rows,
+            has_torques: true,
             incomplete: None,
         })
     }

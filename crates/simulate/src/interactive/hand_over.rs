@@ -12,17 +12,20 @@ use crate::tool::Tool;
 /// `time` [s] is that of the pose.
 pub fn affine_force(tool: &Tool, state: &ToolState, time: f64) -> AffineForce {
     let organ = of_organ(tool, state, time);
-    let (Some(normal), Some(pose)) = (state.stopped.normal, &state.pose) else {
+    let Some(pose) = &state.pose else {
         return organ;
     };
-    let force = organ.force + state.stopped.force;
-    let gradient = organ.gradient + state.stopped.gradient;
-    AffineForce {
+    let pushed = state.is_pushed().then(|| state.pushed.force.normalize());
+    let normal = match (organ.contact, state.stopped.normal, pushed) {
+        (_, None, None) => return organ,
+        (false, Some(normal), None) | (false, None, Some(normal)) => normal,
         // Two surfaces that push have no one normal.
-        normal: match organ.contact {
-            true => Vec3::zeros(),
-            false => normal,
-        },
+        _ => Vec3::zeros(),
+    };
+    let force = organ.force + state.stopped.force + state.pushed.force;
+    let gradient = organ.gradient + state.stopped.gradient + state.pushed.gradient;
+    AffineForce {
+        normal,
         ..AffineForce::new(time, Vec3::from(pose.position_m), force, gradient)
     }
 }

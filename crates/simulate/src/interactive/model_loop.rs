@@ -318,6 +318,7 @@ fn lifted(last: SessionRow, time: f64) -> SessionRow {
     SessionRow {
         time_s: time,
         force_n: [0.0; 3],
+        torque_nm: [0.0; 3],
         contact: false,
         depth_m: 0.0,
         grip_force_n: 0.0,

@@ -50,6 +50,7 @@ fn shown(name: &str, tool: &ToolSnapshot) -> ShownTool {
         place: tool.pose.map(|pose| Vec3::from(pose.position_m)),
         orientation: UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)),
         force: tool.force,
+        torque: tool.torque,
         fault: tool.fault,
     }
 }

@@ -35,6 +35,8 @@ pub struct ToolSnapshot {
     pub orientation: [f64; 4],
     /// The force on it [N], as a session records it: not scaled, not limited.
     pub force: Vec3,
+    /// The torque on it about its tip [N m], which no device gets.
+    pub torque: Vec3,
     /// The force that its device gets [N]: scaled, extrapolated, limited; in the scene's frame.
     pub felt: Vec3,
     /// Why its device gets no force, if that has a reason.
@@ -114,6 +116,7 @@ impl Snapshot {
             pose: None,
             orientation: [0.0, 0.0, 0.0, 1.0],
             force: Vec3::zeros(),
+            torque: Vec3::zeros(),
             felt: Vec3::zeros(),
             fault: None,
             contact: None,
@@ -221,6 +224,7 @@ impl ToolSnapshot {
             pose: tool.pose,
             orientation: tool.row.orientation,
             force: tool.force,
+            torque: tool.torque,
             felt: felt.force,
             fault: felt.fault,
             contact: tool.contact.map(|contact| ContactSnapshot {

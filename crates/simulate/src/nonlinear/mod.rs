@@ -19,13 +19,16 @@
 //!
 //! Neighbours that collide keep the organ out (`neighbours`); those that bend are pieces of the body (`soft`).
 //!
-//! *Limits*: quasi-static; of tools, only tips and jaws touch the organ. A body that is nearly incompressible is taken with a Poisson's ratio of 0.49.
+//! Shafts push what bends, without friction (`shafts`).
+//!
+//! *Limits*: quasi-static. A body that is nearly incompressible is taken with a Poisson's ratio of 0.49.
 //!
 //! [`TipField`]: palpate_mechanics::surface_response::TipField
 
 mod hold;
 mod neighbours;
 mod regions;
+mod shafts;
 mod shape;
 mod soft;
 mod target;
@@ -34,6 +37,8 @@ mod touch;
 use neighbours::{Candidates, Skin};
 use regions::Elements;
 pub(crate) use regions::Regions;
+pub(crate) use shafts::Pushed;
+use shafts::{ShaftMotion, ShaftSkin};
 pub(crate) use soft::SoftBody;
 use soft::{Merged, Piece, touching};
 pub(crate) use touch::Moved;
@@ -52,6 +57,7 @@ use palpate_mechanics::{ForceHistory, LinearElastic};
 
 use crate::grip::Swept;
 use crate::neighbour::Neighbour;
+use crate::shaft::Shaft;
 use crate::tool::Tool;
 use crate::{Error, held_region};
 
@@ -86,6 +92,7 @@ pub(crate) struct NonlinearOrgan {
     pieces: Vec<Piece>,
     shown: CarriedPoints,
     skin: Skin,
+    shaft_skin: ShaftSkin,
     /// How they touch one another, if anything does.
     touching: Option<TouchingBoundary>,
     /// The shown surface as the organ hangs under its weight, if it has any.
@@ -111,6 +118,9 @@ pub(crate) struct Body {
     /// Elastic forces of the tools in the past, and how what they load was turned then.
     histories: Vec<ForceHistory>,
     turns: Vec<Rotation3<f64>>,
+    /// Where the shaft of each tool is, and how far it may go before it may touch the body at rest [m].
+    shafts: Vec<Option<Shaft>>,
+    clear_of_shafts: Vec<f64>,
 }
 
 /// Scratch of its part in a step.
@@ -118,21 +128,37 @@ pub(crate) struct Body {
 pub(crate) struct NonlinearWorkspace {
     solver: Workspace,
     targets: Vec<Option<target::Target>>,
+    shafts: Vec<Option<ShaftMotion>>,
     candidates: Candidates,
     /// Displacements of the shown vertices [m].
     shown: Vec<Vec3>,
 }
 
+/// What is beside the organ.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Beside<'a> {
+    /// The tools that may touch it.
+    pub(crate) tools: &'a [Tool],
+    /// The neighbours that bend.
+    pub(crate) soft: &'a [SoftBody],
+    /// The rigid ones that keep it out.
+    pub(crate) neighbours: &'a [Neighbour],
+}
+
 impl NonlinearOrgan {
-    /// That of the organ of `scene` with this surface and its tissues, and of the neighbours that bend, `soft`, which are seen
-    /// together as `shown` beside its rigid `neighbours`; with warnings.
+    /// That of the organ of `scene` with this surface and its tissues, which is seen as `shown` together with the neighbours
+    /// that bend; with warnings.
     pub(crate) fn new(
         scene: &Scene,
         (shown, tree): (&Surface, &AabbTree),
         (surface, regions): (&Surface, Regions),
-        soft: &[SoftBody],
-        neighbours: &[Neighbour],
+        beside: Beside<'_>,
     ) -> Result<(Self, Vec<String>), Error> {
+        let Beside {
+            tools,
+            soft,
+            neighbours,
+        } = beside;
         let organ = tetrahedra(surface, scene.model.nodes.unwrap_or(NODES), &regions)?;
         let mut series = regions.series();
         let own = regions.of_elements(&organ);
@@ -182,7 +208,9 @@ impl NonlinearOrgan {
             .iter()
             .map(|body| body.tissue.at_rest().poissons_ratio());
         let ratio = ratios.fold(regions.largest_ratio(), f64::max);
+        let pieces = Piece::all((surface, regions.at_rest()), soft, tools);
         let organ = Self {
+            shaft_skin: ShaftSkin::new(&model, (shown, tree), &pieces),
             size: (high - low).norm(),
             shown: carried,
             skin: Skin::new(&model, (shown, tree), neighbours),
@@ -191,7 +219,7 @@ impl NonlinearOrgan {
                 true => ITERATIONS.0,
                 false => ITERATIONS.1,
             },
-            pieces: Piece::all((surface, regions.at_rest()), soft),
+            pieces,
             touching: touching(scene, &model, (&merged, soft))?,
             regions,
             model,
@@ -215,6 +243,8 @@ impl NonlinearOrgan {
             lets_go: vec![0; tools],
             histories: vec![ForceHistory::default(); tools],
             turns: vec![Rotation3::identity(); tools],
+            shafts: vec![None; tools],
+            clear_of_shafts: vec![0.0; tools],
         }
     }
 
@@ -222,7 +252,8 @@ impl NonlinearOrgan {
         NonlinearWorkspace {
             solver: self.model.workspace(tools),
             targets: vec![None; tools],
-            candidates: Candidates::new(self),
+            shafts: vec![None; tools],
+            candidates: Candidates::new(self, tools),
             shown: vec![Vec3::zeros(); self.shown.len()],
         }
     }

@@ -7,11 +7,12 @@
 
 use palpate_geometry::{AabbTree, Surface, Vec3};
 use palpate_mechanics::nonlinear::{
-    MOST_CONTACTS, NonlinearModel, NonlinearState, TouchingSearch, UnilateralContact,
+    Against, MOST_CONTACTS, NonlinearModel, NonlinearState, TouchingSearch, UnilateralContact,
 };
 use palpate_mechanics::{Limit, Reached};
 
 use super::NonlinearOrgan;
+use super::shafts::ShaftMotion;
 use crate::neighbour::Neighbour;
 use crate::state::ToolState;
 
@@ -80,7 +81,7 @@ pub(super) struct Candidates {
 }
 
 impl Candidates {
-    pub(super) fn new(organ: &NonlinearOrgan) -> Self {
+    pub(super) fn new(organ: &NonlinearOrgan, tools: usize) -> Self {
         let points = organ.model.boundary_points().len();
         let unknown = Known {
             place: Vec3::zeros(),
@@ -89,9 +90,10 @@ impl Candidates {
         let count = organ.skin.neighbours() * points;
         let touching = organ.touching.as_ref().map(TouchingSearch::new);
         let beside = if touching.is_some() { points } else { 0 };
+        let on_shafts = tools * organ.model.tool_points().len();
         Self {
             known: vec![unknown; count],
-            found: Vec::with_capacity(count + beside),
+            found: Vec::with_capacity(count + beside + on_shafts),
             contacts: Vec::with_capacity(MOST_CONTACTS),
             left_out: 0,
             touching,
@@ -99,11 +101,13 @@ impl Candidates {
         }
     }
 
-    /// Finds them where the body is in `state`; those that are deepest if a step cannot take all.
+    /// Finds them where the body is in `state`, and the shafts which go from one part of their ways to another [-]; those that are deepest if a
+    /// step cannot take all.
     pub(super) fn find(
         &mut self,
         organ: &NonlinearOrgan,
         neighbours: &[Neighbour],
+        (shafts, parts): (&[Option<ShaftMotion>], [f64; 2]),
         state: &NonlinearState,
     ) {
         let (points, skin) = (organ.model.boundary_points(), &organ.skin);
@@ -134,11 +138,17 @@ impl Candidates {
                         normal,
                         offset: gap - normal.dot(&moved),
                         friction: neighbour.friction,
-                        against: None,
+                        against: Against::Still,
                     };
                     self.found.push((gap, contact));
                 }
             }
+        }
+        for motion in shafts.iter().flatten() {
+            let found = &mut self.found;
+            organ.meet_shaft(motion, parts, state, |gap, contact| {
+                found.push((gap, contact));
+            });
         }
         self.left_out = self.found.len().saturating_sub(MOST_CONTACTS);
         if self.left_out > 0 {
@@ -153,7 +163,15 @@ impl Candidates {
 
     /// Whether places of the body may bear on one another in the step.
     pub(super) fn touches_itself(&self) -> bool {
-        self.contacts.iter().any(|own| own.against.is_some())
+        self.contacts
+            .iter()
+            .any(|own| matches!(own.against, Against::Boundary(_)))
+    }
+
+    /// Whether places of the body may bear on shafts in the step.
+    pub(super) fn touches_shafts(&self) -> bool {
+        let mut contacts = self.contacts.iter();
+        contacts.any(|own| matches!(own.against, Against::Tool { .. }))
     }
 
     /// Reports points that were left out, under a tool that touches.

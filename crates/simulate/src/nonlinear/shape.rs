@@ -53,6 +53,7 @@ impl NonlinearOrgan {
         for (number, (tool, own)) in simulation.tools.iter().zip(&state.tools).enumerate() {
             let (triangle, place) = match (&own.grip.hold, &own.contact) {
                 (Some(hold), _) => (hold.seen.triangle, hold.place()),
+                (None, Some(_)) if self.pieces[body.on[number]].bends_around[number] => continue,
                 (None, Some(contact)) => (contact.place.triangle, contact.point()),
                 (None, None) => continue,
             };

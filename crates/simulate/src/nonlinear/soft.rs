@@ -10,6 +10,7 @@ use std::ops::Range;
 use palpate_files::Scene;
 use palpate_files::scene::{Location, Region, SoftNeighbour};
 use palpate_geometry::{NodeId, Surface, TetrahedronMesh, Vec3};
+use palpate_mechanics::contact::{Friction, Tip};
 use palpate_mechanics::nonlinear::{Moduli, NonlinearModel, TouchingBoundary};
 use palpate_mechanics::{LinearElastic, TipLaw};
 
@@ -18,6 +19,7 @@ use crate::Error;
 use crate::organ::{back, held_region, read_neighbour};
 use crate::tip_laws::stiffen;
 use crate::tool::Tool;
+use crate::walls::typical_wall;
 
 /// A neighbour that bends.
 #[derive(Debug, Clone)]
@@ -104,10 +106,16 @@ pub(super) struct Piece {
     pub(super) law: LinearElastic,
     /// The force of its tissue on the tip of each tool; those of the tools themselves for the organ.
     laws: Vec<TipLaw>,
+    /// Of each tool, whether it bends around its tip, rather than that makes a dimple in it.
+    pub(super) bends_around: Vec<bool>,
 }
 
 impl Piece {
-    pub(super) fn all(organ: (&Surface, &LinearElastic), soft: &[SoftBody]) -> Vec<Self> {
+    pub(super) fn all(
+        organ: (&Surface, &LinearElastic),
+        soft: &[SoftBody],
+        tools: &[Tool],
+    ) -> Vec<Self> {
         let mut first = 0;
         let mut piece = |surface: &Surface, law: &LinearElastic, laws: &[TipLaw]| {
             let end = first + surface.mesh().triangles().len() as u32;
@@ -117,6 +125,10 @@ impl Piece {
                 triangles,
                 law: *law,
                 laws: laws.to_vec(),
+                bends_around: {
+                    let wall = typical_wall(surface);
+                    tools.iter().map(|tool| wraps(tool, wall)).collect()
+                },
             }
         };
         let mut all = vec![piece(organ.0, organ.1, &[])];
@@ -139,6 +151,13 @@ impl Piece {
     pub(super) fn tip_law<'a>(&'a self, (number, tool): (usize, &'a Tool)) -> &'a TipLaw {
         self.laws.get(number).unwrap_or(&tool.law)
     }
+}
+
+/// Whether a `wall` so thick [m] bends around a tip: a ball that slips and is wider than the wall. One that sticks is taken as
+/// a dimple all the same.
+fn wraps(tool: &Tool, wall: f64) -> bool {
+    let slips = tool.bond == Friction::Frictionless;
+    matches!(tool.tip, Tip::Sphere { radius } if slips && radius > wall)
 }
 
 /// The organ's tetrahedra and those of the neighbours that bend.

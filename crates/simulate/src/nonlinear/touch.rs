@@ -26,6 +26,7 @@ use palpate_mechanics::contact::{Friction, half_space_stiffness, half_space_tang
 use palpate_mechanics::nonlinear::{Conditions, NonlinearModel, Pace, advance};
 use palpate_mechanics::{ForceHistory, Limits, PronySeries};
 
+use super::shafts::{Pushed, ShaftMotion};
 use super::soft::Piece;
 use super::target::{Now, Target, farthest, positive, slippery};
 use super::{Body, ITERATIONS_TOUCHING, NonlinearOrgan, NonlinearWorkspace};
@@ -110,6 +111,8 @@ impl Body {
         self.is_loaded.fill(false);
         self.lets_go.fill(0);
         self.histories.fill(ForceHistory::default());
+        self.shafts.fill(None);
+        self.clear_of_shafts.fill(0.0);
     }
 
     /// Puts a body that nothing loads and that is as good as at rest there; whether it is.
@@ -151,9 +154,12 @@ impl NonlinearOrgan {
             own.stiffness = Matrix3::zeros();
             own.limited = Limits::NONE;
             workspace.targets[number] = self.target(tool, (number, own), relaxes, body);
+            own.pushed = Pushed::default();
+            workspace.shafts[number] = ShaftMotion::of((number, tool), own, body);
         }
+        let has_shafts = self.keep_near_shafts(&mut workspace.shafts, body);
         let is_free = workspace.targets.iter().all(Option::is_none);
-        if is_free && body.come_to_rest(&self.model) {
+        if is_free && !has_shafts && body.come_to_rest(&self.model) {
             return;
         }
         let before = body.state.largest(&self.model);
@@ -167,10 +173,12 @@ impl NonlinearOrgan {
         // Rest is where an organ goes that nothing loads; elements that were turned inside out may not find there. What
         // relaxes takes its time.
         let is_late = body.state.largest(&self.model) > SLOWEST_RETURN * before;
-        let is_held = body.state.bears_friction() || body.state.touches_itself();
+        let state = &body.state;
+        let is_held = state.bears_friction() || state.touches_itself() || state.bears_on_tools();
         if is_free && is_late && !is_held && (ended.is_inverted || !self.model.relaxes()) {
             body.state.shrink(&self.model, SLOWEST_RETURN);
         }
+        self.push_shafts(tools, body, workspace);
         for (number, (own, target)) in tools.iter_mut().zip(&workspace.targets).enumerate() {
             if let (Some(target), false) = (target, body.lets_go[number] > 0) {
                 own.elastic = -body.histories[number].elastic();
@@ -255,7 +263,8 @@ impl NonlinearOrgan {
             .iter()
             .zip(&body.loads)
             .map(|(target, load)| target.map_or(0.0, |target| target.way.norm() / farthest(load)));
-        let way = ways.fold(0.0, f64::max);
+        let shafts = workspace.shafts.iter().flatten().map(ShaftMotion::parts);
+        let way = ways.chain(shafts).fold(0.0, f64::max);
         let parts = (way.ceil() as usize).clamp(1, MOST_PARTS);
         let reach = (MOST_PARTS as f64 / way).min(1.0) / parts as f64;
         let mut pace = Pace {
@@ -265,10 +274,14 @@ impl NonlinearOrgan {
         let mut ended = Ended::default();
         for part in 1..=parts {
             // What bends moves under what it touches.
-            if part == 1 || self.touching.is_some() {
+            let has_shafts = workspace.shafts.iter().any(Option::is_some);
+            if part == 1 || self.touching.is_some() || has_shafts {
                 let candidates = &mut workspace.candidates;
-                candidates.find(self, &simulation.neighbours, &body.state);
-                pace.iterations = match candidates.touches_itself() {
+                let ways = [part - 1, part].map(|part| reach * part as f64);
+                let shafts = (&workspace.shafts[..], ways);
+                candidates.find(self, &simulation.neighbours, shafts, &body.state);
+                let is_hard = candidates.touches_itself() || candidates.touches_shafts();
+                pace.iterations = match is_hard {
                     true => ITERATIONS_TOUCHING,
                     false => self.iterations,
                 };
@@ -299,6 +312,9 @@ impl NonlinearOrgan {
                 own.advance(series, elastic, pace.elapsed);
             }
         }
+        for motion in workspace.shafts.iter().flatten() {
+            body.shafts[motion.tool] = Some(motion.after(reach * parts as f64));
+        }
         ended
     }
 
@@ -324,12 +340,21 @@ impl NonlinearOrgan {
         let (pose, contact) = (own.pose?, own.contact.as_mut()?);
         let place = contact.place;
         body.on[number] = Piece::with(&self.pieces, place.triangle.0);
-        let force = body.histories[number].elastic().norm();
-        let reach = Self::reach(tool, &self.pieces[body.on[number]].law, force);
+        let piece = &self.pieces[body.on[number]];
+        let is_wrapped = piece.bends_around[number];
+        let force = match is_wrapped {
+            true => own.pushed.force.norm(),
+            false => body.histories[number].elastic().norm(),
+        };
+        let reach = Self::reach(tool, &piece.law, force);
         let load = &mut body.loads[number];
         let boundary = self.model.boundary();
         boundary.spread(&place.point, &contact.rest_normal(), reach, load);
-        let now = Now::of(self, body, number);
+        let mut now = Now::of(self, body, number);
+        if is_wrapped {
+            // Its points bear on the tip as on a shaft.
+            now.force = -own.pushed.force;
+        }
         own.moved = Moved {
             by: now.mean - now.yields * now.force,
             turn: now.turn,
@@ -339,6 +364,9 @@ impl NonlinearOrgan {
         let tip = own.moved.back(&place.point, &Vec3::from(pose.position_m));
         let moved = contact.displacement(tool, &tip);
         own.displaced = own.moved.by + frame * moved;
+        if is_wrapped {
+            return None;
+        }
         let further = frame.tr_mul(&now.yields) * frame - self.of_load(&now);
         let law = self.pieces[body.on[number]].tip_law((number, tool));
         let law = law.beside(place.mean_curvature());
@@ -454,6 +482,7 @@ impl ToolState {
             self.row.events.insert(Event::GripRelease);
         }
         self.contact = None;
+        self.pushed = Pushed::default();
         self.elastic = Vec3::zeros();
         self.stiffness = Matrix3::zeros();
     }

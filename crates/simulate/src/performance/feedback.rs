@@ -261,6 +261,7 @@ mod tests {
                 grip: 0.0,
                 cut: false,
                 force_n: [0.0, force, 0.0],
+                torque_nm: [0.0; 3],
                 contact: true,
                 depth_m: 0.0,
                 events: if number == seconds {

@@ -36,6 +36,7 @@ mod nodules;
 mod nonlinear;
 mod nonlinear_neighbours;
 mod nonlinear_regions;
+mod nonlinear_shafts;
 mod nonlinear_soft;
 mod nonlinear_tube;
 mod performance;

@@ -79,6 +79,39 @@ fn a_sliding_step_allocates_nothing() {
     }
 }
 
+/// A shaft that is laid across a cube, pressed and lifted again.
+#[test]
+fn a_step_with_a_shaft_allocates_nothing() {
+    let simulation = Setting {
+        organ: "builtin = \"cube\"",
+        kind: "nonlinear",
+        model: "nodes = 400",
+        radius: 4e-3,
+        ..Setting::default()
+    }
+    .simulation();
+    let (_, high) = simulation.surface().mesh().bounds();
+    let across = nalgebra::UnitQuaternion::rotation_between(&Vec3::z(), &Vec3::x());
+    let at = |step: u32| {
+        let depth = 1e-4 * f64::from(100 - step.abs_diff(100)) - 5e-3;
+        let tip = Vec3::new(-0.07, 0.0, high.z + 4e-3 - depth);
+        pose(&tip, &across.unwrap_or_default(), 0.0)
+    };
+    let mut hands = Hands::new(&simulation);
+    hands.go(&[at(0)]);
+    reset_violation_count();
+    let before = violation_count();
+    let felt = assert_no_alloc(|| {
+        let forces = (1..200).map(|step| {
+            hands.go(&[at(step)]);
+            hands.state.tools[0].force.norm()
+        });
+        forces.filter(|force| *force > 0.0).count()
+    });
+    assert!(felt > 50, "{felt}");
+    assert_eq!(violation_count() - before, 0);
+}
+
 /// Two graspers that take hold, pull, slip and let go, and take hold again.
 #[test]
 fn a_step_with_two_grips_allocates_nothing() {

@@ -43,9 +43,10 @@ fn tube() -> String {
     text
 }
 
-/// Judge: tetrahedra of ten nodes by another code (FElupe, `benches/forces`), 4.75 mN at 2 mm. Tolerance: the model has one element
-/// across the wall, and its load covers 1.2 edges, which are not small beside the tube; it is 26 % above. Deeper the tube goes
-/// flat; the force neither leaps from step to step nor goes away: a step of 50 µm adds 1.5 % of it.
+/// Judge: tetrahedra of ten nodes by another code (FElupe, `benches/forces`), 4.75 mN at 2 mm and 10.15 mN at 5 mm. Tolerance: the model
+/// has one straight element across the wall, whose thickness varies by a fifth between its nodes; +11 and +8 % were found on
+/// 1,500 nodes, −17 and −20 % on 3,000 and 5,000. The force neither leaps from step to step nor goes away: a step of 50 µm adds
+/// 1.5 % of it.
 #[test]
 fn a_ball_on_a_thin_tube_is_felt_smoothly() {
     let folder = tempfile::tempdir().unwrap();
@@ -57,23 +58,27 @@ fn a_ball_on_a_thin_tube_is_felt_smoothly() {
          {{ point_m = [-{end}, 0.0, 0.0], normal = [1.0, 0.0, 0.0] }}] }}",
         path.to_str().unwrap()
     );
-    let setting = Setting {
-        organ: &organ,
-        kind: "nonlinear",
-        shape: "sphere",
-        radius: RADIUS,
-        ..Setting::default()
-    };
-    let simulation = setting.simulation();
-    let mut hand = Hand::new(&simulation);
-    let mut at = |depth: f64| hand.at(&Vec3::new(0.0, 0.0, RADIUS - depth)).z;
-    let pressed: Vec<f64> = (1..=100).map(|step| at(5e-5 * f64::from(step))).collect();
-    let held: Vec<f64> = (0..60).map(|_| at(5e-3)).collect();
-    let deepest = held[59];
-    println!("{} and {deepest} N", pressed[39]);
-    assert!((pressed[39] / 4.75e-3 - 1.0).abs() < 0.3, "{}", pressed[39]);
-    let all: Vec<f64> = pressed.into_iter().chain(held).collect();
-    for pair in all.windows(2) {
-        assert!((pair[1] - pair[0]).abs() < 0.05 * deepest, "{pair:?}");
+    for nodes in [1500, 3000] {
+        let setting = Setting {
+            model: &format!("nodes = {nodes}"),
+            organ: &organ,
+            kind: "nonlinear",
+            shape: "sphere",
+            radius: RADIUS,
+            ..Setting::default()
+        };
+        let simulation = setting.simulation();
+        let mut hand = Hand::new(&simulation);
+        let mut at = |depth: f64| hand.at(&Vec3::new(0.0, 0.0, RADIUS - depth)).z;
+        let pressed: Vec<f64> = (1..=100).map(|step| at(5e-5 * f64::from(step))).collect();
+        let held: Vec<f64> = (0..60).map(|_| at(5e-3)).collect();
+        let deepest = held[59];
+        println!("{nodes} nodes: {} and {deepest} N", pressed[39]);
+        assert!((pressed[39] / 4.75e-3 - 1.0).abs() < 0.2, "{}", pressed[39]);
+        assert!((deepest / 10.15e-3 - 1.0).abs() < 0.23, "{deepest}");
+        let all: Vec<f64> = pressed.into_iter().chain(held).collect();
+        for pair in all.windows(2) {
+            assert!((pair[1] - pair[0]).abs() < 0.05 * deepest, "{pair:?}");
+        }
     }
 }

@@ -20,6 +20,7 @@ pub(crate) fn row(time: f64, place: Vec3) -> SessionRow {
         grip: 0.0,
         cut: false,
         force_n: [0.0; 3],
+        torque_nm: [0.0; 3],
         contact: false,
         depth_m: 0.0,
         events: Events::NONE,
@@ -108,6 +109,7 @@ fn busy(rate: f64) -> Vec<SessionRow> {
         SessionRow {
             orientation: [turned.i, turned.j, turned.k, turned.w],
             force_n: [0.0, 0.6 * force, 0.8 * force],
+            torque_nm: [0.0; 3],
             contact: force > 0.0,
             ..row(t, place)
         }
@@ -323,6 +325,7 @@ fn goals_are_reached() {
         let mut performance = Performance::new(&pull, &tools);
         let rows = course(time, 200.0, |t| SessionRow {
             force_n: [force, 0.0, 0.0],
+            torque_nm: [0.0; 3],
             contact: true,
             ..row(t, Vec3::zeros())
         });
@@ -375,6 +378,7 @@ fn a_pull_has_one_cue_and_direction_counts() {
         let rows = course(0.5, 200.0, |t| SessionRow {
             // On the tool, against the pull.
             force_n: [-force * turned.cos(), force * turned.sin(), 0.0],
+            torque_nm: [0.0; 3],
             contact: true,
             ..row(t, Vec3::zeros())
         });

@@ -16,6 +16,7 @@ fn expert() -> Session {
             grip: 0.0,
             cut: false,
             force_n: [0.0; 3],
+            torque_nm: [0.0; 3],
             contact: false,
             depth_m: 0.0,
             events: Events::NONE,
@@ -34,6 +35,7 @@ fn expert() -> Session {
         },
         tools: vec!["right".to_owned()],
         rows: rows.collect(),
+        has_torques: true,
         incomplete: None,
     }
 }

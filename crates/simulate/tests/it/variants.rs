@@ -40,6 +40,7 @@ fn passes(task: &Task, place: &Vec3, diameter: f64) -> bool {
         grip: 0.0,
         cut: false,
         force_n: [0.0; 3],
+        torque_nm: [0.0; 3],
         contact: true,
         depth_m: 0.0,
         events: Event::Mark.into(),

@@ -254,6 +254,7 @@ mod tests {
             header: simulation.session_header(),
             tools: vec!["right".to_owned()],
             rows,
+            has_torques: true,
             incomplete: None,
         };
         let mut replay = Replay::new(simulation.clone(), &session).unwrap();

@@ -27,8 +27,9 @@ class TouchEnv(gymnasium.Env[Seen, NDArray[np.float32]]):
     the time limit that is gone, the part of the task that is done (0 where that cannot be told), whether it touches or
     holds tissue, and what is seen of the goal. With `observation="dict"` that is `"state"`, and there are `"force"` [N] on
     the tool and its `"torque"` [N m] about a sensor in the shaft, 50 mm from the tip, in the scene's frame, and
-    `"force_camera"` and `"torque_camera"` in the camera's: x to the right, y down, z ahead. The contact itself transmits
-    no torque. `images` adds `"rgb"`, `"depth"` [m] and `"segmentation"` of the endoscope, as `palpate.Renderer` draws them.
+    `"force_camera"` and `"torque_camera"` in the camera's: x to the right, y down, z ahead. The tip transmits
+    no torque; a shaft does, where tissue of the nonlinear model bears on it. `images` adds `"rgb"`, `"depth"` [m] and
+    `"segmentation"` of the endoscope, as `palpate.Renderer` draws them.
 
     **Reward**: what each task says; less 0.1 whenever the force rises above the task's limit and 0.5 for a perforation
     or for tissue that is lost from the jaws; less 1 at a depth of 20 mm, where no hand goes.

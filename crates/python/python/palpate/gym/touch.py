@@ -331,7 +331,7 @@ class Touch:
         parts: dict[str, NDArray[Any]] = {"state": vector}
         force = self.batch.forces[:, tool]
         lever = SENSOR * rotated(self.batch.orientations[:, tool], np.array([0.0, 0.0, 1.0]))
-        torque = np.cross(-lever, force)
+        torque = self.batch.torques[:, tool] + np.cross(-lever, force)
         turns = np.array([camera.rotation for camera in self.cameras])
         wrenches = (force, torque, *(np.einsum("nij,nj->ni", turns, own) for own in (force, torque)))
         parts |= {name: own.astype(np.float32) for name, own in zip(_WRENCHES, wrenches, strict=True)}

@@ -1,0 +1,446 @@
+//! Shafts that push what bends, without friction.
+//!
+//! A shaft is a rod that points of the boundary stay out of. What a tip or jaws load answers to them: there the rod begins
+//! behind them, and what their load reaches does not meet it. Other pieces of the body meet all of the rod, from its tip on.
+//!
+//! On a tool in a trocar, of length ℓ and direction e, a force f at a distance s from the tip is felt at the tip by its work:
+//!
+//! ```text
+//! F = (1 − (s/ℓ) (1 − e eᵀ)) f
+//! ```
+//!
+//! On a free tool F is f, and the torque about the tip is s e × f.
+//!
+//! *How we know*: `nonlinear_shafts::…`.
+
+use std::ops::Range;
+
+use nalgebra::Matrix3;
+use palpate_files::session::Event;
+use palpate_geometry::{AabbTree, Surface, Vec3};
+use palpate_mechanics::nonlinear::{
+    Against, NonlinearModel, NonlinearState, TOOL_POINTS, UnilateralContact, Workspace,
+};
+use palpate_mechanics::{Limit, Reached};
+
+use super::soft::Piece;
+use super::{Body, NonlinearOrgan, NonlinearWorkspace};
+use crate::shaft::Shaft;
+use crate::state::ToolState;
+use crate::tool::Tool;
+
+/// Points that are nearer than this may bear in the step [m].
+const NEAR: f64 = 2e-3;
+
+/// How far a shaft moves in a part of a step, in its radii [-]: a place that it meets stays on the side where it was met.
+const FARTHEST_IN_RADII: f64 = 0.5;
+/// And at most [m].
+const FARTHEST: f64 = 2e-3;
+
+/// A face is at most so much larger than at rest [-].
+const STRETCHED: f64 = 2.0;
+
+/// A lag behind its tool [m] from which on it is told.
+const TOLD_LAG: f64 = 1e-4;
+
+/// Cosine of the angle between the outward normal of a face and the direction from the axis to its point, below which the
+/// face is turned to the shaft [-]: others are the far side of a wall.
+const FACES: f64 = -0.2;
+
+/// Points that bear on a shaft are at most so far apart [radii], if more of them make that possible.
+const APART: f64 = 0.6;
+
+/// All points of a face.
+const POINTS: usize = TOOL_POINTS[0] + TOOL_POINTS[1];
+
+/// The points of the boundary as shafts meet them, [`POINTS`] of each face.
+#[derive(Debug, Clone)]
+pub(super) struct ShaftSkin {
+    /// At rest, on the shown surface [m].
+    places: Vec<Vec3>,
+    faces: Vec<SkinFace>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct SkinFace {
+    /// Largest distance of a point from the first [m].
+    extent: f64,
+    /// [m²]
+    area: f64,
+    piece: usize,
+}
+
+/// What the shaft of a tool does in a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ShaftMotion {
+    pub(super) tool: usize,
+    before: Shaft,
+    now: Shaft,
+    /// The piece that the tip or the jaws load; the middle of the load at rest [m], and its radius.
+    loaded: Option<(usize, Vec3, f64)>,
+    /// How far behind the tip it begins [m]: where a tip loads, and elsewhere.
+    begins: [f64; 2],
+}
+
+/// What tissue does to a shaft, felt at the tip.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Pushed {
+    /// [N], and [N m] about the tip.
+    pub(crate) force: Vec3,
+    pub(crate) torque: Vec3,
+    /// How the force changes with the tip's place [N/m].
+    pub(crate) gradient: Matrix3<f64>,
+}
+
+impl ShaftSkin {
+    pub(super) fn new(
+        model: &NonlinearModel,
+        (shown, tree): (&Surface, &AabbTree),
+        pieces: &[Piece],
+    ) -> Self {
+        let on = model
+            .tool_points()
+            .iter()
+            .map(|point| tree.nearest(shown.mesh(), &point.place));
+        let on: Vec<_> = on.collect();
+        let faces = on
+            .chunks(POINTS)
+            .zip(model.boundary().areas())
+            .map(|(own, area)| {
+                let first = &own[0];
+                let apart = own
+                    .iter()
+                    .map(|point| (point.on.position - first.on.position).norm());
+                SkinFace {
+                    extent: apart.fold(0.0, f64::max),
+                    area,
+                    piece: Piece::with(pieces, first.triangle.0),
+                }
+            });
+        Self {
+            faces: faces.collect(),
+            places: on.iter().map(|own| own.on.position).collect(),
+        }
+    }
+}
+
+impl ShaftMotion {
+    /// That of tool `number`; of one whose direction is not known, that of its jaws while they hold, and else of its tip. None if
+    /// it is not there.
+    pub(super) fn of(
+        (number, tool): (usize, &Tool),
+        own: &ToolState,
+        body: &mut Body,
+    ) -> Option<Self> {
+        let before = &mut body.shafts[number];
+        let Some(pose) = &own.pose else {
+            *before = None;
+            return None;
+        };
+        let turned = own.grip.hold.as_ref().map(|hold| hold.turned());
+        let now = Shaft::of(tool, pose).unwrap_or_else(|| Shaft::of_jaws(tool, pose, turned));
+        let held = own.grip.hold.as_ref().map(|hold| hold.seen.place);
+        let place = held.or(own.contact.map(|contact| contact.point()));
+        let load = &body.loads[number];
+        Some(Self {
+            tool: number,
+            before: before.unwrap_or(now),
+            now,
+            loaded: place.map(|place| (body.on[number], place, load.radius)),
+            begins: [tool.shaft_begins(), tool.shaft_ends()],
+        })
+    }
+
+    /// How far it moves, in what it may move in a part of a step [-].
+    pub(super) fn parts(&self) -> f64 {
+        let end = |shaft: &Shaft| shaft.tip + shaft.along * shaft.length;
+        let way = (self.now.tip - self.before.tip)
+            .norm()
+            .max((end(&self.now) - end(&self.before)).norm());
+        way / FARTHEST.min(FARTHEST_IN_RADII * self.now.radius)
+    }
+
+    /// Where it is after this `part` of its way [-].
+    pub(super) fn after(&self, part: f64) -> Shaft {
+        let (from, to) = (&self.before, &self.now);
+        let along = from.along.lerp(&to.along, part);
+        Shaft {
+            tip: from.tip.lerp(&to.tip, part),
+            along: along.try_normalize(1e-9).unwrap_or(to.along),
+            length: from.length + part * (to.length - from.length),
+            ..*to
+        }
+    }
+
+    /// Whether the tip or the jaws answer at a place of a piece at rest [m].
+    fn is_left_out(&self, piece: usize, rest: &Vec3) -> bool {
+        self.loaded.is_some_and(|(loaded, middle, radius)| {
+            loaded == piece && (rest - middle).norm() < radius
+        })
+    }
+}
+
+/// Distance of a place [m] from the axis between `ends` [m], and the direction away from it.
+fn from_axis([start, end]: &[Vec3; 2], place: &Vec3) -> (f64, Vec3) {
+    let axis = end - start;
+    let square = axis.norm_squared();
+    let part = match square > 0.0 {
+        true => (axis.dot(&(place - start)) / square).clamp(0.0, 1.0),
+        false => 0.0,
+    };
+    let away = place - (start + axis * part);
+    let distance = away.norm();
+    (distance, away / distance)
+}
+
+impl NonlinearOrgan {
+    /// How far behind its tip a shaft begins at a piece [m].
+    fn shaft_begins(&self, motion: &ShaftMotion, piece: usize) -> f64 {
+        let is_loaded = motion.loaded.is_none_or(|(loaded, ..)| loaded == piece);
+        let is_dimple = is_loaded && !self.pieces[piece].bends_around[motion.tool];
+        motion.begins[usize::from(!is_dimple)]
+    }
+
+    /// Whether a shaft may bear on the body in `state` where it is after a step; how far it is from that [m] into `clear`.
+    fn is_near(&self, (motion, clear): (&ShaftMotion, &mut f64), state: &NonlinearState) -> bool {
+        let way = (motion.now.tip - motion.before.tip).norm();
+        let turned = (motion.now.along - motion.before.along).norm();
+        *clear -= way + turned * motion.now.length;
+        if *clear > 0.0 {
+            return false;
+        }
+        let mut least = f64::INFINITY;
+        self.for_each_near_face(motion, &motion.now, state, |_, _, gap| {
+            least = least.min(gap);
+        });
+        *clear = least - NEAR;
+        *clear <= 0.0
+    }
+
+    /// Visits faces with the part of the axis that they may meet, and a lower bound of their gap [m].
+    fn for_each_near_face(
+        &self,
+        motion: &ShaftMotion,
+        shaft: &Shaft,
+        state: &NonlinearState,
+        mut visit: impl FnMut(usize, [Vec3; 2], f64),
+    ) {
+        let points = self.model.tool_points();
+        for (number, face) in self.shaft_skin.faces.iter().enumerate() {
+            let Some(axis) = shaft.axis(self.shaft_begins(motion, face.piece)) else {
+                continue;
+            };
+            let first = number * POINTS;
+            let moved = points[first].displacement(&state.displacements);
+            let (distance, _) = from_axis(&axis, &(self.shaft_skin.places[first] + moved));
+            visit(
+                number,
+                axis,
+                distance - shaft.radius - STRETCHED * face.extent,
+            );
+        }
+    }
+
+    /// Which of the `motions` may bear on the body; the others are none afterwards.
+    pub(super) fn keep_near_shafts(
+        &self,
+        motions: &mut [Option<ShaftMotion>],
+        body: &mut Body,
+    ) -> bool {
+        for (number, own) in motions.iter_mut().enumerate() {
+            let Some(motion) = own else { continue };
+            if !body.is_at_rest {
+                body.clear_of_shafts[number] = 0.0;
+            }
+            let clear = &mut body.clear_of_shafts[number];
+            if !self.is_near((motion, clear), &body.state) {
+                body.shafts[number] = Some(motion.now);
+                *own = None;
+            }
+        }
+        motions.iter().any(Option::is_some)
+    }
+
+    /// Visits the contacts of the body in `state` with a shaft that may bear, each with its gap [m], which goes `from` this part of
+    /// its way to that [-].
+    pub(super) fn meet_shaft(
+        &self,
+        motion: &ShaftMotion,
+        [from, part]: [f64; 2],
+        state: &NonlinearState,
+        mut visit: impl FnMut(f64, UnilateralContact),
+    ) {
+        let (was, shaft) = (motion.after(from), motion.after(part));
+        let points = self.model.tool_points();
+        self.for_each_near_face(motion, &shaft, state, |number, axis, bound| {
+            if bound > NEAR {
+                return;
+            }
+            let face = &self.shaft_skin.faces[number];
+            let set = face.points(shaft.radius);
+            let place = |k: usize| {
+                let point = number * POINTS + k;
+                self.shaft_skin.places[point] + points[point].displacement(&state.displacements)
+            };
+            let outward = outward(set.clone(), place);
+            for point in set.map(|k| number * POINTS + k) {
+                let rest = &self.shaft_skin.places[point];
+                let moved = points[point].displacement(&state.displacements);
+                let (distance, normal) = from_axis(&axis, &(rest + moved));
+                let gap = distance - shaft.radius;
+                let bears = gap < NEAR && normal.dot(&outward) < FACES;
+                let is_wrapped = self.pieces[face.piece].bends_around[motion.tool];
+                if bears && (is_wrapped || !motion.is_left_out(face.piece, rest)) {
+                    let at = shaft.at(&(rest + moved));
+                    let way = shaft.tip - was.tip + (shaft.along - was.along) * at;
+                    visit(
+                        gap,
+                        UnilateralContact {
+                            point: point as u32,
+                            normal,
+                            offset: gap - normal.dot(&moved),
+                            friction: 0.0,
+                            against: Against::Tool {
+                                number: motion.tool,
+                                way,
+                            },
+                        },
+                    );
+                }
+            }
+        });
+    }
+
+    /// Finds what tissue does to the shafts after a step, and tells of one that lags behind its tool.
+    pub(super) fn push_shafts(
+        &self,
+        tools: &mut [ToolState],
+        body: &Body,
+        workspace: &mut NonlinearWorkspace,
+    ) {
+        let NonlinearWorkspace {
+            shafts,
+            candidates,
+            solver,
+            ..
+        } = workspace;
+        for motion in shafts.iter().flatten() {
+            let own = &mut tools[motion.tool];
+            let Some(shaft) = body.shafts[motion.tool] else {
+                continue;
+            };
+            let contacts = (&candidates.contacts[..], &body.state);
+            own.take_push(self.push(&shaft, motion.tool, contacts, solver));
+            candidates.report(own);
+            let lag = (motion.now.tip - shaft.tip).norm();
+            if own.is_pushed() && lag > TOLD_LAG {
+                let asked = (motion.now.tip - motion.before.tip).norm();
+                let reached = Reached {
+                    asked,
+                    used: asked - lag,
+                };
+                own.limited.add(Limit::Pace, reached);
+            }
+        }
+    }
+
+    /// What the last step's `contacts` do to a shaft, which is where the step has it.
+    fn push(
+        &self,
+        shaft: &Shaft,
+        tool: usize,
+        (contacts, state): (&[UnilateralContact], &NonlinearState),
+        solver: &mut Workspace,
+    ) -> Option<Pushed> {
+        let points = self.model.tool_points();
+        let at = |contact: &UnilateralContact| {
+            let point = contact.point as usize;
+            let moved = points[point].displacement(&state.displacements);
+            shaft.at(&(self.shaft_skin.places[point] + moved))
+        };
+        // How far the rod moves along the normal where the tip moves.
+        let way = |contact: &UnilateralContact| {
+            let normal = contact.normal;
+            match (is_of(contact, tool), shaft.is_in_trocar) {
+                (false, _) => Vec3::zeros(),
+                (true, false) => normal,
+                (true, true) => {
+                    let across = normal - shaft.along * shaft.along.dot(&normal);
+                    normal - across * (at(contact) / shaft.length)
+                }
+            }
+        };
+        let mut pushed = Pushed::default();
+        for contact in contacts {
+            if !is_of(contact, tool) {
+                continue;
+            }
+            let force = state.force_of(&self.model, contact);
+            pushed.force -= force * way(contact);
+            if !shaft.is_in_trocar {
+                let arm = shaft.along * at(contact);
+                pushed.torque -= force * arm.cross(&contact.normal);
+            }
+        }
+        if pushed == Pushed::default() {
+            return Some(pushed);
+        }
+        pushed.gradient = -solver.contact_stiffness(contacts.iter().map(way));
+        let all = pushed.force.iter().chain(&pushed.torque);
+        let mut all = all.chain(&pushed.gradient);
+        all.all(|component| component.is_finite()).then_some(pushed)
+    }
+}
+
+/// Whether a contact is with this tool.
+fn is_of(contact: &UnilateralContact, tool: usize) -> bool {
+    matches!(contact.against, Against::Tool { number, .. } if number == tool)
+}
+
+impl SkinFace {
+    /// Which of its points bear on a shaft of this radius [m].
+    fn points(&self, radius: f64) -> Range<usize> {
+        let [few, _] = TOOL_POINTS;
+        match self.area < few as f64 * (APART * radius).powi(2) {
+            true => 0..few,
+            false => few..POINTS,
+        }
+    }
+}
+
+/// The direction in which a face looks, some of whose points are at these places [m]. They go row by row: of four in rows of two and one, of sixteen in rows of four to one, and
+/// then those between.
+fn outward(set: Range<usize>, place: impl Fn(usize) -> Vec3) -> Vec3 {
+    let [across, along] = match set.len() == TOOL_POINTS[0] {
+        true => [1, 2],
+        false => [3, 9],
+    };
+    let [corner, across, along] = [0, across, along].map(|k| place(set.start + k));
+    let normal = (along - corner).cross(&(across - corner));
+    normal.try_normalize(0.0).unwrap_or_default()
+}
+
+impl Default for Pushed {
+    fn default() -> Self {
+        Self {
+            force: Vec3::zeros(),
+            torque: Vec3::zeros(),
+            gradient: Matrix3::zeros(),
+        }
+    }
+}
+
+impl ToolState {
+    /// Whether tissue bears on its shaft.
+    pub(crate) fn is_pushed(&self) -> bool {
+        self.pushed != Pushed::default()
+    }
+
+    /// Takes what tissue does to its shaft; what is not finite is none, and is told.
+    pub(super) fn take_push(&mut self, pushed: Option<Pushed>) {
+        if pushed.is_none() {
+            self.row.events.insert(Event::NonFiniteForce);
+        }
+        self.pushed = pushed.unwrap_or_default();
+    }
+}
