@@ -4,6 +4,7 @@ use palpate_files::scene::ModelKind;
 use palpate_files::{
     Event, Events, Incomplete, Session, SessionHeader, SessionRow, SessionWriter, unfinished,
 };
+use sha2::Digest;
 
 use crate::SESSION;
 
@@ -28,7 +29,7 @@ fn row(step: u32) -> SessionRow {
         grip: 0.25,
         cut: step % 2 == 1,
         force_n: [0.0, 1.0 / 3.0, 1e-12],
-        torque_nm: [0.0; 3],
+        torque_nm: [1e-3, 0.0, -2.0 / 3.0],
         contact: true,
         depth_m: 0.001,
         events: [Event::Contact, Event::Cut].into_iter().collect(),
@@ -70,6 +71,56 @@ fn a_session_before_there_were_jaws_is_read() {
     assert_eq!(before.rows.len(), now.rows.len());
     assert_eq!(before.rows[2].force_n, now.rows[2].force_n);
     assert!(before.rows.iter().all(|row| row.grip_force_n == 0.0));
+}
+
+/// Judge of the name: SHA-256 of the columns and rows as they stand in the file, by the end mark's own.
+#[test]
+fn a_session_before_there_were_torques_keeps_its_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("session.csv");
+    let tools = ["right".to_owned()];
+    let mut writer = SessionWriter::create(&path, &header(), &tools).unwrap();
+    writer.write(&row(3)).unwrap();
+    writer.finish().unwrap();
+    let now = Session::read(&path).unwrap();
+    assert!(now.has_torques);
+    assert_eq!(now.rows[0].torque_nm, row(3).torque_nm);
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(text.contains(&now.digest()), "{text}");
+    let before = Session::parse(SESSION, "session.csv").unwrap();
+    assert!(!before.has_torques);
+    assert_eq!(before.rows[2].torque_nm, [0.0; 3]);
+    let table = SESSION.lines().filter(|line| !line.starts_with('#'));
+    let table: String = table.map(|line| format!("{line}\n")).collect();
+    let digest = sha2::Sha256::digest(table.as_bytes());
+    let digest: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+    assert_eq!(before.digest(), digest);
+}
+
+/// Rows have an orientation all the same; what is played again has none while it was not known.
+#[test]
+fn poses_have_no_orientation_while_none_was_known() {
+    let told = [
+        None,
+        Some(Event::ShaftUnknown),
+        None,
+        Some(Event::ShaftKnown),
+        None,
+    ];
+    let mut session = Session::parse(SESSION, "session.csv").unwrap();
+    session.rows = told
+        .iter()
+        .enumerate()
+        .map(|(step, event)| SessionRow {
+            events: event.iter().copied().collect(),
+            ..row(step as u32)
+        })
+        .collect();
+    let known: Vec<bool> = session
+        .poses()
+        .map(|pose| pose.orientation.is_some())
+        .collect();
+    assert_eq!(known, [true, false, false, true, true]);
 }
 
 #[test]

@@ -65,7 +65,7 @@ fn a_run_writes_session_summary_and_plots() {
     assert!(stdout(&output).contains("401 steps, 1 contact,"));
 
     let session = fs::read_to_string(folder.join("a/session.csv")).unwrap();
-    let columns = "time_s,tool,x_m,y_m,z_m,qx,qy,qz,qw,grip,cut,fx_n,fy_n,fz_n,contact,depth_m,event,grip_force_n";
+    let columns = "time_s,tool,x_m,y_m,z_m,qx,qy,qz,qw,grip,cut,fx_n,fy_n,fz_n,tx_nm,ty_nm,tz_nm,contact,depth_m,event,grip_force_n";
     assert!(session.lines().any(|line| line == columns));
     assert_eq!(
         Session::read(folder.join("a/session.csv"))
