@@ -57,7 +57,9 @@ impl Shaft {
 
     /// The ends [m] of its axis beyond `from` [m] from the tip; none if it is shorter.
     pub(crate) fn axis(&self, from: f64) -> Option<[Vec3; 2]> {
-        (self.length >= from).then(|| [from, self.length].map(|at| self.tip + self.along * at))
+        let is_tip_alone = self.length == 0.0 && from == 0.0;
+        (self.length > from || is_tip_alone)
+            .then(|| [from, self.length].map(|at| self.tip + self.along * at))
     }
 
     /// Where on its axis a `place` [m] is: from the tip [m].

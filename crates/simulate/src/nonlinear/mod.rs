@@ -38,7 +38,7 @@ use neighbours::{Candidates, Skin};
 use regions::Elements;
 pub(crate) use regions::Regions;
 pub(crate) use shafts::Pushed;
-use shafts::{ShaftMotion, ShaftSkin};
+use shafts::{Pierced, ShaftMotion, ShaftSkin};
 pub(crate) use soft::SoftBody;
 use soft::{Merged, Piece, touching};
 pub(crate) use touch::Moved;
@@ -121,6 +121,7 @@ pub(crate) struct Body {
     /// Where the shaft of each tool is, and how far it may go before it may touch the body at rest [m].
     shafts: Vec<Option<Shaft>>,
     clear_of_shafts: Vec<f64>,
+    pierced: Vec<Pierced>,
 }
 
 /// Scratch of its part in a step.
@@ -245,6 +246,7 @@ impl NonlinearOrgan {
             turns: vec![Rotation3::identity(); tools],
             shafts: vec![None; tools],
             clear_of_shafts: vec![0.0; tools],
+            pierced: vec![0; tools],
         }
     }
 

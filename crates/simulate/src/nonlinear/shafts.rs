@@ -80,6 +80,16 @@ pub(super) struct ShaftMotion {
     loaded: Option<(usize, Vec3, f64)>,
     /// How far behind the tip it begins [m]: where a tip loads, and elsewhere.
     begins: [f64; 2],
+    /// The pieces that it goes through, bit by bit.
+    pierced: Pierced,
+}
+
+/// Pieces that a shaft has appeared in and not left yet, bit by bit; those beyond the last bit share it.
+pub(super) type Pierced = u64;
+
+/// The bit of a piece.
+fn bit(piece: usize) -> Pierced {
+    1 << piece.min(Pierced::BITS as usize - 1)
 }
 
 /// What tissue does to a shaft, felt at the tip.
@@ -148,7 +158,14 @@ impl ShaftMotion {
             now,
             loaded: place.map(|place| (body.on[number], place, load.radius)),
             begins: [tool.shaft_begins(), tool.shaft_ends()],
+            pierced: 0,
         })
+    }
+
+    /// Whether it was not there before.
+    fn appears(&self, body: &Body) -> bool {
+        let before = body.shafts[self.tool];
+        before.is_none_or(|before| before.length == 0.0 && self.now.length > 0.0)
     }
 
     /// How far it moves, in what it may move in a part of a step [-].
@@ -241,6 +258,31 @@ impl NonlinearOrgan {
         }
     }
 
+    /// A shaft that appears in a piece, as where a trocar lies behind an organ, goes through it until it has left it.
+    fn let_out(&self, motion: &mut ShaftMotion, body: &mut Body) {
+        let was = match motion.appears(body) {
+            true => Pierced::MAX,
+            false => body.pierced[motion.tool],
+        };
+        if was != 0 {
+            let mut pierced = 0;
+            let from_tip = ShaftMotion {
+                loaded: None,
+                begins: [motion.begins[1]; 2],
+                ..*motion
+            };
+            self.meet_shaft(&from_tip, [1.0; 2], &body.state, |gap, contact| {
+                let piece = self.shaft_skin.faces[contact.point as usize / POINTS].piece;
+                // What bends around a tip meets it wherever that appears, as a tip with a law of its own.
+                if gap < 0.0 && !self.pieces[piece].bends_around[motion.tool] {
+                    pierced |= bit(piece);
+                }
+            });
+            body.pierced[motion.tool] = was & pierced;
+        }
+        motion.pierced = body.pierced[motion.tool];
+    }
+
     /// Which of the `motions` may bear on the body; the others are none afterwards.
     pub(super) fn keep_near_shafts(
         &self,
@@ -249,6 +291,7 @@ impl NonlinearOrgan {
     ) -> bool {
         for (number, own) in motions.iter_mut().enumerate() {
             let Some(motion) = own else { continue };
+            self.let_out(motion, body);
             if !body.is_at_rest {
                 body.clear_of_shafts[number] = 0.0;
             }
@@ -273,7 +316,8 @@ impl NonlinearOrgan {
         let (was, shaft) = (motion.after(from), motion.after(part));
         let points = self.model.tool_points();
         self.for_each_near_face(motion, &shaft, state, |number, axis, bound| {
-            if bound > NEAR {
+            let is_pierced = motion.pierced & bit(self.shaft_skin.faces[number].piece) != 0;
+            if bound > NEAR || is_pierced {
                 return;
             }
             let face = &self.shaft_skin.faces[number];

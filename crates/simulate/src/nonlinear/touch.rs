@@ -113,6 +113,7 @@ impl Body {
         self.histories.fill(ForceHistory::default());
         self.shafts.fill(None);
         self.clear_of_shafts.fill(0.0);
+        self.pierced.fill(0);
     }
 
     /// Puts a body that nothing loads and that is as good as at rest there; whether it is.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use nalgebra::UnitQuaternion;
 use palpate_files::scene::{Jaws, Region, RegionPlane};
-use palpate_files::{Event, Pose, Scene};
+use palpate_files::{Event, Scene};
 use palpate_geometry::{AabbTree, Organ, Surface, Vec3};
 use palpate_mechanics::NeoHookean;
 use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve_at};
@@ -101,22 +101,11 @@ pub(crate) fn holding<'a>(
     at: &Vec3,
 ) -> (Hands<'a>, Vec3, UnitQuaternion<f64>) {
     let tree = AabbTree::new(simulation.surface().mesh());
-    let (_, normal) = nearest(simulation, &tree, at);
-    let turned = UnitQuaternion::rotation_between(&Vec3::z(), &normal).unwrap_or_default();
-    let (hands, point) = taking_hold(simulation, at, |tip, grip| pose(tip, &turned, grip));
-    (hands, point, turned)
-}
-
-/// A grasper whose poses are stated so, which holds the organ at the place nearest to `at`; with where its tip is.
-pub(crate) fn taking_hold<'a>(
-    simulation: &'a Simulation,
-    at: &Vec3,
-    pose: impl Fn(&Vec3, f64) -> Option<Pose>,
-) -> (Hands<'a>, Vec3) {
-    let tree = AabbTree::new(simulation.surface().mesh());
     let (point, normal) = nearest(simulation, &tree, at);
+    let turned = UnitQuaternion::rotation_between(&Vec3::z(), &normal).unwrap_or_default();
     let mut hands = Hands::new(simulation);
-    let mut go = |height: f64, grip: f64| hands.go(&[pose(&(point + normal * height), grip)]);
+    let mut go =
+        |height: f64, grip: f64| hands.go(&[pose(&(point + normal * height), &turned, grip)]);
     for step in 0..=10 {
         go(1e-3 - 1e-4 * f64::from(step), 0.0);
     }
@@ -124,7 +113,7 @@ pub(crate) fn taking_hold<'a>(
         go(0.0, 0.1 * f64::from(step));
     }
     assert!(hands.state.tools[0].holds());
-    (hands, point)
+    (hands, point, turned)
 }
 
 pub(crate) const STRONG: Jaws = Jaws {

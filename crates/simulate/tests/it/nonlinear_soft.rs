@@ -1,11 +1,11 @@
 //! An organ at large deformation beside neighbours that bend.
 
-use palpate_files::{Pose, Scene};
+use palpate_files::Scene;
 use palpate_geometry::{AabbTree, Surface, Vec3};
 use palpate_simulate::{Simulation, read_neighbour};
 
-use crate::grip::grasping;
-use crate::nonlinear::{LIVER, STRONG, displaced, taking_hold};
+use crate::grip::{grasping, pose};
+use crate::nonlinear::{LIVER, STRONG, displaced, holding};
 use crate::scenes::{Hand, Setting};
 
 /// What stands beside the esophagus.
@@ -63,17 +63,8 @@ fn pull(beside: Beside, friction: f64) -> Pulled {
         Beside::Soft(_) => ball.mesh().vertices().len(),
         Beside::Rigid | Beside::Nothing => 0,
     };
-    // A shaft without a direction meets nothing: else it would touch the ball as well.
-    let without_shaft = |tip: &Vec3, grip: f64| {
-        Some(Pose {
-            position_m: (*tip).into(),
-            orientation: None,
-            grip,
-            cut: false,
-        })
-    };
-    let at = Vec3::new(0.0, -0.0075, 0.0);
-    let (mut hands, point) = taking_hold(&simulation, &at, without_shaft);
+    // The shaft appears within the ball, and passes through it.
+    let (mut hands, point, turned) = holding(&simulation, &Vec3::new(0.0, -0.0075, 0.0));
     let mut pulled = Pulled {
         force: Vec3::zeros(),
         work: 0.0,
@@ -84,7 +75,7 @@ fn pull(beside: Beside, friction: f64) -> Pulled {
     let mut before = 0.0;
     for step in 0..=100 {
         let way = (2.5e-4 * f64::from(step)).min(0.02);
-        hands.go(&[without_shaft(&(point - Vec3::y() * way), 1.0)]);
+        hands.go(&[pose(&(point - Vec3::y() * way), &turned, 1.0)]);
         let force = hands.state.tools[0].force;
         pulled.work += 0.5 * (pulled.force + force).y * (way - before);
         (pulled.force, before) = (force, way);
@@ -106,7 +97,7 @@ fn pull(beside: Beside, friction: f64) -> Pulled {
         .map(|place| -moved.signed_distance(&boxes, place).1);
     pulled.deepest = depths.fold(0.0, f64::max);
     for _ in 0..80 {
-        hands.go(&[without_shaft(&(point - Vec3::y() * 0.02), 0.0)]);
+        hands.go(&[pose(&(point - Vec3::y() * 0.02), &turned, 0.0)]);
     }
     pulled.left = displaced(&hands, &simulation);
     pulled
