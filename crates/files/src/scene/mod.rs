@@ -10,6 +10,7 @@ mod jaws;
 mod model;
 mod model_words;
 mod organ;
+mod part;
 mod region;
 mod shape;
 mod standing_alone;
@@ -33,6 +34,7 @@ pub use model_words::{
     Placement, ResponseMethod, Smoothing, Solver,
 };
 pub use organ::{Layer, Location, Neighbour, Nodule, Organ, SoftNeighbour};
+pub use part::{BodyPart, PartPlace};
 pub use region::{Region, RegionBox, RegionPlane, RegionSphere};
 pub use shape::{BuiltinOrgan, LengthUnit, Shape};
 pub use standing_alone::standing_alone;
