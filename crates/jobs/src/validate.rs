@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use palpate_files::quantity::plain_quantity;
 use palpate_files::recording::{ForeignColumns, RecordingHeader, StimulusKind};
-use palpate_files::scene::{Goal, Shape, Task};
+use palpate_files::scene::{Goal, Inclusion, Layer, Shape, Task};
 use palpate_files::{
     Document, Incomplete, MOST_OF_DOCUMENT, MOST_OF_TABLE, Motion, Protocol, Recording, Scene,
     Session, Tissue, read_bytes, read_text,
@@ -123,13 +123,12 @@ fn scene(path: &Path) -> Result<Validated, Error> {
     let (surface, said) = palpate_simulate::read_organ(&scene.organ.shape)?;
     warnings.extend(said);
     palpate_simulate::read_tissue(&scene.organ.tissue)?;
-    for layer in &scene.organ.layers {
-        palpate_simulate::read_tissue(&layer.tissue)?;
-    }
+    warnings.extend(parts(&scene.organ.layers, &scene.organ.inclusions)?);
     for neighbour in &scene.neighbours {
         palpate_simulate::read_neighbour(neighbour)?;
         if let Some(soft) = &neighbour.soft {
             palpate_simulate::read_tissue(&soft.tissue)?;
+            warnings.extend(parts(&soft.layers, &soft.inclusions)?);
         }
     }
     let organ = match &scene.organ.shape {
@@ -162,6 +161,20 @@ fn scene(path: &Path) -> Result<Validated, Error> {
         content,
         warnings,
     })
+}
+
+/// Reads the files that the layers and inclusions of a body name.
+fn parts(layers: &[Layer], inclusions: &[Inclusion]) -> Result<Vec<String>, Error> {
+    let tissues = layers.iter().map(|layer| &layer.tissue);
+    let tissues = tissues.chain(inclusions.iter().map(|inclusion| &inclusion.tissue));
+    for tissue in tissues {
+        palpate_simulate::read_tissue(tissue)?;
+    }
+    let mut warnings = Vec::new();
+    for inclusion in inclusions {
+        warnings.extend(palpate_simulate::read_inclusion(&inclusion.place)?.1);
+    }
+    Ok(warnings)
 }
 
 fn protocol(path: &Path) -> Result<Validated, Error> {

@@ -171,6 +171,9 @@ fn canonical(scene: &Scene, tissue: &Tissue) -> Form {
     {
         form.region("soft_anchor", soft.anchor.as_ref());
         form.numbers("soft", &[soft.nodes as f64, neighbour.friction]);
+        soft.layers.iter().for_each(|layer| form.layer(layer));
+        let inclusions = soft.inclusions.iter();
+        inclusions.for_each(|inclusion| form.inclusion(&inclusion.place));
     }
     form
 }

@@ -36,8 +36,9 @@ pub enum Error {
     },
     /// A neighbour that bends is held nowhere.
     #[error(
-        "the anchor of `[[neighbour]]` number {number} takes in no vertex of it, and it could move without force; give \
-         planes, boxes or spheres of the scene that take in a part of its surface"
+        "the anchor of body number {number} beside the organ (those of `[[neighbour]]`, then further `[[organ]]`) takes in \
+         no vertex of it, and it could move without force; give planes, boxes or spheres of the scene that take in a part of \
+         its surface"
     )]
     LooseNeighbour {
         /// In the order of the scene, from 1.

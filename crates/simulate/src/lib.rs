@@ -63,6 +63,7 @@ mod simulation;
 mod state;
 mod step;
 mod summary;
+mod swings;
 mod target;
 mod tip_laws;
 mod tool;

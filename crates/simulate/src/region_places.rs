@@ -1,6 +1,6 @@
 //! Where the layers and inclusions of a scene are.
 
-use palpate_files::scene::{Inclusion, InclusionPlace, Organ, Shape};
+use palpate_files::scene::{Inclusion, InclusionPlace, Layer, Shape};
 use palpate_geometry::{AabbTree, Surface};
 use palpate_mechanics::regions::{RegionError, RegionMap, RegionPlace};
 
@@ -21,27 +21,26 @@ pub fn read_inclusion(inclusion: &InclusionPlace) -> Result<(RegionPlace, Vec<St
     }
 }
 
-/// Where the inclusions of `organ` are, after its layers if they are felt, in the organ with this surface and its tree;
-/// and warnings.
+/// Where the `layers` that are felt and the `inclusions` of a body with this surface and its tree are, in this order; and
+/// warnings.
 pub(crate) fn read_regions(
-    organ: &Organ,
-    with_layers: bool,
+    layers: &[Layer],
+    inclusions: &[Inclusion],
     surface: &Surface,
     tree: &AabbTree,
 ) -> Result<(RegionMap, Vec<String>), Error> {
-    let layers = organ.layers.iter().filter(|_| with_layers);
     let mut places: Vec<RegionPlace> = layers
+        .iter()
         .map(|layer| RegionPlace::Layer(layer.thickness_m))
         .collect();
-    let layers = places.len();
     let mut warnings = Vec::new();
-    for inclusion in &organ.inclusions {
+    for inclusion in inclusions {
         let (place, more) = read_inclusion(&inclusion.place)?;
         places.push(place);
         warnings.extend(more);
     }
     let map = RegionMap::new(surface, tree, places);
-    let map = map.map_err(|error| refused(error, &organ.inclusions, layers))?;
+    let map = map.map_err(|error| refused(error, inclusions, layers.len()))?;
     Ok((map, warnings))
 }
 

@@ -80,18 +80,26 @@ impl Simulation {
         nodule::check(&scene.organ.nodules, &surface, &tree)?;
         target::check_line(scene, &surface, &tree)?;
         let is_nonlinear = scene.model.kind == ModelKind::Nonlinear;
-        let (map, more) = read_regions(&scene.organ, is_nonlinear, &surface, &tree)?;
+        let (layers, inclusions) = (&scene.organ.layers, &scene.organ.inclusions);
+        let felt_layers = if is_nonlinear { &layers[..] } else { &[] };
+        let (map, more) = read_regions(felt_layers, inclusions, &surface, &tree)?;
         warnings.extend(more);
-        let enclosed: Vec<Surface> = map.enclosed().cloned().collect();
+        let mut enclosed: Vec<Surface> = map.enclosed().cloned().collect();
         let regions = match scene.model.kind {
             ModelKind::Local | ModelKind::Hybrid => None,
-            ModelKind::Nonlinear => Some(Regions::new(scene, map, (&tissue, &material))?),
+            ModelKind::Nonlinear => {
+                Some(Regions::new(layers, inclusions, map, (&tissue, &material))?)
+            }
         };
         let (mut soft, more) = match is_nonlinear {
             true => SoftBody::all(scene)?,
             false => Default::default(),
         };
         warnings.extend(more);
+        enclosed.extend(
+            soft.iter()
+                .flat_map(|body| body.regions.enclosed().cloned()),
+        );
         let organ_surface = surface;
         let (surface, tree) = match &soft[..] {
             [] => (organ_surface.clone(), tree),
@@ -129,7 +137,7 @@ impl Simulation {
             }
         };
         let beside = regions.iter().flat_map(Regions::beside);
-        let bending = soft.iter().map(|body| &body.tissue.tissue);
+        let bending = soft.iter().flat_map(|body| body.regions.all());
         let felt: Vec<_> = beside.chain(bending).cloned().collect();
         let surface_material = regions
             .as_ref()
@@ -155,7 +163,7 @@ impl Simulation {
                 // It cannot be cancelled, and takes seconds.
                 let _ = watch(Progress { work, part });
             };
-            warnings.extend(body.meet(&tools, at_step)?);
+            warnings.extend(body.meet(scene, &tools, at_step)?);
         }
         let nonlinear = match regions {
             None => None,

@@ -3,7 +3,11 @@ use std::time::Duration;
 use palpate_files::session::Event;
 use serde::Serialize;
 
+use crate::swings::Swings;
 use crate::{Simulation, SimulationState, SimulationWorkspace, TRUSTED_DEPTH};
+
+/// What the source could still follow, and what its devices answer to [Hz].
+const FAST: f64 = 8.0;
 
 /// What a played motion came to.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -81,6 +85,8 @@ pub(crate) struct Tally {
     contacts: u64,
     peak_force: f64,
     deepest: f64,
+    /// Of each tool.
+    swings: Vec<Swings>,
     pulled: f64,
     shaft_contacts: u64,
     non_finite: u64,
@@ -96,6 +102,7 @@ impl Tally {
             contacts: 0,
             peak_force: 0.0,
             deepest: 0.0,
+            swings: Vec::new(),
             pulled: 0.0,
             shaft_contacts: 0,
             non_finite: 0,
@@ -106,6 +113,10 @@ impl Tally {
 
     pub(crate) fn add(&mut self, time: Duration, state: &SimulationState) {
         self.times.push(time);
+        self.swings.resize(state.tools.len(), Swings::default());
+        for (swings, tool) in self.swings.iter_mut().zip(&state.tools) {
+            swings.add(tool.row.time_s, tool.row.depth_m);
+        }
         for tool in state.tools.iter().filter(|tool| tool.pose.is_some()) {
             let counts = |event| u64::from(tool.row.events.contains(event));
             self.contacts += counts(Event::Contact);
@@ -138,6 +149,16 @@ impl Tally {
             format!(
                 "the depth reached {:.1} mm; beyond 10 mm no model here has been compared with tissue",
                 1e3 * self.deepest
+            ),
+        );
+        let swings = self.swings.iter();
+        let fastest = swings.filter_map(|swings| swings.fastest(simulation.step));
+        let fastest = fastest.fold(0.0, f64::max);
+        warn(
+            fastest > FAST,
+            format!(
+                "the depth swung at {fastest:.0} Hz or more; beyond 8 Hz no measurement stands behind the relaxation, and \
+                 inertia is left out"
             ),
         );
         warn(

@@ -104,12 +104,12 @@ impl Inclusion {
 /// A radius [m].
 const RADIUS: Domain = Domain::quantity("a radius", "m", [Included(1e-6), Included(1e3)]);
 
-const BALL: &[Key] = &[
+pub(super) const BALL: &[Key] = &[
     Key::vector("center_m", Domain::POSITION, "Its centre.").required("[0.02, 0.01, 0.03]"),
     Key::number("radius_m", RADIUS, "Its radius.").required("0.005"),
 ];
 
-const ELLIPSOID: &[Key] = &[
+pub(super) const ELLIPSOID: &[Key] = &[
     Key::vector("center_m", Domain::POSITION, "Its centre.").required("[0.0, 0.0, 0.03]"),
     Key::vector("radii_m", RADIUS, "Its semi-axes.").required("[0.01, 0.005, 0.005]"),
     Key::vector(
@@ -120,7 +120,7 @@ const ELLIPSOID: &[Key] = &[
     .default("[0.0, 0.0, 0.0]"),
 ];
 
-const CAPSULE: &[Key] = &[
+pub(super) const CAPSULE: &[Key] = &[
     Key::vector("from_m", Domain::POSITION, "One end of the segment.")
         .required("[-0.02, 0.0, 0.03]"),
     Key::vector("to_m", Domain::POSITION, "The other end.").required("[0.02, 0.0, 0.03]"),
@@ -146,7 +146,7 @@ impl InclusionPlace {
 }
 
 impl InclusionShape {
-    fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+    pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         let ball = keys.table("ball")?;
         let ellipsoid = keys.table("ellipsoid")?;
         let capsule = keys.table("capsule")?;

@@ -9,7 +9,9 @@ mod inclusion;
 mod jaws;
 mod model;
 mod model_words;
+mod neighbour;
 mod organ;
+mod part;
 mod region;
 mod shape;
 mod standing_alone;
@@ -32,7 +34,9 @@ pub use model_words::{
     Assembly, Calibration, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind,
     Placement, ResponseMethod, Smoothing, Solver,
 };
-pub use organ::{Layer, Location, Neighbour, Nodule, Organ, SoftNeighbour};
+pub use neighbour::{Location, Neighbour, SoftNeighbour};
+pub use organ::{Layer, Nodule, Organ};
+pub use part::{BodyPart, PartPlace};
 pub use region::{Region, RegionBox, RegionPlane, RegionSphere};
 pub use shape::{BuiltinOrgan, LengthUnit, Shape};
 pub use standing_alone::standing_alone;
@@ -77,7 +81,13 @@ pub struct Scene {
 impl Scene {
     /// The keys of a scene, without `format`.
     pub const KEYS: &'static [Key] = &[
-        Key::table("organ", Organ::KEYS, "The organ that is touched.").required(""),
+        Key::table_or_tables(
+            "organ",
+            Organ::KEYS,
+            "The organ that is touched. As a list, `[[organ]]`, the first is this one, and further ones are bodies beside it that \
+             bend, as a `[[neighbour]]` with a tissue does.",
+        )
+        .required(""),
         Key::tables(
             "neighbour",
             Neighbour::KEYS,
@@ -131,26 +141,39 @@ impl Scene {
         let mut document = Document::parse(text, path)?;
         let draws = document.change(Draws::take)?;
         let keys = document.keys(Self::KEYS)?;
-        let organ = keys
-            .table("organ")?
-            .ok_or_else(|| keys.missing("organ", "a table `[organ]`"))?;
+        let organs = keys.tables("organ")?;
+        let Some((organ, further)) = organs.split_first() else {
+            return Err(keys.missing("organ", "a table `[organ]`"));
+        };
         let neighbours = keys.tables("neighbour")?;
-        let touched = Organ::from_keys(&organ, &folder)?;
+        let touched = Organ::from_keys(organ, &folder)?;
         let tools = tool::from_keys(&keys, &folder)?;
         let cutting = keys.table("cutting")?;
         let model = keys.table("model")?;
-        let bodies = neighbours.iter();
-        let around: Vec<Neighbour> = bodies
-            .map(|keys| Neighbour::from_keys(keys, &folder))
-            .collect::<Result<_, _>>()?;
+        let rigid_or_soft = neighbours
+            .iter()
+            .map(|keys| Neighbour::from_keys(keys, &folder));
+        let organs = further
+            .iter()
+            .map(|keys| Neighbour::of_organ(keys, &folder));
+        let around: Vec<Neighbour> = rigid_or_soft.chain(organs).collect::<Result<_, _>>()?;
         let does = Asked {
             cuts: cutting.is_some(),
             bends: touched.self_contact || around.iter().any(|body| body.soft.is_some()),
         };
         let model = Model::from_keys(model.as_ref(), &touched, &tools, does)?;
         if model.kind != ModelKind::Nonlinear {
+            if let Some(second) = further.first() {
+                let shape = ["mesh", "builtin"]
+                    .into_iter()
+                    .find(|key| second.contains(key));
+                return Err(second.bad(
+                    shape.unwrap_or("mesh"),
+                    "one organ, for only `model.kind = \"nonlinear\"` has several; or a rigid `[[neighbour]]`",
+                ));
+            }
             for keys in &neighbours {
-                if let Some(key) = organ::tissue_key(keys) {
+                if let Some(key) = neighbour::tissue_key(keys) {
                     keys.refuse(
                         key,
                         "nothing, for only `model.kind = \"nonlinear\"` bends a neighbour",

@@ -1,14 +1,12 @@
 use std::ops::Bound::{Excluded, Included};
 use std::path::Path;
 
-use super::{Inclusion, Region, Shape, TissueChoice};
-use crate::{BuiltinTissue, Domain, Error, Event, Key, Keys, Tissue};
+use super::neighbour::{LEAST_NODES, MOST_NODES};
+use super::{BodyPart, Inclusion, Neighbour, PartPlace, Region, Shape, TissueChoice};
+use crate::{Domain, Error, Event, Key, Keys};
 
-/// Stiffness of a rigid body under a tip [N/m].
-const RIGID_STIFFNESS: f64 = 1000.0;
-
-/// Nodes of a neighbour that bends, about.
-const SOFT_NODES: usize = 500;
+/// What an organ means that does not say where it stands.
+const OF_FURTHER: &str = "as its mesh does; of a further organ alone";
 
 /// The organ that is touched.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,57 +60,6 @@ pub struct Layer {
     pub toughness_j_per_m2: Option<f64>,
 }
 
-/// A body beside the organ.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Neighbour {
-    /// Its surface.
-    pub shape: Shape,
-    /// Where it stands.
-    pub location: Location,
-    /// Whether tools stop at it.
-    pub collides: bool,
-    /// Coulomb's coefficient between it and an organ of the nonlinear model [-].
-    pub friction: f64,
-    /// The force on a tip per depth in it [N/m], if it is rigid.
-    pub stiffness_n_per_m: f64,
-    /// What it is made of, if it bends.
-    pub soft: Option<SoftNeighbour>,
-}
-
-/// What a neighbour is made of that bends with the organ of a nonlinear model.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SoftNeighbour {
-    /// Its tissue.
-    pub tissue: TissueChoice,
-    /// Where it is held, in the scene; none for the attachment of a built-in organ, which stands where it does.
-    pub anchor: Option<Region>,
-    /// About how many nodes carry its mechanics.
-    pub nodes: usize,
-}
-
-/// Where a body stands in the scene: each of its points is scaled about the body's own origin, turned about
-/// x, then y, then z, and moved.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Location {
-    /// Where its origin comes to [m].
-    pub at_m: [f64; 3],
-    /// About x, then y, then z of the scene, counter-clockwise [rad].
-    pub turn_rad: [f64; 3],
-    /// [-]
-    pub scale: f64,
-}
-
-impl Default for Location {
-    /// As it was made.
-    fn default() -> Self {
-        Self {
-            at_m: [0.0; 3],
-            turn_rad: [0.0; 3],
-            scale: 1.0,
-        }
-    }
-}
-
 impl Organ {
     pub(super) const KEYS: &'static [Key] = &[
         Shape::KEYS[0],
@@ -144,6 +91,13 @@ impl Organ {
         )
         .optional("", "none"),
         Key::tables(
+            "region",
+            BodyPart::OF_SURFACE,
+            "Layers, in the order of the file after those of `layer`, and inclusions, after those of `inclusion`: both in one \
+             list.",
+        )
+        .optional("", "none"),
+        Key::tables(
             "nodule",
             Nodule::KEYS,
             "Balls of stiffer tissue, whose answer the local and the hybrid model estimate.",
@@ -160,19 +114,37 @@ impl Organ {
             "Coulomb's coefficient between its parts, with `self_contact`.",
         )
         .default("0.0"),
+        Neighbour::KEYS[4].optional("[0.0, 0.0, 0.0]", OF_FURTHER),
+        Neighbour::KEYS[5].optional("[0.0, 0.0, 0.0]", OF_FURTHER),
+        Neighbour::KEYS[6].optional("1.0", OF_FURTHER),
+        Key::integer(
+            "nodes",
+            LEAST_NODES,
+            MOST_NODES,
+            "A further organ: about how many nodes carry its mechanics; `model.nodes` says it of the first.",
+        )
+        .optional("500", "500 of a further organ"),
+        Key::number(
+            "friction",
+            Domain::FRICTION,
+            "A further organ: Coulomb's coefficient between it and other organs.",
+        )
+        .optional("0.2", "0.0"),
     ];
 
     pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
+        for key in ["at_m", "turn_rad", "scale", "nodes", "friction"] {
+            keys.refuse(
+                key,
+                "nothing in the first organ, which stands as its mesh does; it is for further organs",
+            )?;
+        }
         let region = |key| -> Result<Option<Region>, Error> {
             let table = keys.table(key)?;
             table.map(|keys| Region::from_keys(&keys)).transpose()
         };
-        let layers = keys.tables("layer")?;
-        if layers.len() > Event::OPENS_LAYER.len() {
-            return Err(keys.bad("layer", "at most 6 layers: a session has an event for each"));
-        }
         let nodules = keys.tables("nodule")?;
-        let inclusions = keys.tables("inclusion")?;
+        let (layers, inclusions) = parts(keys, folder)?;
         Ok(Self {
             self_contact: keys.truth("self_contact")?.unwrap_or(false),
             self_friction: keys.number("self_friction")?.unwrap_or(0.0),
@@ -184,18 +156,63 @@ impl Organ {
             tissue: TissueChoice::from_keys(keys, folder)?,
             anchor: region("anchor")?,
             touchable: region("touchable")?,
-            layers: layers
-                .iter()
-                .enumerate()
-                .map(|(number, keys)| Layer::from_keys(keys, number, folder))
-                .collect::<Result<_, _>>()?,
-            inclusions: inclusions
-                .iter()
-                .enumerate()
-                .map(|(number, keys)| Inclusion::from_keys(keys, number, folder))
-                .collect::<Result<_, _>>()?,
+            layers,
+            inclusions,
         })
     }
+}
+
+/// The layers and the inclusions of an organ.
+pub(super) fn parts(keys: &Keys<'_>, folder: &Path) -> Result<(Vec<Layer>, Vec<Inclusion>), Error> {
+    let layers = keys.tables("layer")?;
+    let mut layers: Vec<Layer> = layers
+        .iter()
+        .enumerate()
+        .map(|(number, keys)| Layer::from_keys(keys, number, folder))
+        .collect::<Result<_, _>>()?;
+    let inclusions = keys.tables("inclusion")?;
+    let mut inclusions: Vec<Inclusion> = inclusions
+        .iter()
+        .enumerate()
+        .map(|(number, keys)| Inclusion::from_keys(keys, number, folder))
+        .collect::<Result<_, _>>()?;
+    let mut key = "layer";
+    for (number, keys) in keys.tables("region")?.iter().enumerate() {
+        let BodyPart {
+            name,
+            place,
+            tissue,
+            key: shape,
+        } = BodyPart::from_keys(keys, number, folder)?;
+        match place {
+            PartPlace::Layer(thickness_m) => {
+                key = "region";
+                layers.push(Layer {
+                    name,
+                    thickness_m,
+                    tissue,
+                    perforation_force_n: None,
+                    toughness_j_per_m2: None,
+                });
+            }
+            PartPlace::Inclusion(place) => inclusions.push(Inclusion {
+                name,
+                place,
+                tissue,
+            }),
+            PartPlace::Label(_) | PartPlace::Group(_) => {
+                return Err(keys.bad(
+                    shape,
+                    "`surface = \"file.stl\"` or another shape, for the mesh of an organ is a surface, which has no numbered \
+                     regions",
+                ));
+            }
+        }
+    }
+    if layers.len() > Event::OPENS_LAYER.len() {
+        return Err(keys.bad(key, "at most 6 layers: a session has an event for each"));
+    }
+    Ok((layers, inclusions))
 }
 
 const STIFFER: Domain =
@@ -253,134 +270,4 @@ impl Layer {
             toughness_j_per_m2: keys.number("toughness_j_per_m2")?,
         })
     }
-}
-
-impl Neighbour {
-    pub(super) const KEYS: &'static [Key] = &[
-        Shape::KEYS[0],
-        Shape::KEYS[1],
-        Shape::KEYS[2],
-        Shape::KEYS[3],
-        Key::vector(
-            "at_m",
-            Domain::POSITION,
-            "Where its origin comes to, after it is scaled and turned about it.",
-        )
-        .default("[0.0, 0.0, 0.0]"),
-        Key::vector(
-            "turn_rad",
-            Domain::TURN,
-            "How it is turned about x, then y, then z of the scene, counter-clockwise.",
-        )
-        .default("[0.0, 0.0, 0.0]"),
-        Key::number(
-            "scale",
-            Domain::FACTOR,
-            "How much larger it is than its shape.",
-        )
-        .default("1.0"),
-        Key::truth(
-            "collides",
-            "Whether it stops the tips of tools and an organ of the nonlinear model.",
-        )
-        .default("false"),
-        Key::path_or_table(
-            "tissue",
-            Tissue::KEYS,
-            "Nonlinear model: what it is made of, a tissue file or a table with a tissue's keys. It then bends, is touched as \
-             the organ is, and stays out of it.",
-        )
-        .optional("\"tissue.toml\"", "it is rigid, unless `builtin_tissue` names one"),
-        Key::word(
-            "builtin_tissue",
-            BuiltinTissue::MEANINGS,
-            "The same, of a tissue that comes with the program.",
-        )
-        .optional("\"pig-liver\"", "it is rigid, unless `tissue` says what it is made of"),
-        Key::table(
-            "anchor",
-            Region::KEYS,
-            "Where it is held, if it bends: its surface in one of these regions of the scene.",
-        )
-        .optional("", "the attachment of a built-in organ"),
-        // As for `model.nodes`.
-        Key::integer(
-            "nodes",
-            200,
-            6_000,
-            "About how many nodes carry its mechanics, if it bends.",
-        )
-        .default("500"),
-        Key::number(
-            "friction",
-            Domain::FRICTION,
-            "Coulomb's coefficient between it and an organ of the nonlinear model, if it collides or bends.",
-        )
-        .default("0.0"),
-        // What a loop at 1 kHz displays without trembling on the devices of `docs/devices.md`.
-        Key::number(
-            "stiffness_n_per_m",
-            Domain::STIFFNESS,
-            "The force on a tip per depth in it, where it collides.",
-        )
-        .default("1000.0"),
-    ];
-
-    pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
-        Ok(Self {
-            shape: Shape::from_keys(keys, folder)?,
-            location: Location {
-                at_m: keys.vector("at_m")?.unwrap_or_default(),
-                turn_rad: keys.vector("turn_rad")?.unwrap_or_default(),
-                scale: keys.number("scale")?.unwrap_or(1.0),
-            },
-            collides: keys.truth("collides")?.unwrap_or(false),
-            friction: keys.number("friction")?.unwrap_or(0.0),
-            stiffness_n_per_m: keys.number("stiffness_n_per_m")?.unwrap_or(RIGID_STIFFNESS),
-            soft: SoftNeighbour::from_keys(keys, folder)?,
-        })
-    }
-}
-
-impl SoftNeighbour {
-    /// None of a neighbour without a tissue.
-    fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Option<Self>, Error> {
-        if tissue_key(keys).is_none() {
-            for key in ["anchor", "nodes"] {
-                keys.refuse(key, "nothing, for a neighbour without `tissue` is rigid")?;
-            }
-            return Ok(None);
-        }
-        if keys.truth("collides")? == Some(true) {
-            return Err(keys.bad(
-                "collides",
-                "nothing, for a neighbour with `tissue` bends, and is touched anyhow",
-            ));
-        }
-        let anchor = keys.table("anchor")?;
-        let anchor = anchor.map(|keys| Region::from_keys(&keys)).transpose()?;
-        let is_held = anchor.as_ref().is_some_and(|region| !region.is_empty());
-        if keys.contains("mesh") && !is_held {
-            return Err(keys.missing(
-                "anchor",
-                "fixed regions, with `planes`, `boxes` or `spheres`, for a neighbour that bends has to be held somewhere",
-            ));
-        }
-        let nodes = keys
-            .integer("nodes")?
-            .map_or(SOFT_NODES, |number| number as usize);
-        let tissue = TissueChoice::from_keys(keys, folder)?;
-        Ok(Some(Self {
-            tissue,
-            anchor,
-            nodes,
-        }))
-    }
-}
-
-/// The key that says what a neighbour is made of.
-pub(super) fn tissue_key(keys: &Keys<'_>) -> Option<&'static str> {
-    ["tissue", "builtin_tissue"]
-        .into_iter()
-        .find(|key| keys.contains(key))
 }

@@ -105,7 +105,8 @@ impl RegionPlane {
         .required("[0.0, 0.0, 1.0]"),
     ];
 
-    fn holds(&self, point: [f64; 3]) -> bool {
+    /// Whether a point [m] lies in it or on its border.
+    pub fn holds(&self, point: [f64; 3]) -> bool {
         (0..3)
             .map(|axis| (point[axis] - self.point_m[axis]) * self.normal[axis])
             .sum::<f64>()
@@ -139,7 +140,8 @@ impl RegionBox {
         .required("[0.1, 0.1, 0.0]"),
     ];
 
-    fn holds(&self, point: [f64; 3]) -> bool {
+    /// Whether a point [m] lies in it or on its border.
+    pub fn holds(&self, point: [f64; 3]) -> bool {
         (0..3).all(|axis| (self.min_m[axis]..=self.max_m[axis]).contains(&point[axis]))
     }
 
@@ -170,7 +172,8 @@ impl RegionSphere {
         Key::number("radius_m", RADIUS, "Its radius.").required("0.02"),
     ];
 
-    fn holds(&self, point: [f64; 3]) -> bool {
+    /// Whether a point [m] lies in it or on its border.
+    pub fn holds(&self, point: [f64; 3]) -> bool {
         let squares = (0..3).map(|axis| (point[axis] - self.center_m[axis]).powi(2));
         squares.sum::<f64>() <= self.radius_m.powi(2)
     }

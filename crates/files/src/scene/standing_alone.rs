@@ -6,7 +6,7 @@ use crate::Error;
 use crate::error::Place;
 
 /// The keys whose texts are paths, wherever they stand in a scene.
-const PATHS: [&str; 4] = ["mesh", "tissue", "expert", "picture"];
+const PATHS: [&str; 5] = ["mesh", "surface", "tissue", "expert", "picture"];
 
 /// The text of a scene that means the same in any folder: the paths in it, which begin at `path`, are
 /// absolute. It is kept beside a session, so that the session can be played again.

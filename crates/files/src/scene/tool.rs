@@ -256,6 +256,13 @@ impl ToolMesh {
     }
 }
 
+const COULOMB: &[Key] = &[Key::number(
+    "coulomb",
+    Domain::FRICTION,
+    "Coulomb's coefficient, beyond which it slides.",
+)
+.required("0.3")];
+
 impl Tip {
     const KEYS: &[Key] = &[
         Key::word("shape", TipShape::MEANINGS, "Its shape.").required("\"flat\""),
@@ -265,23 +272,39 @@ impl Tip {
             "Its radius, not its diameter.",
         )
         .required("0.001"),
-        Key::word(
+        Key::word_or_table(
             "contact",
             TipContact::MEANINGS,
-            "How it holds the tissue that it touches.",
+            COULOMB,
+            "How it holds the tissue that it touches; a table for a tip that sticks and slides: `contact = { coulomb = 0.3 }`.",
         )
         .default("\"stick\""),
         Key::number(
             "friction",
             Domain::FRICTION,
-            "Coulomb's coefficient of a tip that sticks, beyond which it slides.",
+            "Coulomb's coefficient of a tip that sticks, as in the table `contact`.",
         )
         .optional("0.3", "it never slides"),
     ];
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
-        let contact = keys.word("contact", TipContact::WORDS)?;
-        let friction = keys.number("friction")?;
+        let mut friction = keys.number("friction")?;
+        let contact = match keys.is_table("contact") {
+            true => {
+                if friction.is_some() {
+                    return Err(keys.bad(
+                        "friction",
+                        "no `friction` beside `contact = { coulomb }`, which says the same",
+                    ));
+                }
+                let table = keys.table("contact")?;
+                friction = table
+                    .map(|keys| keys.required_number("coulomb"))
+                    .transpose()?;
+                Some(TipContact::Stick)
+            }
+            false => keys.word("contact", TipContact::WORDS)?,
+        };
         if contact == Some(TipContact::Slip) && friction.is_some() {
             return Err(keys.bad(
                 "friction",

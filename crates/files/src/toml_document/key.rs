@@ -33,6 +33,8 @@ pub enum Holds {
     Direction,
     /// A list of numbers [unit of the key].
     Numbers(Domain),
+    /// A list of three numbers each [unit of the key].
+    Vectors(Domain),
     /// A whole number, from the first to the second.
     Integer(u64, u64),
     /// `true` or `false`.
@@ -47,8 +49,12 @@ pub enum Holds {
     Path,
     /// One of these words.
     Word(&'static [Word]),
+    /// One of these words, or a table.
+    WordOrTable(&'static [Word], &'static [Key]),
     /// A table.
     Table(&'static [Key]),
+    /// A table, or a list of tables.
+    TableOrTables(&'static [Key]),
     /// The path of a file, or a table.
     PathOrTable(&'static [Key]),
     /// A number [unit of the key], or the name of a draw of numbers.
@@ -114,6 +120,11 @@ impl Key {
         Self::new(name, Holds::Numbers(domain), meaning)
     }
 
+    /// A list of three numbers each.
+    pub const fn vectors(name: &'static str, domain: Domain, meaning: &'static str) -> Self {
+        Self::new(name, Holds::Vectors(domain), meaning)
+    }
+
     /// A whole number from `least` to `most`.
     pub const fn integer(name: &'static str, least: u64, most: u64, meaning: &'static str) -> Self {
         Self::new(name, Holds::Integer(least, most), meaning)
@@ -147,6 +158,25 @@ impl Key {
     /// One of `words`.
     pub const fn word(name: &'static str, words: &'static [Word], meaning: &'static str) -> Self {
         Self::new(name, Holds::Word(words), meaning)
+    }
+
+    /// One of `words`, or a table with these keys.
+    pub const fn word_or_table(
+        name: &'static str,
+        words: &'static [Word],
+        keys: &'static [Self],
+        meaning: &'static str,
+    ) -> Self {
+        Self::new(name, Holds::WordOrTable(words, keys), meaning)
+    }
+
+    /// A table with these keys, or a list of such tables.
+    pub const fn table_or_tables(
+        name: &'static str,
+        keys: &'static [Self],
+        meaning: &'static str,
+    ) -> Self {
+        Self::new(name, Holds::TableOrTables(keys), meaning)
     }
 
     /// A table with these keys.
@@ -243,6 +273,7 @@ impl Key {
             | Holds::Estimate(domain)
             | Holds::Vector(domain)
             | Holds::NumberOrDraw(domain)
+            | Holds::Vectors(domain)
             | Holds::Numbers(domain) => domain,
             Holds::Direction => Domain::FINITE,
             _ => unreachable!("`{}` is declared without a domain", self.name),
@@ -253,6 +284,8 @@ impl Key {
     pub fn keys(&self) -> &'static [Self] {
         match self.holds {
             Holds::Table(keys)
+            | Holds::TableOrTables(keys)
+            | Holds::WordOrTable(_, keys)
             | Holds::PathOrTable(keys)
             | Holds::Tables(keys)
             | Holds::Named(keys) => keys,

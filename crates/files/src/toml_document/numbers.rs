@@ -33,15 +33,27 @@ impl Keys<'_> {
     /// # Errors
     /// When the value is anything else or a number is outside its `domain`.
     pub fn vector(&self, key: &'static str) -> Result<Option<[f64; 3]>, Error> {
+        let domain = self.declared(key).domain();
+        self.find(key)?
+            .map(|found| found.vector(domain))
+            .transpose()
+    }
+
+    /// A list of three numbers each [unit of `key`].
+    ///
+    /// # Errors
+    /// When the value is anything else or a number is outside its `domain`.
+    pub fn vectors(&self, key: &'static str) -> Result<Option<Vec<[f64; 3]>>, Error> {
         let Some(found) = self.find(key)? else {
             return Ok(None);
         };
         let domain = self.declared(key).domain();
-        let numbers = found.numbers(domain, "a list of three numbers [x, y, z]")?;
-        match <[f64; 3]>::try_from(numbers) {
-            Ok(vector) => Ok(Some(vector)),
-            Err(_) => Err(found.bad("a list of three numbers [x, y, z]")),
-        }
+        let Value::List(values) = found.value else {
+            return Err(found.bad("a list of points, each three numbers [x, y, z]"));
+        };
+        let each = values.iter().enumerate();
+        let each = each.map(|(number, value)| found.item(number, value).vector(domain));
+        each.collect::<Result<_, _>>().map(Some)
     }
 
     /// Three numbers that must be there [unit of `key`].
@@ -149,20 +161,28 @@ impl Found<'_> {
         let Value::List(values) = self.value else {
             return Err(self.bad(expected));
         };
-        values
-            .iter()
-            .enumerate()
-            .map(|(number, value)| {
-                Found {
-                    place: Place::clone(&self.place),
-                    key: format!("{}[{number}]", self.key),
-                    value,
-                    unit: self.unit,
-                    warnings: self.warnings,
-                }
-                .number(domain)
-            })
+        let each = values.iter().enumerate();
+        each.map(|(number, value)| self.item(number, value).number(domain))
             .collect()
+    }
+
+    fn vector(&self, domain: Domain) -> Result<[f64; 3], Error> {
+        const EXPECTED: &str = "a list of three numbers [x, y, z]";
+        let numbers = self.numbers(domain, EXPECTED)?;
+        <[f64; 3]>::try_from(numbers).map_err(|_| self.bad(EXPECTED))
+    }
+}
+
+impl<'d> Found<'d> {
+    /// An item of a list, from 0.
+    fn item(&self, number: usize, value: &'d Value) -> Self {
+        Self {
+            place: Place::clone(&self.place),
+            key: format!("{}[{number}]", self.key),
+            value,
+            unit: self.unit,
+            warnings: self.warnings,
+        }
     }
 }
 

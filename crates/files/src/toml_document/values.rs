@@ -79,7 +79,12 @@ impl<'d> Keys<'d> {
             "`{key}` is declared with other words than are read"
         );
         let names: Vec<_> = words.iter().map(|(word, _)| format!("{word:?}")).collect();
-        self.read(key, either(&names), |value| match value {
+        let mut expected = either(&names);
+        if let Holds::WordOrTable(_, keys) = self.declared(key).holds {
+            let keys: Vec<_> = keys.iter().map(|key| key.name).collect();
+            expected += &format!(", or a table {{ {} }}", keys.join(", "));
+        }
+        self.read(key, expected, |value| match value {
             Value::Text(text) => words.iter().find(|(word, _)| word == text).map(|(_, t)| *t),
             _ => None,
         })
@@ -109,6 +114,17 @@ impl<'d> Keys<'d> {
             self.entry(key),
             Some(Entry {
                 value: Value::Text(_),
+                ..
+            })
+        )
+    }
+
+    /// Whether the value of a key is a table.
+    pub(crate) fn is_table(&self, key: &'static str) -> bool {
+        matches!(
+            self.entry(key),
+            Some(Entry {
+                value: Value::Table(_),
                 ..
             })
         )
@@ -176,6 +192,11 @@ impl<'d> Keys<'d> {
         let Some(found) = self.find(key)? else {
             return Ok(Vec::new());
         };
+        // What may be one table or several is a list of one here.
+        if let (Holds::TableOrTables(_), Value::Table(_)) = (self.declared(key).holds, found.value)
+        {
+            return Ok(self.table_of(key, known)?.into_iter().collect());
+        }
         let Value::List(values) = found.value else {
             return Err(found.bad("a list of tables"));
         };
@@ -203,7 +224,9 @@ impl<'d> Keys<'d> {
     fn lists<T>(&self, key: &str, words: &[(&'static str, T)]) -> bool {
         let own = words.iter().map(|(word, _)| *word);
         match self.declared(key).holds {
-            Holds::Word(declared) => declared.iter().map(|(word, _)| *word).eq(own),
+            Holds::Word(declared) | Holds::WordOrTable(declared, _) => {
+                declared.iter().map(|(word, _)| *word).eq(own)
+            }
             _ => false,
         }
     }

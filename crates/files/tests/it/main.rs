@@ -8,6 +8,7 @@
 
 mod builtin;
 mod card;
+mod contract_scene;
 mod draw;
 mod errors;
 mod fibre_directions;

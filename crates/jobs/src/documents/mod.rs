@@ -73,6 +73,7 @@ fn holds(key: &Key) -> String {
         Holds::NumberOrDraw(domain) => format!("{}, or the name of a draw", domain.expected()),
         Holds::Vector(domain) => list(domain, "three numbers [x, y, z]"),
         Holds::Numbers(domain) => list(domain, "a list of numbers"),
+        Holds::Vectors(domain) => list(domain, "a list of points [x, y, z]"),
         Holds::Direction => "a direction: three numbers, not all 0".to_owned(),
         Holds::Integer(0, u64::MAX) => "a whole number".to_owned(),
         Holds::Integer(least, most) => format!("a whole number from {least} to {most}"),
@@ -82,7 +83,9 @@ fn holds(key: &Key) -> String {
         Holds::Texts => "a list of texts".to_owned(),
         Holds::Path => "a path, from the document's folder".to_owned(),
         Holds::Word(_) => "one of the words".to_owned(),
+        Holds::WordOrTable(..) => "one of the words, or a table".to_owned(),
         Holds::Table(_) => "a table".to_owned(),
+        Holds::TableOrTables(_) => "a table, or a list of tables".to_owned(),
         Holds::PathOrTable(_) => "a path, from the document's folder, or a table".to_owned(),
         Holds::Tables(_) => "a list of tables".to_owned(),
         Holds::Named(_) => "tables under names of your choice".to_owned(),
@@ -109,6 +112,6 @@ fn meaning(key: &Key) -> String {
 fn is_table(key: &Key) -> bool {
     matches!(
         key.holds,
-        Holds::Table(_) | Holds::Tables(_) | Holds::Named(_)
+        Holds::Table(_) | Holds::TableOrTables(_) | Holds::Tables(_) | Holds::Named(_)
     )
 }

@@ -70,10 +70,11 @@ fn table(
 
 fn words_or(key: &Key) -> String {
     match key.holds {
-        Holds::Word(words) => {
+        Holds::Word(words) | Holds::WordOrTable(words, _) => {
             let each = words.iter();
             let each = each.map(|(word, means)| format!("`{word:?}`: {}", means.trim()));
-            cell(&each.collect::<Vec<_>>().join("<br>"))
+            let table = matches!(key.holds, Holds::WordOrTable(..)).then(|| "a table".to_owned());
+            cell(&each.chain(table).collect::<Vec<_>>().join("<br>"))
         }
         _ => cell(&holds(key)),
     }

@@ -1,7 +1,7 @@
 use std::ops::Bound::{Excluded, Included, Unbounded};
 
 use palpate_files::units::{self, Unit};
-use palpate_files::{Domain, Holds, Key, Omitted};
+use palpate_files::{Domain, Holds, Key, Omitted, Word};
 use serde_json::{Map, Value, json};
 
 use super::{Kind, is_table, meaning, omitted};
@@ -125,6 +125,7 @@ impl Writer {
             Holds::NumberOrDraw(domain) => json!({ "anyOf": [number(domain, factor), text()] }),
             Holds::Vector(domain) => vector(number(domain, factor)),
             Holds::Numbers(domain) => list(number(domain, factor)),
+            Holds::Vectors(domain) => list(vector(number(domain, factor))),
             Holds::Direction => vector(json!({ "type": "number" })),
             Holds::Integer(least, u64::MAX) => json!({ "type": "integer", "minimum": least }),
             Holds::Integer(least, most) => {
@@ -134,12 +135,15 @@ impl Writer {
             Holds::Text | Holds::Path => text(),
             Holds::Label => json!({ "type": ["string", "integer"] }),
             Holds::Texts => list(json!({ "type": "string" })),
-            Holds::Word(words) => {
-                let names: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
-                let docs: Vec<&str> = words.iter().map(|(_, means)| means.trim()).collect();
-                json!({ "enum": names, "x-taplo": { "docs": { "enumValues": docs } } })
+            Holds::Word(words) => one_of(words),
+            Holds::WordOrTable(words, keys) => {
+                json!({ "anyOf": [one_of(words), self.reference(keys)] })
             }
             Holds::Table(keys) => self.reference(keys),
+            Holds::TableOrTables(keys) => {
+                let table = self.reference(keys);
+                json!({ "anyOf": [table, { "type": "array", "items": table, "minItems": 1 }] })
+            }
             Holds::PathOrTable(keys) => json!({ "anyOf": [text(), self.reference(keys)] }),
             Holds::Tables(keys) => list(self.reference(keys)),
             Holds::Named([]) => json!({ "type": "object" }),
@@ -164,6 +168,12 @@ impl Writer {
     }
 }
 
+fn one_of(words: &[Word]) -> Value {
+    let names: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+    let docs: Vec<&str> = words.iter().map(|(_, means)| means.trim()).collect();
+    json!({ "enum": names, "x-taplo": { "docs": { "enumValues": docs } } })
+}
+
 /// The names of a key, one for each unit, and what one of that unit is in the key's own [unit of the key].
 fn names_of(key: &Key) -> Vec<(String, f64)> {
     let has_unit = matches!(
@@ -171,6 +181,7 @@ fn names_of(key: &Key) -> Vec<(String, f64)> {
         Holds::Number(_)
             | Holds::Estimate(_)
             | Holds::Vector(_)
+            | Holds::Vectors(_)
             | Holds::Numbers(_)
             | Holds::NumberOrDraw(_)
     );

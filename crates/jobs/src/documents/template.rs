@@ -64,7 +64,7 @@ impl Writer {
         self.text += "\n";
         self.prose(&meaning(key));
         self.prose(&format!("{}; {}.", first_upper(&holds(key)), omitted(key)));
-        if let Holds::Word(words) = key.holds {
+        if let Holds::Word(words) | Holds::WordOrTable(words, _) = key.holds {
             for (word, means) in words {
                 self.prose(&format!("- {word:?}: {}", means.trim()));
             }
@@ -170,20 +170,32 @@ mod tests {
                         all.iter()
                             .all(|one| number(one).is_some_and(|one| domain.contains(one)))
                     }),
+                    Holds::Vectors(domain) => value.as_array().is_some_and(|all| {
+                        let each = all.iter().filter_map(|one| one.as_array());
+                        let good = each.filter(|one| {
+                            let numbers = one.iter().filter_map(number);
+                            numbers.filter(|one| domain.contains(*one)).count() == 3
+                                && one.len() == 3
+                        });
+                        good.count() == all.len()
+                    }),
                     Holds::Direction => value.as_array().is_some_and(|all| all.len() == 3),
                     Holds::Integer(least, most) => value
                         .as_integer()
                         .and_then(|value| u64::try_from(value).ok())
                         .is_some_and(|value| (least..=most).contains(&value)),
                     Holds::Truth => value.as_bool().is_some(),
-                    Holds::Word(words) => {
+                    Holds::Word(words) | Holds::WordOrTable(words, _) => {
                         words.iter().any(|(word, _)| value.as_str() == Some(word))
                     }
                     Holds::Text | Holds::Label | Holds::Path | Holds::PathOrTable(_) => {
                         value.as_str().is_some_and(|text| !text.is_empty())
                     }
                     Holds::Texts | Holds::Other(_) => value.as_array().is_some(),
-                    Holds::Table(_) | Holds::Tables(_) | Holds::Named(_) => false,
+                    Holds::Table(_)
+                    | Holds::TableOrTables(_)
+                    | Holds::Tables(_)
+                    | Holds::Named(_) => false,
                 };
                 assert!(is_right, "{} = {}", key.name, key.example);
             }

@@ -9,7 +9,7 @@ mod telling;
 pub use answer::Answer;
 pub use problem::Problem;
 pub use solution::{
-    Figures, FrictionFigures, PatchFigures, PointFigures, Profile, SolidFigures, Solution,
-    TubeFigures, Wanted, solve,
+    Displacements, Figures, FrictionFigures, PatchFigures, PointFigures, Profile, SolidFigures,
+    Solution, TubeFigures, Wanted, solve,
 };
 pub use table::in_words;

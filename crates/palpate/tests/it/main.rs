@@ -8,6 +8,7 @@
 
 mod arrows;
 mod closed_loop;
+mod contract_solve;
 mod crash;
 mod design;
 mod devices;

@@ -17,7 +17,8 @@
 //!
 //! Layers and inclusions are tissues of their own elements (`regions`).
 //!
-//! Neighbours that collide keep the organ out (`neighbours`); those that bend are pieces of the body (`soft`).
+//! Neighbours that collide keep the organ out (`neighbours`); those that bend, and further organs, are pieces of the body
+//! (`soft`).
 //!
 //! Shafts push what bends, without friction (`shafts`).
 //!
@@ -87,7 +88,6 @@ const REACH_IN_RADII: f64 = 1.7;
 #[derive(Debug, Clone)]
 pub(crate) struct NonlinearOrgan {
     pub(crate) model: NonlinearModel,
-    regions: Regions,
     /// The organ, then the neighbours that bend.
     pieces: Vec<Piece>,
     shown: CarriedPoints,
@@ -163,15 +163,22 @@ impl NonlinearOrgan {
         let organ = tetrahedra(surface, scene.model.nodes.unwrap_or(NODES), &regions)?;
         let mut series = regions.series();
         let own = regions.of_elements(&organ);
-        let filled = soft.iter().map(|body| plain(&body.surface, body.nodes));
-        let merged = Merged::new(organ, filled.collect::<Result<_, _>>()?)?;
+        let filled = soft
+            .iter()
+            .map(|body| tetrahedra(&body.surface, body.nodes, &body.regions));
+        let filled = filled.collect::<Result<Vec<_>, _>>()?;
+        let mut elements = own;
+        for (body, mesh) in soft.iter().zip(&filled) {
+            elements.extend(body.regions.of_elements(mesh), series.len());
+            series.extend(body.regions.series());
+        }
+        let merged = Merged::new(organ, filled)?;
         let Elements {
             moduli,
             numbers,
             densities,
             mut warnings,
-        } = merged.elements(own, series.len(), soft);
-        series.extend(soft.iter().map(|body| body.tissue.material.prony.clone()));
+        } = elements;
         warnings.extend(regions.warnings.iter().cloned());
         let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
         let is_held = |tetrahedron: usize, place: &Vec3| {
@@ -205,11 +212,9 @@ impl NonlinearOrgan {
             (mesh, tree)
         });
         let (low, high) = shown.mesh().bounds();
-        let ratios = soft
-            .iter()
-            .map(|body| body.tissue.at_rest().poissons_ratio());
+        let ratios = soft.iter().map(|body| body.regions.largest_ratio());
         let ratio = ratios.fold(regions.largest_ratio(), f64::max);
-        let pieces = Piece::all((surface, regions.at_rest()), soft, tools);
+        let pieces = Piece::all((surface, regions), soft, tools);
         let organ = Self {
             shaft_skin: ShaftSkin::new(&model, (shown, tree), &pieces),
             size: (high - low).norm(),
@@ -222,7 +227,6 @@ impl NonlinearOrgan {
             },
             pieces,
             touching: touching(scene, &model, (&merged, soft))?,
-            regions,
             model,
         };
         Ok((organ, warnings))
@@ -311,13 +315,6 @@ fn has_topology_of(surface: &Surface, filling: &TetrahedronMesh) -> bool {
     filling
         .boundary_surface()
         .is_ok_and(|boundary| euler(&boundary) == euler(surface))
-}
-
-/// About so many nodes in the body of one tissue within `surface`.
-fn plain(surface: &Surface, nodes: usize) -> Result<TetrahedronMesh, Error> {
-    let filling = filled(surface, TETRAHEDRA_PER_NODE * nodes);
-    let mesh = filling.and_then(|fine| coarsen(&fine, nodes, surface.mesh().volume(), |_| 1.0));
-    mesh.map_err(|error| palpate_mechanics::Error::from(error).into())
 }
 
 /// About so many nodes in the body within `surface`: a filling that has all of its walls, made coarser, finer at inclusions.

@@ -6,10 +6,10 @@
 //! A tip is smaller than an element. What it meets, and what its load leaves out of the elements, are those of a layered
 //! half-space (`palpate_mechanics::layered`).
 
-use palpate_files::scene::TissueChoice;
+use palpate_files::Tissue;
+use palpate_files::scene::{Inclusion, Layer, TissueChoice};
 use palpate_files::tissue::LawName;
-use palpate_files::{Scene, Tissue};
-use palpate_geometry::{TetrahedronMesh, Vec3};
+use palpate_geometry::{Surface, TetrahedronMesh, Vec3};
 use palpate_mechanics::layered::{LayeredHalfSpace, LoadShape};
 use palpate_mechanics::nonlinear::Moduli;
 use palpate_mechanics::regions::RegionMap;
@@ -72,27 +72,26 @@ pub(super) struct Elements {
 }
 
 impl Regions {
-    /// Those of `scene`, whose organ is mostly of one tissue.
+    /// The `layers` and `inclusions` of a body where `map` says, which is otherwise of one tissue.
     pub(crate) fn new(
-        scene: &Scene,
+        layers: &[Layer],
+        inclusions: &[Inclusion],
         map: RegionMap,
         (tissue, material): (&Tissue, &Material),
     ) -> Result<Self, Error> {
-        let organ = &scene.organ;
         let mut warnings = Vec::new();
         let own = (tissue.clone(), material.clone());
         let mut tissues = vec![RegionTissue::new(own, &mut warnings)?];
-        for layer in &organ.layers {
+        for layer in layers {
             tissues.push(RegionTissue::read(&layer.tissue, &mut warnings)?);
         }
-        for inclusion in &organ.inclusions {
+        for inclusion in inclusions {
             tissues.push(RegionTissue::read(&inclusion.tissue, &mut warnings)?);
         }
         warnings.sort();
         warnings.dedup();
         let layered = LayeredHalfSpace {
-            layers: organ
-                .layers
+            layers: layers
                 .iter()
                 .zip(&tissues[1..])
                 .map(|(layer, region)| (layer.thickness_m, region.law))
@@ -100,22 +99,32 @@ impl Regions {
             base: tissues[0].law,
         };
         let yields = |shape| -> Vec<[f64; 2]> {
-            let radii = (0..RADII).filter(|_| !organ.layers.is_empty());
+            let radii = (0..RADII).filter(|_| !layers.is_empty());
             radii
                 .map(|n| layered.yields(shape, LEAST_RADIUS * FACTOR.powi(n as i32)))
                 .collect()
         };
-        let layers = organ.layers.iter().map(|layer| &layer.name);
-        let inclusions = organ.inclusions.iter().map(|inclusion| &inclusion.name);
+        let names = layers.iter().map(|layer| &layer.name);
+        let names = names.chain(inclusions.iter().map(|inclusion| &inclusion.name));
         Ok(Self {
-            layers: organ.layers.len(),
-            names: layers.chain(inclusions).cloned().collect(),
+            layers: layers.len(),
+            names: names.cloned().collect(),
             map,
             punch: yields(LoadShape::Punch),
             load: yields(LoadShape::Bump),
             tissues,
             warnings,
         })
+    }
+
+    /// The tissues: of the organ, of the layers from outside, of the inclusions.
+    pub(crate) fn all(&self) -> impl Iterator<Item = &Tissue> {
+        self.tissues.iter().map(|region| &region.tissue)
+    }
+
+    /// The closed surfaces of inclusions.
+    pub(crate) fn enclosed(&self) -> impl Iterator<Item = &Surface> {
+        self.map.enclosed()
     }
 
     /// Layers and inclusions: with what tissue, beside that of the organ.
@@ -233,17 +242,7 @@ impl Regions {
 }
 
 impl RegionTissue {
-    /// As the elements take it.
-    pub(super) fn moduli(&self) -> &Moduli<f64> {
-        &self.moduli
-    }
-
-    /// At rest, as the elements take it.
-    pub(super) fn at_rest(&self) -> &LinearElastic {
-        &self.law
-    }
-
-    pub(super) fn read(choice: &TissueChoice, warnings: &mut Vec<String>) -> Result<Self, Error> {
+    fn read(choice: &TissueChoice, warnings: &mut Vec<String>) -> Result<Self, Error> {
         let (tissue, material) = read_tissue(choice)?;
         warnings.extend(material.warnings.iter().cloned());
         Self::new((tissue, material), warnings)

@@ -1,4 +1,4 @@
-//! Neighbours that bend: further pieces of the body, each of its own tissue and held where it stands.
+//! Further organs and neighbours that bend: further pieces of the body, each of its own tissues and held where it stands.
 //!
 //! Pieces stay out of one another, and an organ with `self_contact` out of itself (`TouchingBoundary`); tools touch all of
 //! them.
@@ -9,23 +9,24 @@ use std::ops::Range;
 
 use palpate_files::Scene;
 use palpate_files::scene::{Location, Region, SoftNeighbour};
-use palpate_geometry::{NodeId, Surface, TetrahedronMesh, Vec3};
+use palpate_geometry::{AabbTree, NodeId, Surface, TetrahedronMesh, Vec3};
 use palpate_mechanics::contact::{Friction, Tip};
-use palpate_mechanics::nonlinear::{Moduli, NonlinearModel, TouchingBoundary};
+use palpate_mechanics::nonlinear::{NonlinearModel, TouchingBoundary};
 use palpate_mechanics::{LinearElastic, TipLaw};
 
-use super::regions::{Elements, RegionTissue};
+use super::regions::{Elements, Regions};
 use crate::Error;
-use crate::organ::{back, held_region, read_neighbour};
+use crate::organ::{back, held_region, read_neighbour, read_tissue};
+use crate::region_places::read_regions;
 use crate::tip_laws::stiffen;
-use crate::tool::Tool;
+use crate::tool::{Tool, typical_radius};
 use crate::walls::typical_wall;
 
 /// A neighbour that bends.
 #[derive(Debug, Clone)]
 pub(crate) struct SoftBody {
     pub(crate) surface: Surface,
-    pub(crate) tissue: RegionTissue,
+    pub(crate) regions: Regions,
     /// Where it is held; in its own frame if it has one.
     anchor: Region,
     location: Option<Location>,
@@ -42,6 +43,8 @@ impl SoftBody {
         for (number, neighbour) in scene.neighbours.iter().enumerate() {
             let Some(SoftNeighbour {
                 tissue,
+                layers,
+                inclusions,
                 anchor,
                 nodes,
             }) = &neighbour.soft
@@ -50,9 +53,16 @@ impl SoftBody {
             };
             let (surface, more) = read_neighbour(neighbour)?;
             warnings.extend(more);
+            let tree = AabbTree::new(surface.mesh());
+            let (map, more) = read_regions(layers, inclusions, &surface, &tree)?;
+            warnings.extend(more);
+            let (tissue, material) = read_tissue(tissue)?;
+            warnings.extend(material.warnings.iter().cloned());
+            let regions = Regions::new(layers, inclusions, map, (&tissue, &material))?;
+            warnings.extend(regions.warnings.iter().cloned());
             let body = Self {
                 surface,
-                tissue: RegionTissue::read(tissue, &mut warnings)?,
+                regions,
                 anchor: held_region(&neighbour.shape, anchor.as_ref()),
                 location: anchor.is_none().then_some(neighbour.location),
                 nodes: *nodes,
@@ -68,20 +78,20 @@ impl SoftBody {
         Ok((all, warnings))
     }
 
-    /// Finds the force of its tissue on the tips of `tools`, and warnings.
+    /// Finds the force of its tissue on the tips of the `tools` of `scene`, and warnings.
     pub(crate) fn meet(
         &mut self,
+        scene: &Scene,
         tools: &[Tool],
         watch: &mut dyn FnMut(f64),
     ) -> Result<Vec<String>, Error> {
-        let RegionTissue {
-            tissue, material, ..
-        } = &self.tissue;
+        let touched = scene.tools.iter();
+        let touched = touched.map(|tool| self.regions.touched(typical_radius(&tool.tip)));
+        let touched = touched.collect::<Result<Vec<_>, _>>()?;
         let mut own = tools.to_vec();
-        for tool in &mut own {
+        for (tool, (_, material)) in own.iter_mut().zip(&touched) {
             tool.law = TipLaw::linear(tool.tip, tool.bond, material.at_rest);
         }
-        let touched = vec![(tissue.clone(), material.clone()); tools.len()];
         let warnings = stiffen(&mut own, &touched, watch)?;
         self.laws = own.into_iter().map(|tool| tool.law).collect();
         Ok(warnings)
@@ -102,8 +112,8 @@ impl SoftBody {
 pub(super) struct Piece {
     /// Its part of the shown triangles.
     triangles: Range<u32>,
-    /// Its tissue at the surface at rest.
-    pub(super) law: LinearElastic,
+    /// Its tissues.
+    pub(super) regions: Regions,
     /// The force of its tissue on the tip of each tool; those of the tools themselves for the organ.
     laws: Vec<TipLaw>,
     /// Of each tool, whether it bends around its tip, rather than that makes a dimple in it.
@@ -112,18 +122,18 @@ pub(super) struct Piece {
 
 impl Piece {
     pub(super) fn all(
-        organ: (&Surface, &LinearElastic),
+        (surface, regions): (&Surface, Regions),
         soft: &[SoftBody],
         tools: &[Tool],
     ) -> Vec<Self> {
         let mut first = 0;
-        let mut piece = |surface: &Surface, law: &LinearElastic, laws: &[TipLaw]| {
+        let mut piece = |surface: &Surface, regions: Regions, laws: &[TipLaw]| {
             let end = first + surface.mesh().triangles().len() as u32;
             let triangles = first..end;
             first = end;
             Self {
                 triangles,
-                law: *law,
+                regions,
                 laws: laws.to_vec(),
                 bends_around: {
                     let wall = typical_wall(surface);
@@ -131,12 +141,17 @@ impl Piece {
                 },
             }
         };
-        let mut all = vec![piece(organ.0, organ.1, &[])];
+        let mut all = vec![piece(surface, regions, &[])];
         all.extend(
             soft.iter()
-                .map(|body| piece(&body.surface, body.tissue.at_rest(), &body.laws)),
+                .map(|body| piece(&body.surface, body.regions.clone(), &body.laws)),
         );
         all
+    }
+
+    /// Its tissue at the surface, at rest.
+    pub(super) fn law(&self) -> &LinearElastic {
+        self.regions.at_rest()
     }
 
     /// Which of the `pieces` has a shown triangle.
@@ -196,20 +211,16 @@ impl Merged {
             ranges,
         })
     }
+}
 
-    /// The tissues of all of them: the organ's `elements`, and those of the neighbours, whose relaxation comes after so many
-    /// of the organ.
-    pub(super) fn elements(&self, organ: Elements, series: usize, soft: &[SoftBody]) -> Elements {
-        let mut all = organ;
-        for (number, (body, range)) in soft.iter().zip(&self.ranges[1..]).enumerate() {
-            let moduli: Moduli<f64> = *body.tissue.moduli();
-            let end = range.end;
-            all.moduli.resize(end, moduli);
-            all.numbers.resize(end, series + number);
-            all.densities
-                .resize(end, body.tissue.tissue.density_kg_m3.value);
-        }
-        all
+impl Elements {
+    /// Adds those of a further piece, whose tissues relax as the series after so many do.
+    pub(super) fn extend(&mut self, other: Self, series: usize) {
+        self.moduli.extend(other.moduli);
+        self.densities.extend(other.densities);
+        self.warnings.extend(other.warnings);
+        let numbers = other.numbers.into_iter();
+        self.numbers.extend(numbers.map(|number| series + number));
     }
 }
 

@@ -50,12 +50,9 @@ impl Now {
     pub(super) fn of(organ: &NonlinearOrgan, body: &Body, number: usize) -> Self {
         let load = &body.loads[number];
         let state = &body.state;
-        let piece = body.on[number];
-        let yields = match piece {
-            0 => organ.regions.yields_to_load(load.radius),
-            _ => [1.0; 2],
-        };
-        let own = load.own_compliance(&organ.pieces[piece].law);
+        let piece = &organ.pieces[body.on[number]];
+        let yields = piece.regions.yields_to_load(load.radius);
+        let own = load.own_compliance(piece.law());
         let own = [0, 1].map(|axis| own[axis] * yields[axis]);
         Self {
             mean: state.mean_displacement(&load.nodes),

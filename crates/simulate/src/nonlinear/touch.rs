@@ -196,7 +196,7 @@ impl NonlinearOrgan {
     /// Whether a tool bears on the organ with more than any tissue withstands: the step had no answer.
     fn is_unsound(&self, body: &Body) -> bool {
         body.loads.iter().enumerate().any(|(number, load)| {
-            let law = &self.pieces[body.on[number]].law;
+            let law = self.pieces[body.on[number]].law();
             let most = MOST_PRESSURE * law.youngs_modulus() * PI * load.radius.powi(2);
             body.is_loaded[number] && body.state.force(number).norm() > most
         })
@@ -347,7 +347,7 @@ impl NonlinearOrgan {
             true => own.pushed.force.norm(),
             false => body.histories[number].elastic().norm(),
         };
-        let reach = Self::reach(tool, &piece.law, force);
+        let reach = Self::reach(tool, piece.law(), force);
         let load = &mut body.loads[number];
         let boundary = self.model.boundary();
         boundary.spread(&place.point, &contact.rest_normal(), reach, load);
@@ -459,11 +459,9 @@ impl NonlinearOrgan {
         (frame, now): (&Matrix3<f64>, &Now),
     ) -> Option<Matrix3<f64>> {
         let radius = super::jaws_radius(tool)?;
-        let [along, normal] = match piece {
-            0 => self.regions.yields_to_tip(radius),
-            _ => [1.0; 2],
-        };
-        let law = &self.pieces[piece].law;
+        let piece = &self.pieces[piece];
+        let [along, normal] = piece.regions.yields_to_tip(radius);
+        let law = piece.law();
         let along = along / half_space_tangential_stiffness(law, radius);
         let normal = normal / half_space_stiffness(law, radius, Friction::Bonded);
         let own = Matrix3::from_diagonal(&Vec3::new(along, along, normal)) - self.of_load(now);

@@ -148,6 +148,18 @@ fn a_pulled_tube_pushes_a_neighbour_that_bends() {
     }
 }
 
+/// The force at the end of a press of 2 mm down from `at` [m].
+fn press(text: &str, at: Vec3) -> Vec3 {
+    let simulation = Simulation::new(&Scene::parse(text, "scene.toml").unwrap()).unwrap();
+    let mut hand = Hand::new(&simulation);
+    let mut force = Vec3::zeros();
+    for step in 0..=30 {
+        let depth = 1e-4 * f64::from(step.min(20));
+        force = hand.at(&(at - Vec3::z() * depth));
+    }
+    force
+}
+
 /// Judge: the same body and tissue as the organ of a scene of its own, pressed at the same place: 3 %, for another place
 /// has another filling, as `nonlinear::a_press_does_not_depend_on_the_number_of_nodes`.
 #[test]
@@ -162,16 +174,6 @@ fn a_tip_presses_a_neighbour_as_an_organ() {
         "format = 1\n[organ]\nbuiltin = \"cube\"\nbuiltin_tissue = \"pig-liver\"\n[[neighbour]]\n{body}nodes = 700\n\
          at_m = [0.3, 0.0, 0.0]\n[neighbour.tissue]\n{tissue}[model]\nkind = \"nonlinear\"\nnodes = 300\n{tool}"
     );
-    let press = |text: &str, at: Vec3| {
-        let simulation = Simulation::new(&Scene::parse(text, "scene.toml").unwrap()).unwrap();
-        let mut hand = Hand::new(&simulation);
-        let mut force = Vec3::zeros();
-        for step in 0..=30 {
-            let depth = 1e-4 * f64::from(step.min(20));
-            force = hand.at(&(at - Vec3::z() * depth));
-        }
-        force
-    };
     let expected = press(&alone, Vec3::z() * 0.05);
     let found = press(&beside, Vec3::new(0.3, 0.0, 0.05));
     println!("{expected:?} {found:?}");
@@ -180,6 +182,49 @@ fn a_tip_presses_a_neighbour_as_an_organ() {
         (found - expected).norm() < 0.03 * expected.norm(),
         "{found}"
     );
+}
+
+/// Judge: the same body as the first organ of a scene of its own, with the same layer and ball, to the same 3 %; and without
+/// them the force is another.
+#[test]
+fn a_further_organ_has_its_own_layers_and_inclusions() {
+    let tool =
+        "[[tool]]\ntip = { shape = \"flat\", radius_m = 0.003, contact = { coulomb = 0.5 } }\n";
+    let tissue = |modulus: f64| {
+        format!(
+            "tissue = {{ law = \"linear\", youngs_modulus_pa = {modulus:?}, poissons_ratio = 0.4 }}\n"
+        )
+    };
+    let soft = tissue(8000.0);
+    let regions = |x: f64| {
+        format!(
+            "[[organ.region]]\nname = \"skin\"\nlayer = {{ thickness_m = 0.004 }}\n{}\
+             [[organ.region]]\nname = \"lump\"\nball = {{ center_m = [{x:?}, 0.0, 0.03], radius_m = 0.01 }}\n{}",
+            tissue(20_000.0),
+            tissue(80_000.0)
+        )
+    };
+    let alone = format!(
+        "format = 1\n[[organ]]\nbuiltin = \"hemisphere\"\n{soft}{}[model]\nkind = \"nonlinear\"\nnodes = 700\n{tool}",
+        regions(0.0)
+    );
+    let beside = |regions: &str| {
+        format!(
+            "format = 1\n[[organ]]\nbuiltin = \"cube\"\nbuiltin_tissue = \"pig-liver\"\n\
+             [[organ]]\nbuiltin = \"hemisphere\"\n{soft}nodes = 700\nat_m = [0.3, 0.0, 0.0]\n{regions}\
+             [model]\nkind = \"nonlinear\"\nnodes = 300\n{tool}"
+        )
+    };
+    let expected = press(&alone, Vec3::z() * 0.05);
+    let at = Vec3::new(0.3, 0.0, 0.05);
+    let found = press(&beside(&regions(0.3)), at);
+    let plain = press(&beside(""), at);
+    println!("{expected:?} {found:?} {plain:?}");
+    assert!(
+        (found - expected).norm() < 0.03 * expected.norm(),
+        "{found}"
+    );
+    assert!(plain.z < 0.7 * found.z, "{plain}");
 }
 
 /// Judge: the sentences. A neighbour that bends needs the nonlinear model, and has to be held.

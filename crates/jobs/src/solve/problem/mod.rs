@@ -22,7 +22,7 @@ use palpate_mechanics::contact::Friction;
 
 pub(crate) use hemisphere::Hemisphere;
 pub(crate) use indentation::{Indentation, Loading, Ramp};
-pub(crate) use regions::{PartPlace, SolidPart};
+pub(crate) use regions::SolidPart;
 pub(crate) use solid::{Patch, Point, Solid};
 pub(crate) use tube::{Tube, TubeIndent};
 pub(crate) use uniaxial::Uniaxial;

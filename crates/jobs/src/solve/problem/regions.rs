@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use palpate_files::scene::{Inclusion, InclusionPlace, Layer, TissueChoice};
+use palpate_files::scene::{BodyPart, Inclusion, Layer, PartPlace, TissueChoice};
 use palpate_files::tissue::LawName;
 use palpate_files::{Error, Key, Keys, Place, Tissue};
 use palpate_mechanics::Material;
@@ -21,38 +21,23 @@ pub(crate) struct SolidPart {
     pub(crate) key: String,
 }
 
-/// Where a part of a solid is.
-#[derive(Debug, Clone)]
-pub(crate) enum PartPlace {
-    /// The next layer from outside, of this thickness [m].
-    Layer(f64),
-    Inclusion(InclusionPlace),
-    /// Cells of a volume mesh, by the number or the name of their region in its file.
-    Number(i64),
-    Group(String),
-}
-
 /// The tables of a problem that name parts.
 pub(super) const KEYS: [Key; 3] = [
     Key::tables(
-        "layer",
-        LAYER,
-        "Layers from the outer surface inwards, above `tissue`. Tetrahedra do not cross their borders.",
+        "region",
+        BodyPart::OF_VOLUME,
+        "Parts with a tissue of their own: layers, shapes inside such as a tumour or a vessel, and regions of a volume mesh. \
+         Shapes are above layers, and these above regions of the mesh. What is in none of them is of `tissue`. Tetrahedra do \
+         not cross their borders.",
     )
     .optional("", "it is of one tissue"),
     Key::tables(
-        "inclusion",
-        Inclusion::KEYS,
-        "Parts of another tissue inside, such as a tumour or a vessel. Tetrahedra do not cross their borders.",
+        "layer",
+        LAYER,
+        "Layers from the outer surface inwards, outside of those of `region`.",
     )
     .optional("", "none"),
-    Key::tables(
-        "region",
-        REGION,
-        "Regions of a volume mesh: physical groups of a Gmsh file, or whole numbers in the cell data of a VTK file. What is \
-         in none of them is of `tissue`.",
-    )
-    .optional("", "none"),
+    Key::tables("inclusion", Inclusion::KEYS, "Shapes inside, as in `region`.").optional("", "none"),
 ];
 
 const LAYER: &[Key] = &[
@@ -60,21 +45,6 @@ const LAYER: &[Key] = &[
     Layer::KEYS[1],
     Layer::KEYS[2],
     Layer::KEYS[3],
-];
-
-const REGION: &[Key] = &[
-    Key::text("name", "What people call it.").optional("\"tumour\"", "that of the file"),
-    Key::integer(
-        "number",
-        0,
-        1_000_000_000,
-        "The number of the region in the file.",
-    )
-    .optional("2", "`group` names it"),
-    Key::text("group", "The name of the physical group in a Gmsh file.")
-        .optional("\"tumour\"", "`number` says which"),
-    TissueChoice::KEYS[0],
-    TissueChoice::KEYS[1],
 ];
 
 /// The parts of a problem, layers first, whose body is of `law`.
@@ -100,24 +70,16 @@ pub(super) fn from_keys(
         let key = key.unwrap_or("name");
         parts.push(part((keys, key), inclusion.name, place, (tissue, law))?);
     }
-    for keys in &keys.tables("region")? {
-        let (key, place) = match (keys.integer("number")?, keys.text("group")?) {
-            (Some(_), Some(_)) => return Err(keys.given_twice("number", "group").into()),
-            (Some(number), None) => ("number", PartPlace::Number(number as i64)),
-            (None, Some(group)) => ("group", PartPlace::Group(group)),
-            (None, None) => {
-                let expected = "which region of the file: its `number`, or the name of its `group`";
-                return Err(keys.missing("number", expected).into());
-            }
-        };
-        let name = keys.text("name")?;
-        let name = name.unwrap_or_else(|| match &place {
-            PartPlace::Group(group) => group.clone(),
-            PartPlace::Number(number) => format!("region {number}"),
-            PartPlace::Layer(_) | PartPlace::Inclusion(_) => String::new(),
-        });
-        let tissue = TissueChoice::from_keys(keys, folder)?.read()?;
-        parts.push(part((keys, key), name, place, (tissue, law))?);
+    for (number, keys) in keys.tables("region")?.iter().enumerate() {
+        let part_of_file = BodyPart::from_keys(keys, number, folder)?;
+        let tissue = part_of_file.tissue.read()?;
+        let key = (keys, part_of_file.key);
+        parts.push(part(
+            key,
+            part_of_file.name,
+            part_of_file.place,
+            (tissue, law),
+        )?);
     }
     Ok(parts)
 }

@@ -1,7 +1,7 @@
 use std::ops::Bound::Included;
 use std::path::Path;
 
-use palpate_files::scene::{Region, Shape};
+use palpate_files::scene::{Region, RegionBox, RegionSphere, Shape};
 use palpate_files::tissue::LawName;
 use palpate_files::{Domain, Error, Key, Keys, Place};
 use palpate_mechanics::Vec3;
@@ -10,7 +10,7 @@ use palpate_mechanics::finite_elements::solid::{DeadLoad, LoadPlace};
 
 use super::fibres::Fibres;
 use super::regions::{self, SolidPart};
-use super::{BOND_MEANINGS, BONDS};
+use super::{BOND_MEANINGS, BONDS, required_table};
 use crate::Error as JobError;
 
 /// An organ of any shape, held somewhere, and moved or loaded elsewhere.
@@ -59,6 +59,8 @@ pub(crate) struct Point {
     pub(crate) name: String,
     /// [m]
     pub(crate) at: Vec3,
+    /// Whether it stands for the material point nearest to it.
+    pub(crate) is_nearest: bool,
     /// How far it was measured to move [m], along a direction of length one [-].
     pub(crate) measured: Option<(Vec3, f64)>,
     /// Where it is in the document, and the full name of its key.
@@ -111,9 +113,15 @@ impl Solid {
         Key::tables(
             "point",
             Point::KEYS,
-            "Points of the body whose displacement is asked for.",
+            "Points of the body whose displacement is asked for, with names and measurements.",
         )
         .optional("", "none"),
+        Key::vectors(
+            "points_m",
+            Domain::POSITION,
+            "Points whose nearest material points' `displacement_m` is asked for; they come after those of `point`.",
+        )
+        .optional("[[0.0, 0.015, 0.03]]", "none"),
         regions::KEYS[0],
         regions::KEYS[1],
         regions::KEYS[2],
@@ -141,7 +149,11 @@ impl Solid {
             return Err(keys.bad("gravity_m_per_s2", expected).into());
         }
         let loads = keys.tables("load")?;
-        let points = keys.tables("point")?;
+        let named = keys.tables("point")?;
+        let points = named.iter().enumerate();
+        let points = points.map(|(number, keys)| Point::from_keys(keys, number));
+        let mut points: Vec<Point> = points.collect::<Result<_, _>>()?;
+        points.extend(Point::nearest(keys, points.len())?);
         let fits = keys.truth("fit_stiffness")?.unwrap_or(false);
         let solid = Self {
             shape,
@@ -153,11 +165,7 @@ impl Solid {
                 .iter()
                 .map(Load::from_keys)
                 .collect::<Result<_, _>>()?,
-            points: points
-                .iter()
-                .enumerate()
-                .map(|(number, keys)| Point::from_keys(keys, number))
-                .collect::<Result<_, _>>()?,
+            points,
             parts: regions::from_keys(keys, folder, law)?,
             fits,
         };
@@ -226,12 +234,29 @@ impl Load {
         Key::table(
             "region",
             Region::KEYS,
-            "It acts evenly on the triangles of the surface whose centroid lies in one of these regions.",
+            "It acts evenly on the part of the surface in these regions.",
         )
-        .optional("", "`line` says where it acts")
+        .optional("", "another key says where it acts")
         .in_template(),
+        Key::vectors(
+            "box_m",
+            Domain::COORDINATE,
+            "It acts evenly on the part of the surface in a box along the axes, of which two opposite corners are given.",
+        )
+        .optional(
+            "[[-0.01, -0.01, 0.02], [0.01, 0.01, 0.04]]",
+            "another key says where it acts",
+        ),
+        Key::vector(
+            "center_m",
+            Domain::COORDINATE,
+            "It acts evenly on the part of the surface in a ball about this centre, of `radius_m`.",
+        )
+        .optional("[0.0, 0.0, 0.03]", "another key says where it acts"),
+        Key::number("radius_m", RADIUS, "The radius of the ball about `center_m`.")
+            .optional("0.01", "another key says where it acts"),
         Key::table("line", LINE, "It acts evenly along a straight line on the surface, such as an edge.")
-            .optional("", "`region` says where it acts"),
+            .optional("", "another key says where it acts"),
     ];
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
@@ -239,22 +264,32 @@ impl Load {
         if force == Vec3::zeros() {
             return Err(keys.bad("force_n", "a force that is not zero"));
         }
-        let (key, place) = match (keys.table("region")?, keys.table("line")?) {
-            (Some(_), Some(_)) => return Err(keys.given_twice("region", "line")),
-            (Some(region), None) => ("region", LoadPlace::Faces(Region::from_keys(&region)?)),
-            (None, Some(line)) => {
-                let ends = [
-                    line.required_vector("from_m")?,
-                    line.required_vector("to_m")?,
-                ];
-                if ends[0] == ends[1] {
-                    return Err(line.bad("to_m", "another point than `from_m`"));
-                }
-                ("line", LoadPlace::Line(ends.map(Vec3::from)))
-            }
-            (None, None) => {
-                let expected = "where the force acts: a table of planes, boxes or spheres, or `line = { from_m, to_m }`";
-                return Err(keys.missing("region", expected));
+        let places = ["region", "box_m", "center_m", "line"];
+        let mut given = places.into_iter().filter(|key| keys.contains(key));
+        let Some(key) = given.next() else {
+            let expected = "where the force acts: `box_m = [[x, y, z], [x, y, z]]`, `center_m` with `radius_m`, `region` \
+                            with planes, boxes or spheres, or `line = { from_m, to_m }`";
+            return Err(keys.missing("box_m", expected));
+        };
+        if let Some(other) = given.next() {
+            return Err(keys.given_twice(key, other));
+        }
+        if key != "center_m" {
+            keys.refuse("radius_m", "`center_m` too, for it is the radius of a ball")?;
+        }
+        let place = match key {
+            "box_m" => LoadPlace::Faces(box_of(keys)?),
+            "center_m" => LoadPlace::Faces(Region {
+                spheres: vec![RegionSphere {
+                    center_m: keys.required_vector("center_m")?,
+                    radius_m: keys.required_number("radius_m")?,
+                }],
+                ..Region::default()
+            }),
+            "line" => LoadPlace::Line(line_of(keys)?),
+            _ => {
+                let region = required_table(keys, "region", "region = { planes, boxes, spheres }")?;
+                LoadPlace::Faces(Region::from_keys(&region)?)
             }
         };
         Ok(Self {
@@ -263,6 +298,46 @@ impl Load {
             key: keys.full_name(key),
         })
     }
+}
+
+/// A radius [m].
+const RADIUS: Domain = Domain::quantity("a radius", "m", [Included(1e-9), Included(1e6)]);
+
+/// A box is larger by this part of its largest coordinate, or of a metre [-], so that rounding does not lose the surface in a
+/// flat one.
+const ROUNDING: f64 = 1e-9;
+
+/// The box between two opposite corners.
+fn box_of(keys: &Keys<'_>) -> Result<Region, Error> {
+    let corners = keys.vectors("box_m")?.unwrap_or_default();
+    let [one, other] = corners[..] else {
+        return Err(keys.bad("box_m", "two opposite corners, [[x, y, z], [x, y, z]]"));
+    };
+    let largest = one
+        .iter()
+        .chain(&other)
+        .fold(1.0, |size: f64, x| size.max(x.abs()));
+    let slack = ROUNDING * largest;
+    let region = RegionBox {
+        min_m: [0, 1, 2].map(|axis| one[axis].min(other[axis]) - slack),
+        max_m: [0, 1, 2].map(|axis| one[axis].max(other[axis]) + slack),
+    };
+    Ok(Region {
+        boxes: vec![region],
+        ..Region::default()
+    })
+}
+
+fn line_of(keys: &Keys<'_>) -> Result<[Vec3; 2], Error> {
+    let line = required_table(keys, "line", "line = { from_m, to_m }")?;
+    let ends = [
+        line.required_vector("from_m")?,
+        line.required_vector("to_m")?,
+    ];
+    if ends[0] == ends[1] {
+        return Err(line.bad("to_m", "another point than `from_m`"));
+    }
+    Ok(ends.map(Vec3::from))
 }
 
 const LINE: &[Key] = &[
@@ -303,10 +378,26 @@ impl Point {
         Ok(Self {
             name: name.unwrap_or_else(|| format!("point {}", number + 1)),
             at: keys.required_vector("at_m")?.into(),
+            is_nearest: false,
             measured,
             place: keys.place_of_key("at_m"),
             key: keys.full_name("at_m"),
         })
+    }
+
+    /// The points of the list `points_m`, after so many of `point`.
+    fn nearest(keys: &Keys<'_>, before: usize) -> Result<Vec<Self>, Error> {
+        let points = keys.vectors("points_m")?.unwrap_or_default();
+        let each = points.into_iter().enumerate();
+        let point = |(number, at): (usize, [f64; 3])| Self {
+            name: format!("point {}", before + number + 1),
+            at: at.into(),
+            is_nearest: true,
+            measured: None,
+            place: keys.place_of_key("points_m"),
+            key: keys.full_name(&format!("points_m[{number}]")),
+        };
+        Ok(each.map(point).collect())
     }
 }
 

@@ -121,6 +121,9 @@ pub struct SolidFigures {
     /// Of the patch, where there is one.
     #[serde(flatten)]
     pub patch: Option<PatchFigures>,
+    /// Of the points of `points_m`, in their order, or else of the patch [m].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub displacement_m: Option<Displacements>,
     /// On the tissue where it is held [N].
     pub reaction_n: [f64; 3],
     /// Displacements that were asked for.
@@ -156,7 +159,17 @@ pub struct PatchFigures {
     /// On the tissue, along the displacement: positive where the tissue resists.
     pub force_along_displacement_n: f64,
     /// Of the patch [m].
-    pub displacement_m: [f64; 3],
+    pub patch_displacement_m: [f64; 3],
+}
+
+/// Displacements of a solid [m].
+#[derive(Debug, Clone, Serialize)]
+#[serde(untagged)]
+pub enum Displacements {
+    /// Of the patch.
+    Patch([f64; 3]),
+    /// Of points, in the order of `points_m`.
+    Points(Vec<[f64; 3]>),
 }
 
 /// The figures of a point.

@@ -12,7 +12,8 @@ mod uniaxial;
 mod warnings;
 
 pub use figures::{
-    Figures, FrictionFigures, PatchFigures, PointFigures, Profile, SolidFigures, TubeFigures,
+    Displacements, Figures, FrictionFigures, PatchFigures, PointFigures, Profile, SolidFigures,
+    TubeFigures,
 };
 
 use std::time::Instant;

@@ -1,5 +1,6 @@
 //! Dead loads on the boundary as forces at nodes, and points of the body as shares of nodes.
 
+use palpate_files::scene::Region;
 use palpate_geometry::{TetrahedronMesh, closest_on_triangle};
 
 use super::super::element::ElementKind;
@@ -67,18 +68,17 @@ pub(super) fn of_boundary(
     for (load, DeadLoad { place, force }) in loads.iter().enumerate() {
         match place {
             LoadPlace::Faces(region) => {
-                let within = |face: &&Face| region.holds(face.centroid(mesh).into());
-                let within: Vec<&Face> = faces.iter().filter(within).collect();
-                let areas: Vec<f64> = within.iter().map(|face| area(face, mesh)).collect();
-                let whole: f64 = areas.iter().sum();
-                if within.is_empty() {
+                let parts = faces.iter().map(|face| part_within(face, mesh, region));
+                let parts: Vec<[f64; 6]> = parts.collect();
+                let whole: f64 = parts.iter().flatten().sum();
+                if whole <= 0.0 {
                     return Err(SolidError::EmptyLoad { load });
                 }
-                for (face, area) in within.iter().zip(areas) {
-                    // An even traction on a quadratic triangle is carried by the middles of its edges.
-                    let part = area / whole / 3.0 * force;
-                    forces.extend(face.nodes[3..].iter().map(|&node| (node, part)));
-                }
+                let nodes = faces.iter().zip(&parts).flat_map(|(face, part)| {
+                    let each = face.nodes.iter().copied().zip(*part);
+                    each.filter(|(_, area)| *area != 0.0)
+                });
+                forces.extend(nodes.map(|(node, area)| (node, area / whole * force)));
             }
             LoadPlace::Line([from, to]) => {
                 let mut distance: f64 = 0.0;
@@ -157,9 +157,106 @@ fn on_boundary(at: &Vec3, mesh: &TetrahedronMesh, faces: &[Face]) -> (f64, Place
     nearest
 }
 
-fn area(face: &Face, mesh: &TetrahedronMesh) -> f64 {
-    let [a, b, c] = face.positions(mesh);
-    0.5 * (b - a).cross(&(c - a)).norm()
+/// How often a triangle at the border of a region is divided into four.
+const DIVISIONS: u32 = 6;
+
+/// The integrals of the shape functions of a face's nodes [m²] over its part in a region: what of an even traction each
+/// carries. The force so does not jump with the triangles, and may act on less than one.
+fn part_within(face: &Face, mesh: &TetrahedronMesh, region: &Region) -> [f64; 6] {
+    let corners = face.positions(mesh);
+    let [a, b, c] = corners;
+    let mut part = Part {
+        region,
+        corners,
+        integrals: [0.0; 6],
+    };
+    let whole = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    part.add(whole, 0.5 * (b - a).cross(&(c - a)).norm(), DIVISIONS);
+    part.integrals
+}
+
+/// The part of a triangle in a region.
+struct Part<'r> {
+    region: &'r Region,
+    corners: [Vec3; 3],
+    integrals: [f64; 6],
+}
+
+impl Part<'_> {
+    /// Adds the part of a triangle between three points, given by their barycentric coordinates [-], of this area [m²].
+    fn add(&mut self, points: [[f64; 3]; 3], area: f64, divisions: u32) {
+        let places = points.map(|point| self.place(point));
+        let middle = |i: usize, j: usize| [0, 1, 2].map(|k| 0.5 * (points[i][k] + points[j][k]));
+        let [ab, bc, ca] = [middle(0, 1), middle(1, 2), middle(2, 0)];
+        let is_within = match (overlap(self.region, &places), divisions) {
+            (Overlap::None, _) => false,
+            (Overlap::Whole, _) => true,
+            (Overlap::Part, 0) => {
+                let centroid = places.iter().sum::<Vec3>() / 3.0;
+                self.region.holds(centroid.into())
+            }
+            (Overlap::Part, _) => {
+                let [a, b, c] = points;
+                for quarter in [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]] {
+                    self.add(quarter, 0.25 * area, divisions - 1);
+                }
+                false
+            }
+        };
+        if is_within {
+            // The middles of the edges integrate what is quadratic.
+            for [a, b, c] in [ab, bc, ca] {
+                let corners = [a, b, c].map(|l| l * (2.0 * l - 1.0));
+                let middles = [a * b, b * c, c * a].map(|product| 4.0 * product);
+                let shares = corners.into_iter().chain(middles);
+                for (integral, share) in self.integrals.iter_mut().zip(shares) {
+                    *integral += area / 3.0 * share;
+                }
+            }
+        }
+    }
+
+    fn place(&self, barycentric: [f64; 3]) -> Vec3 {
+        let each = self.corners.iter().zip(barycentric);
+        each.map(|(corner, part)| corner * part).sum()
+    }
+}
+
+/// How much of a triangle lies in a region.
+enum Overlap {
+    None,
+    Part,
+    Whole,
+}
+
+fn overlap(region: &Region, triangle: &[Vec3; 3]) -> Overlap {
+    let corners = triangle.map(<[f64; 3]>::from);
+    // Each of them is convex, and a plane leaves out what all corners are beyond.
+    let planes = region.planes.iter();
+    let planes = planes.map(|plane| {
+        let held = corners.map(|corner| plane.holds(corner));
+        (held == [true; 3], held != [false; 3])
+    });
+    let boxes = region.boxes.iter().map(|own| {
+        let meets = (0..3).all(|axis| {
+            let along = corners.map(|corner| corner[axis]);
+            let least = along.into_iter().fold(f64::INFINITY, f64::min);
+            let most = along.into_iter().fold(f64::NEG_INFINITY, f64::max);
+            least <= own.max_m[axis] && most >= own.min_m[axis]
+        });
+        (corners.iter().all(|corner| own.holds(*corner)), meets)
+    });
+    let spheres = region.spheres.iter().map(|sphere| {
+        let nearest = closest_on_triangle(triangle, &sphere.center_m.into()).position;
+        let meets = sphere.holds(nearest.into());
+        (corners.iter().all(|corner| sphere.holds(*corner)), meets)
+    });
+    let each = planes.chain(boxes).chain(spheres);
+    each.fold(Overlap::None, |so_far, of_one| match (so_far, of_one) {
+        (Overlap::Whole, _) | (_, (true, _)) => Overlap::Whole,
+        (Overlap::None, (_, false)) => Overlap::None,
+        _ => Overlap::Part,
+    })
 }
 
 /// Longest extent of a mesh [m].
@@ -168,4 +265,66 @@ fn extent(mesh: &TetrahedronMesh) -> f64 {
     let vertices = mesh.vertices().iter();
     let (low, high) = vertices.fold((none, -none), |(low, high), v| (low.inf(v), high.sup(v)));
     (high - low).max()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use palpate_files::scene::{RegionBox, RegionSphere};
+
+    use super::super::mesh::faces;
+    use super::*;
+
+    /// Area [m²] and centroid [m] of what a region takes of the boundary of a tetrahedron with legs of 1 m.
+    fn taken(region: &Region) -> (f64, Vec3) {
+        let vertices = vec![Vec3::zeros(), Vec3::x(), Vec3::y(), Vec3::z()];
+        let corners = [0, 1, 2, 3].map(palpate_geometry::NodeId);
+        let mesh = TetrahedronMesh::new(vertices, vec![corners]).unwrap();
+        let (mut area, mut moment) = (0.0, Vec3::zeros());
+        for face in faces(&mesh) {
+            let [a, b, c] = face.positions(&mesh);
+            let nodes = [a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)];
+            for (node, share) in nodes.iter().zip(part_within(&face, &mesh, region)) {
+                area += share;
+                moment += share * node;
+            }
+        }
+        (area, moment / area)
+    }
+
+    /// Judge: the areas and centres of a disc and a rectangle, which are smaller than the triangle that they lie in.
+    #[test]
+    fn a_load_acts_on_parts_of_triangles() {
+        let sphere = RegionSphere {
+            center_m: [0.3, 0.3, 0.0],
+            radius_m: 0.2,
+        };
+        let ball = Region {
+            spheres: vec![sphere],
+            ..Region::default()
+        };
+        // A leaf is 1/64 of a leg wide, and those around the circle count whole or not.
+        let (area, centroid) = taken(&ball);
+        assert!((area / (0.04 * PI) - 1.0).abs() < 0.01, "{area}");
+        assert!(
+            (centroid - Vec3::new(0.3, 0.3, 0.0)).norm() < 0.002,
+            "{centroid}"
+        );
+        let flat = RegionBox {
+            min_m: [0.125, 0.25, 0.0],
+            max_m: [0.375, 0.5, 0.0],
+        };
+        let flat = Region {
+            boxes: vec![flat],
+            ..Region::default()
+        };
+        let (area, centroid) = taken(&flat);
+        // Its sides are those of leaves.
+        assert!((area / 0.0625 - 1.0).abs() < 1e-12, "{area}");
+        assert!(
+            (centroid - Vec3::new(0.25, 0.375, 0.0)).norm() < 0.01,
+            "{centroid}"
+        );
+    }
 }

@@ -81,7 +81,7 @@ pub struct DeadLoad {
 /// Where a force acts.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LoadPlace {
-    /// Evenly on the triangles of the boundary, at rest, whose centroid lies in a region.
+    /// Evenly on the part of the boundary, at rest, in a region.
     Faces(Region),
     /// Evenly along a straight line on the boundary, such as an edge, between two points [m].
     Line([Vec3; 2]),

@@ -1,4 +1,5 @@
 mod fields;
+mod points;
 mod regions;
 
 use std::borrow::Cow;
@@ -15,9 +16,9 @@ use palpate_mechanics::finite_elements::solid::{
 use palpate_mechanics::{Material, Vec3};
 use palpate_simulate::{held_region, read_organ};
 
-use super::super::problem::{Patch, Point, Problem, Solid};
+use super::super::problem::{Patch, Problem, Solid};
 use super::super::table::Table;
-use super::figures::{Figures, PatchFigures, PointFigures, SolidFigures};
+use super::figures::{Displacements, Figures, PatchFigures, PointFigures, SolidFigures};
 use super::{Solution, Wanted, plots, warnings};
 use crate::Error;
 use crate::solve::telling::Telling;
@@ -47,6 +48,8 @@ pub(crate) fn solution(
     let (regions, more) = regions::solved(&case.parts, &of_file)?;
     warnings.extend(more);
     let patch = case.patch.as_ref();
+    let (places, more) = points::places(case, &body);
+    warnings.extend(more);
     let mut mechanical = SolidProblem {
         body,
         anchor: held_region(&case.shape, case.anchor.as_ref()),
@@ -61,7 +64,7 @@ pub(crate) fn solution(
             }),
             forces: case.loads.iter().map(|load| load.load.clone()).collect(),
         },
-        points: case.points.iter().map(|point| point.at).collect(),
+        points: places,
     };
     let solved = |mechanical: &SolidProblem| {
         solve(mechanical, problem.accuracy, &mut |progress| {
@@ -139,14 +142,9 @@ pub(crate) fn solution(
             .with("z [mN]", [1e3 * reaction.z]);
         tables.push(table);
     }
-    let points: Vec<PointFigures> = case
-        .points
-        .iter()
-        .zip(&answer.points)
-        .map(|(point, moved)| figures(point, moved))
-        .collect();
+    let points = points::figures(case, &mechanical.points, &answer.points);
     if !points.is_empty() {
-        tables.push(table_of_points(&points));
+        tables.push(points::table(&points));
     }
     let regions = regions::figures(problem, case, &answer.fields);
     if !regions.is_empty() {
@@ -179,8 +177,9 @@ pub(crate) fn solution(
             patch: patch.map(|patch| PatchFigures {
                 force_n: (-answer.force).into(),
                 force_along_displacement_n: answer.force_along,
-                displacement_m: patch.displacement.into(),
+                patch_displacement_m: patch.displacement.into(),
             }),
+            displacement_m: Displacements::of(case, &points),
             reaction_n: answer.reaction.into(),
             points,
             regions,
@@ -197,6 +196,24 @@ pub(crate) fn solution(
         vtu: wanted.vtu.then(|| fields::grid(&answer.fields)),
         recording: None,
     })
+}
+
+impl Displacements {
+    /// Those of the points of `points_m`, or else of the patch.
+    fn of(case: &Solid, points: &[PointFigures]) -> Option<Self> {
+        let each = case.points.iter().zip(points);
+        let listed: Vec<_> = each
+            .filter(|(point, _)| point.is_nearest)
+            .map(|(_, point)| point.displacement_m)
+            .collect();
+        match listed.is_empty() {
+            false => Some(Self::Points(listed)),
+            true => case
+                .patch
+                .as_ref()
+                .map(|patch| Self::Patch(patch.displacement.into())),
+        }
+    }
 }
 
 fn moved(patch: &Patch) -> MovedPatch {
@@ -239,50 +256,13 @@ fn against(case: &Solid) -> Error {
     error.into()
 }
 
-fn figures(point: &Point, moved: &Vec3) -> PointFigures {
-    PointFigures {
-        name: point.name.clone(),
-        at_m: point.at.into(),
-        displacement_m: (*moved).into(),
-        measured_m: point.measured.map(|(_, way)| way),
-        error_m: point.measured.map(|(along, way)| moved.dot(&along) - way),
-    }
-}
-
-fn table_of_points(points: &[PointFigures]) -> Table {
-    let each = |axis: usize| {
-        points
-            .iter()
-            .map(move |point| 1e3 * point.displacement_m[axis])
-    };
-    let table = Table::default()
-        .with_texts("point", points.iter().map(|point| point.name.clone()))
-        .with("moves: x [mm]", each(0))
-        .with("y [mm]", each(1))
-        .with("z [mm]", each(2));
-    if points.iter().all(|point| point.measured_m.is_none()) {
-        return table;
-    }
-    let number =
-        |value: Option<f64>| value.map_or("–".to_owned(), |value| rounded(1e3 * value, 4));
-    table
-        .with_texts(
-            "measured [mm]",
-            points.iter().map(|point| number(point.measured_m)),
-        )
-        .with_texts(
-            "off by [mm]",
-            points.iter().map(|point| number(point.error_m)),
-        )
-}
-
 /// What the solver says, with the line and the key where it is about a load or a point.
 fn refused(problem: &Problem, case: &Solid, error: palpate_mechanics::Error) -> Error {
     let load = |number: usize| case.loads.get(number);
     match &error {
         palpate_mechanics::Error::Solid(SolidError::EmptyLoad { load: number }) => load(*number)
             .map(|load| {
-                let found = "a region without a triangle of the surface".to_owned();
+                let found = "a region without a part of the surface".to_owned();
                 bad(
                     &load.place,
                     &load.key,

@@ -1,12 +1,13 @@
 //! The parts of a solid: as the solver takes them, and as people read of them.
 
 use palpate_files::quantity::rounded;
+use palpate_files::scene::PartPlace;
 use palpate_geometry::VolumeRegion;
 use palpate_mechanics::finite_elements::solid::{SolidFields, SolidPlace, SolidRegion};
 use palpate_mechanics::regions::{RegionError, RegionPlace};
 use palpate_simulate::read_inclusion;
 
-use super::super::super::problem::{PartPlace, Problem, Solid, SolidPart};
+use super::super::super::problem::{Problem, Solid, SolidPart};
 use super::super::figures::RegionFigures;
 use super::bad;
 use crate::Error;
@@ -28,9 +29,9 @@ pub(super) fn solved(
                 warnings.extend(more);
                 SolidPlace::Bounded(place)
             }
-            PartPlace::Number(_) | PartPlace::Group(_) => {
+            PartPlace::Label(_) | PartPlace::Group(_) => {
                 let is_it = |region: &VolumeRegion| match &part.place {
-                    PartPlace::Number(number) => region.number == *number,
+                    PartPlace::Label(number) => region.number == *number,
                     PartPlace::Group(group) => region.name.as_ref() == Some(group),
                     PartPlace::Layer(_) | PartPlace::Inclusion(_) => false,
                 };
@@ -52,7 +53,7 @@ pub(super) fn solved(
     }
     if of_file.len() > 1 && taken.is_empty() {
         warnings.push(format!(
-            "the mesh has {}, which are all of `tissue`: no `[[region]]` names one",
+            "the mesh has {}, which are all of `tissue`: no `[[region]]` has the `label` of one",
             in_a_list(of_file)
         ));
     }
@@ -62,11 +63,13 @@ pub(super) fn solved(
 fn no_region(part: &SolidPart, of_file: &[VolumeRegion]) -> Error {
     let found = match &part.place {
         PartPlace::Group(group) => format!("{group:?}"),
-        PartPlace::Number(number) => number.to_string(),
+        PartPlace::Label(number) => number.to_string(),
         PartPlace::Layer(_) | PartPlace::Inclusion(_) => String::new(),
     };
     let expected = match of_file.is_empty() {
-        true => "no `[[region]]`, for the body is no file of tetrahedra".to_owned(),
+        true => {
+            "a shape such as `ball` or `surface`, for the body is no file of tetrahedra".to_owned()
+        }
         false => format!("one of the mesh, which has {}", in_a_list(of_file)),
     };
     bad(&part.found_at, &part.key, found, expected)
