@@ -11,6 +11,7 @@ mod igor;
 mod jpk;
 mod jpk_segment;
 mod nanosurf;
+mod nanosurf_places;
 mod optics11;
 mod properties;
 mod zip;
