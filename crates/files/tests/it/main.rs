@@ -14,6 +14,7 @@ mod fibre_directions;
 mod foreign;
 mod fuzz;
 mod instruments;
+mod jpk_files;
 mod microscopes;
 mod motion;
 mod plausible;
