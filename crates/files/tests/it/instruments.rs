@@ -1,5 +1,5 @@
 //! Files of instruments. Judges: the export of another program (afmformats 0.18.7) for a real JPK curve; numbers that an
-//! independent writer, below, put into small files; damaged files give an error or what was in them.
+//! independent writer, `jpk_files`, put into small files; damaged files give an error or what was in them.
 
 use std::path::PathBuf;
 

@@ -17,6 +17,7 @@ mod instruments;
 mod jpk_files;
 mod microscopes;
 mod motion;
+mod old_waves;
 mod plausible;
 mod readers;
 mod response;
