@@ -209,7 +209,7 @@ fn nanosurf_curves_are_read_as_written() {
 /// Where the curves of a file with such tables of places were measured, along x and y [m], and all remarks.
 fn places(curves: usize, mode: &str, table: &str) -> (Vec<Option<[f64; 2]>>, String) {
     let sections = format!(
-        "[DataSet\\SpecInfos\\SpecHeader]\r\nSpecMode={mode}\r\n\r\n[DataSet\\SpecInfos\\{}]\r\n\r\n",
+        "[DataSet\\SpecInfos\\SpecHeader]\r\nSpecMode={mode}\r\n\r\n[DataSet\\SpecInfos\\{}\r\n\r\n",
         table.replace('|', "\r\n")
     );
     let all = read(&nid_with(curves, &sections)).unwrap();
