@@ -149,16 +149,40 @@ fn waves_of_one_column_that_are_no_pair_are_refused() {
         said.contains("Curve7Defl") && said.contains("ZSnsr") && said.contains("Concatenate"),
         "{said}"
     );
-    let changes: [(fn(&mut OldWave), &str); 4] = [
-        (|own| own.unit = "V", "not in metres"),
-        (|own| own.row_unit = "m", "not in seconds"),
-        (|own| own.step *= 2.0, "other rows"),
-        (|own| own.values.truncate(3), "other rows"),
+    let position = || old_wave(2, true, false);
+    let few = POSITIONS[..3].to_vec();
+    let others = [
+        (
+            OldWave {
+                unit: "V",
+                ..position()
+            },
+            "not in metres",
+        ),
+        (
+            OldWave {
+                row_unit: "m",
+                ..position()
+            },
+            "not in seconds",
+        ),
+        (
+            OldWave {
+                step: 1e-3,
+                ..position()
+            },
+            "other rows",
+        ),
+        (
+            OldWave {
+                values: few,
+                ..position()
+            },
+            "other rows",
+        ),
     ];
-    for (change, why) in changes {
-        let (deflection, mut position) = (old_wave(2, true, true), old_wave(2, true, false));
-        change(&mut position);
-        let error = read_pair(names, [&deflection, &position]).unwrap_err();
+    for (position, why) in others {
+        let error = read_pair(names, [&old_wave(2, true, true), &position]).unwrap_err();
         assert!(
             error.is_input() && error.to_string().contains(why),
             "{error}"
