@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 
 use palpate_characterize::CleanRecording;
 use palpate_characterize::clean::{CleanSettings, clean};
-use palpate_files::recording::{ForeignColumns, RecordingHeader};
+use palpate_files::recording::{
+    ForeignColumns, RecordingHeader, deflection_beside, position_beside,
+};
 use palpate_files::{MOST_OF_TABLE, Recording, read_bytes};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -167,7 +169,11 @@ impl Recordings {
             Some(text) => Cow::Borrowed(text.as_bytes()),
             None => read_bytes(path, MOST_OF_TABLE)?.into(),
         };
-        let digest = Sha256::digest(&bytes);
+        let mut digest = Sha256::new_with_prefix(&bytes);
+        if let Some(beside) = position_beside(path) {
+            digest.update(read_bytes(beside, MOST_OF_TABLE)?);
+        }
+        let digest = digest.finalize();
         let all = Recording::parse_all(&bytes, path, &self.columns(), said)?;
         let several = all.len() > 1;
         let each = all.into_iter().enumerate().map(|(place, recording)| {
@@ -302,7 +308,9 @@ fn tables(folder: &Path) -> Result<Vec<PathBuf>, Error> {
             let stem = stem.to_string_lossy().to_ascii_lowercase();
             stem.starts_with("license") || stem.starts_with("readme")
         });
-        if is_table && !is_license && path.is_file() {
+        // The position of a curve is read with its deflection.
+        let is_position = || deflection_beside(&path).is_some();
+        if is_table && !is_license && path.is_file() && !is_position() {
             files.push(path);
         }
     }

@@ -23,6 +23,7 @@ pub use foreign::ForeignColumns;
 pub use header::{
     Condition, IndenterFriction, IndenterShape, RecordingHeader, Specimen, StimulusKind, Support,
 };
+pub use instruments::{deflection_beside, position_beside};
 use samples::Repeated;
 pub use samples::{ExtraColumn, Samples};
 pub use writer::RecordingWriter;

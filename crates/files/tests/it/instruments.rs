@@ -1,10 +1,15 @@
 //! Files of instruments. Judges: the export of another program (afmformats 0.18.7) for a real JPK curve; numbers that an
-//! independent writer, below, put into small files; damaged files give an error or what was in them.
+//! independent writer, `jpk_files`, put into small files; damaged files give an error or what was in them.
 
 use std::path::PathBuf;
 
 use palpate_files::recording::{ForeignColumns, IndenterShape, RecordingHeader};
 use palpate_files::{Error, Recording};
+
+use crate::jpk_files::{
+    DEFLECTIONS, HEIGHTS, Numbers, SENSITIVITY, SPRING_CONSTANT, archive, archive_of, floating,
+    general, segment, shared, single, single_parts,
+};
 
 /// A file of the AFM recordings in the data folder; none, with a notice, where that is not there.
 fn real(name: &str) -> Option<Vec<u8>> {
@@ -26,127 +31,13 @@ fn read(bytes: &[u8], name: &str) -> Result<Vec<Recording>, Error> {
     read_with(bytes, name, &RecordingHeader::default())
 }
 
-/// CRC-32 bit by bit [ITU-T V.42].
-fn checksum(bytes: &[u8]) -> u32 {
-    let turn = |sum: u32, byte: &u8| {
-        (0..8).fold(sum ^ u32::from(*byte), |sum, _| {
-            (sum >> 1) ^ (0xEDB8_8320 * (sum & 1))
-        })
-    };
-    !bytes.iter().fold(!0, turn)
-}
-
-/// A ZIP archive; every second part is deflated, in blocks that are stored [RFC 1951, section 3.2.4].
-fn archive(parts: &[(String, Vec<u8>)]) -> Vec<u8> {
-    let (mut file, mut directory) = (Vec::new(), Vec::new());
-    for (place, (name, content)) in parts.iter().enumerate() {
-        let mut packed = content.clone();
-        if place % 2 == 1 {
-            let length = content.len() as u16;
-            packed = [
-                &[1],
-                &length.to_le_bytes()[..],
-                &(!length).to_le_bytes(),
-                content,
-            ]
-            .concat();
-        }
-        let method = if place % 2 == 1 { 8u16 } else { 0 };
-        let numbers = [checksum(content), packed.len() as u32, content.len() as u32];
-        let mut common = [20u16, 0, method, 0, 0].map(u16::to_le_bytes).concat();
-        common.extend(numbers.map(u32::to_le_bytes).concat());
-        common.extend([name.len() as u16, 0].map(u16::to_le_bytes).concat());
-        let at = file.len() as u32;
-        file.extend([&b"PK\x03\x04"[..], &common, name.as_bytes(), &packed].concat());
-        let after = [[0u8; 10].to_vec(), at.to_le_bytes().to_vec()].concat();
-        let entry = [&b"PK\x01\x02\x14\x00"[..], &common, &after, name.as_bytes()];
-        directory.extend(entry.concat());
-    }
-    let (at, size) = (file.len() as u32, directory.len() as u32);
-    let count = parts.len() as u16;
-    file.extend(directory);
-    file.extend(b"PK\x05\x06\0\0\0\0");
-    file.extend([count, count].map(u16::to_le_bytes).concat());
-    file.extend([size, at].map(u32::to_le_bytes).concat());
-    file.extend([0, 0]);
-    file
-}
-
-const SENSITIVITY: f64 = 2e-8;
-const SPRING_CONSTANT: f64 = 0.05;
-/// Raw numbers: a height that falls by 1 µm a step, and a deflection that rises at the end.
-const HEIGHTS: [i16; 6] = [500, 400, 300, 200, 100, 0];
-const DEFLECTIONS: [i16; 6] = [0, 0, 0, 0, 100, 300];
-
-/// The parts of a segment of two samples or more, in a folder.
-fn segment(folder: &str, style: &str, samples: std::ops::Range<usize>) -> Vec<(String, Vec<u8>)> {
-    let header = format!(
-        "#a comment\nforce-segment-header.force-segment-header-info.*=0\nforce-segment-header.duration={}\n\
-         force-segment-header.settings.style={style}\n\
-         force-segment-header.environment.xy-scanner-position-map.xy-scanner.stage.position.x=1.5E-5\n\
-         force-segment-header.environment.xy-scanner-position-map.xy-scanner.stage.position.y=-2E-6\n\
-         channel.height.lcd-info.*=0\nchannel.height.data.file.name=channels/height.dat\n\
-         channel.vDeflection.lcd-info.*=1\nchannel.vDeflection.data.file.name=channels/vDeflection.dat\n",
-        0.5 * samples.len() as f64
-    );
-    let shorts = |own: &[i16]| {
-        own[samples.clone()]
-            .iter()
-            .flat_map(|n| n.to_be_bytes())
-            .collect()
-    };
-    vec![
-        (format!("{folder}segment-header.properties"), header.into()),
-        (format!("{folder}channels/height.dat"), shorts(&HEIGHTS)),
-        (
-            format!("{folder}channels/vDeflection.dat"),
-            shorts(&DEFLECTIONS),
-        ),
-    ]
-}
-
-/// What segments share. Volts are a hundredth of the raw height and a tenth, less one, of the raw deflection.
-fn shared(conversions: bool) -> (String, Vec<u8>) {
-    let mut text = "force-segment-header-info.0.environment.xy-scanner-position-map.xy-scanners.active-xy-scanner.name=stage\n\
-        lcd-info.0.encoder.type=signedshort\nlcd-info.0.encoder.scaling.offset=0\nlcd-info.0.encoder.scaling.multiplier=0.01\n\
-        lcd-info.0.conversion-set.conversions.base=volts\nlcd-info.0.conversion-set.conversions.default=calibrated\n\
-        lcd-info.0.conversion-set.conversion.calibrated.base-calibration-slot=nominal\n\
-        lcd-info.0.conversion-set.conversion.calibrated.scaling.offset=1E-4\n\
-        lcd-info.0.conversion-set.conversion.calibrated.scaling.multiplier=0.5\n\
-        lcd-info.0.conversion-set.conversion.calibrated.scaling.unit.unit=m\n\
-        lcd-info.0.conversion-set.conversion.nominal.base-calibration-slot=volts\n\
-        lcd-info.0.conversion-set.conversion.nominal.scaling.offset=0\n\
-        lcd-info.0.conversion-set.conversion.nominal.scaling.multiplier=2E-6\n\
-        lcd-info.1.encoder.type=signedshort\nlcd-info.1.encoder.scaling.offset=-1\nlcd-info.1.encoder.scaling.multiplier=0.1\n\
-        lcd-info.1.conversion-set.conversions.base=volts\nlcd-info.1.conversion-set.conversions.default=force\n"
-        .to_owned();
-    if conversions {
-        for (own, base, size) in [
-            ("distance", "volts", SENSITIVITY),
-            ("force", "distance", SPRING_CONSTANT),
-        ] {
-            let key = format!("lcd-info.1.conversion-set.conversion.{own}");
-            text += &format!(
-                "{key}.base-calibration-slot={base}\n{key}.scaling.offset=0\n{key}.scaling.multiplier={size:E}\n"
-            );
-        }
-    }
-    ("shared-data/header.properties".to_owned(), text.into())
-}
-
-fn general() -> (String, Vec<u8>) {
-    let text = "force-scan-series.description.instrument=JPK\\:1\nforce-scan-series.description.source-software=6.1\n";
-    ("header.properties".to_owned(), text.into())
-}
-
-fn single(conversions: bool) -> Vec<u8> {
-    let mut parts = vec![general(), shared(conversions)];
-    parts.extend(segment("segments/0/", "extend", 0..4));
-    parts.extend(segment("segments/1/", "retract", 4..6));
-    archive(&parts)
-}
-
 fn check(recording: &Recording) {
+    // Rounding of heights of 0.1 mm.
+    check_to(recording, 1e-19 + 1e-15 * 1e-4 * 4.0);
+}
+
+/// Depths to a tolerance [m].
+fn check_to(recording: &Recording, tolerance: f64) {
     // The base falls by 1 µm a step, 0.01 V/1 · 2 µm/V · 0.5 · 100; the deflection is 0.1 V · 20 nm/V for each raw number.
     let height = |n: i16| f64::from(n) * 1e-8;
     let deflection = |n: i16| 2e-9 * f64::from(n);
@@ -154,11 +45,7 @@ fn check(recording: &Recording) {
     let tip: Vec<f64> = both.map(|(z, d)| height(*z) + deflection(*d)).collect();
     assert_eq!(recording.time_s(), [0.0, 0.5, 1.0, 1.5, 2.0, 2.5]);
     for (place, depth) in recording.depth_m().iter().enumerate() {
-        // Rounding of heights of 0.1 mm.
-        assert!(
-            (depth - (tip[0] - tip[place])).abs() < 1e-19 + 1e-15 * 1e-4 * 4.0,
-            "{depth}"
-        );
+        assert!((depth - (tip[0] - tip[place])).abs() < tolerance, "{depth}");
         let force = SPRING_CONSTANT * (deflection(DEFLECTIONS[place]) - SENSITIVITY);
         assert!(
             (recording.force_n()[place] - force).abs() < 1e-12 * 3e-8,
@@ -261,6 +148,62 @@ fn damaged_files_are_refused_or_read() {
         }
     }
     assert!(2 * refused > 3 * whole.len(), "{refused}");
+}
+
+/// Judge: the writer above, after the specification; an archive that is cut short or damaged, as above.
+#[test]
+fn archive_with_numbers_of_64_bits_is_read() {
+    let parts = single_parts(true);
+    let whole = archive_of(&parts, Numbers::Long);
+    check(&read(&whole, "a.jpk-force").unwrap()[0]);
+    for end in 0..whole.len() {
+        assert!(read(&whole[..end], "a.jpk-force").is_err(), "{end}");
+    }
+    for place in 0..whole.len() {
+        for turned in [1, 0x80, 0xff] {
+            let mut bytes = whole.clone();
+            bytes[place] ^= turned;
+            if let Ok(all) = read(&bytes, "a.jpk-force") {
+                all.iter().for_each(check);
+            }
+        }
+    }
+}
+
+/// As many parts as a map of 64 × 64 curves may have: more than a number of 16 bits counts.
+#[test]
+fn archive_of_very_many_parts_is_read() {
+    let mut parts = single_parts(true);
+    parts.extend((0..70_000).map(|place| (format!("thumbnails/{place}"), Vec::new())));
+    check(&read(&archive_of(&parts, Numbers::Long), "a.jpk-force").unwrap()[0]);
+}
+
+/// Judge: the same curve in whole numbers, to the single precision of heights of 5 µm and twice as much. The keys are
+/// those of a real file with a smoothed height in single precision; a deflection in such numbers was not found in any.
+#[test]
+fn channels_of_floating_point_numbers_are_read() {
+    let tolerance = 2.0 * 5e-6 * f64::from(f32::EPSILON);
+    for base in ["volts", "distance", "force"] {
+        let all = read(&floating(base, true), "a.jpk-force").unwrap();
+        check_to(&all[0], tolerance);
+        let header = &all[0].header;
+        let known = [header.spring_constant_n_per_m, header.sensitivity_m_per_v];
+        for (own, truth) in known.into_iter().zip([SPRING_CONSTANT, SENSITIVITY]) {
+            let own = own.unwrap();
+            assert!((own / truth - 1.0).abs() < 1e-14, "{base}: {own}");
+        }
+        let error = read(&floating(base, false), "a.jpk-force").unwrap_err();
+        assert!(
+            error.to_string().contains("--set spring_constant_n_per_m="),
+            "{error}"
+        );
+        let said = RecordingHeader {
+            spring_constant_n_per_m: Some(SPRING_CONSTANT),
+            ..RecordingHeader::default()
+        };
+        let all = read_with(&floating(base, false), "a.jpk-force", &said).unwrap();
+        check_to(&all[0], tolerance);
+    }
 }
 
 /// Sizes that are lies take no memory.

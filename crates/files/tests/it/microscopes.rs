@@ -8,16 +8,16 @@ fn read_with(bytes: &[u8], said: &RecordingHeader) -> Result<Vec<Recording>, Err
     Recording::parse_all(bytes, "f", &ForeignColumns::default(), said)
 }
 
-fn read(bytes: &[u8]) -> Result<Vec<Recording>, Error> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Recording>, Error> {
     read_with(bytes, &RecordingHeader::default())
 }
 
 /// Positions towards the specimen and deflections [m].
-const POSITIONS: [f64; 4] = [1e-6, 1.5e-6, 2e-6, 1.25e-6];
-const DEFLECTIONS: [f64; 4] = [-1e-9, -1e-9, 4e-8, 1e-8];
-const SPRING_CONSTANT: f64 = 0.5;
+pub(crate) const POSITIONS: [f64; 4] = [1e-6, 1.5e-6, 2e-6, 1.25e-6];
+pub(crate) const DEFLECTIONS: [f64; 4] = [-1e-9, -1e-9, 4e-8, 1e-8];
+pub(crate) const SPRING_CONSTANT: f64 = 0.5;
 
-fn check(recording: &Recording, tolerance: f64) {
+pub(crate) fn check(recording: &Recording, tolerance: f64) {
     let tip = |place: usize| POSITIONS[place] - DEFLECTIONS[place];
     for (place, deflection) in DEFLECTIONS.iter().enumerate() {
         let depth = recording.depth_m()[place];
@@ -57,15 +57,7 @@ fn wave(is_big: bool, labels: &[&str], columns: &[Vec<f64>], note: &str) -> Vec<
     put(64 + 68, long(rows));
     put(64 + 72, long(columns.len()));
     put(64 + 84, 5e-4f64.to_le_bytes().to_vec());
-    let sum = file.chunks(2).fold(0i16, |sum, pair| {
-        let pair = [pair[0], pair[1]];
-        let own = if is_big {
-            i16::from_be_bytes(pair)
-        } else {
-            i16::from_le_bytes(pair)
-        };
-        sum.wrapping_add(own)
-    });
+    let sum = short_sum(&file, is_big);
     let check = order(sum.wrapping_neg().to_le_bytes().to_vec());
     file[2..4].copy_from_slice(&check);
     for value in columns.iter().flatten() {
@@ -80,9 +72,9 @@ fn wave(is_big: bool, labels: &[&str], columns: &[Vec<f64>], note: &str) -> Vec<
     file
 }
 
-const NOTE: &str = "Version:16.11\rSpringConstant: 0.5\rInvOLS: 2e-08\rMicroscopeModel:MFP3D\rXLVDT:1.5e-5\rYLVDT:-2e-6\r";
+pub(crate) const NOTE: &str = "Version:16.11\rSpringConstant: 0.5\rInvOLS: 2e-08\rMicroscopeModel:MFP3D\rXLVDT:1.5e-5\rYLVDT:-2e-6\r";
 
-fn force_wave(is_big: bool) -> Vec<u8> {
+pub(crate) fn force_wave(is_big: bool) -> Vec<u8> {
     let columns = [vec![0.0; 4], DEFLECTIONS.to_vec(), POSITIONS.to_vec()];
     wave(is_big, &["Raw", "Defl", "ZSnsr"], &columns, NOTE)
 }
@@ -125,15 +117,25 @@ fn igor_wave_in_volts_needs_its_sensitivity() {
     );
     let error = read(&wave(false, &["DeflV", "Phase"], &columns, NOTE)).unwrap_err();
     assert!(error.to_string().contains("DeflV, Phase"), "{error}");
-    // A wave of version 2 is one column.
-    let mut old = force_wave(false);
-    old[0] = 2;
-    let error = read(&old).unwrap_err();
-    assert!(error.to_string().contains("version before 5"), "{error}");
 }
 
-/// A header of one line of force curves at two places, and its numbers of 32 bits.
+/// The sum of headers as short numbers.
+pub(crate) fn short_sum(headers: &[u8], is_big: bool) -> i16 {
+    let pairs = headers.chunks(2).map(|pair| [pair[0], pair[1]]);
+    let shorts = pairs.map(|pair| match is_big {
+        true => i16::from_be_bytes(pair),
+        false => i16::from_le_bytes(pair),
+    });
+    shorts.fold(0, i16::wrapping_add)
+}
+
+/// A file of force curves at so many places.
 fn nid(places: usize) -> Vec<u8> {
+    nid_with(places, "")
+}
+
+/// A header of one line of force curves at each place, with more sections, and its numbers of 32 bits.
+fn nid_with(places: usize, sections: &str) -> Vec<u8> {
     let mut text = "[DataSet]\r\nGroupCount=2\r\nGr0-Name=Spec forward\r\nGr0-Count=8\r\nGr1-Name=Spec backward\r\nGr1-Count=8\r\n\
         Gr0-Ch0=DataSet-0:0\r\nGr0-Ch7=DataSet-0:7\r\nGr1-Ch0=DataSet-1:0\r\nGr1-Ch7=DataSet-1:7\r\n\r\n\
         [DataSet\\DataSetInfos\\Global]\r\nHead type=FlexAFM\r\n\r\n\
@@ -141,6 +143,7 @@ fn nid(places: usize) -> Vec<u8> {
         [DataSet\\Parameters\\Spectroscopy]\r\nFwModTime=D[1]*[s]\r\nFwModDatapoints=L[4]*[]\r\nBwModTime=D[0.5]*[s]\r\n\
         BwModDatapoints=L[1]*[]\r\n\r\n"
         .to_owned();
+    text += sections;
     // Forward three of four points, backward one.
     for (group, frame, points, own) in [(0, "forward", 4, 3), (1, "backward", 1, 1)] {
         for (channel, name, unit, least, range) in [
@@ -203,10 +206,82 @@ fn nanosurf_curves_are_read_as_written() {
     check(&read_with(&unstated, &said).unwrap()[0], 4e-15);
 }
 
+/// Where the curves of a file with such tables of places were measured, along x and y [m], and all remarks.
+fn places(curves: usize, mode: &str, table: &str) -> (Vec<Option<[f64; 2]>>, String) {
+    let sections = format!(
+        "[DataSet\\SpecInfos\\SpecHeader]\r\nSpecMode={mode}\r\n\r\n[DataSet\\SpecInfos\\{}\r\n\r\n",
+        table.replace('|', "\r\n")
+    );
+    let all = read(&nid_with(curves, &sections)).unwrap();
+    all.iter().for_each(|own| check(own, 4e-15));
+    let place = |own: &Recording| own.header.position_m.map(|[x, y, _]| [x, y]);
+    let remarks = all.iter().flat_map(Recording::remarks).cloned();
+    (all.iter().map(place).collect(), remarks.collect())
+}
+
+fn check_places(found: &[Option<[f64; 2]>], expected: &[[f64; 2]]) {
+    assert_eq!(found.len(), expected.len());
+    for (own, known) in found.iter().zip(expected) {
+        let own = own.unwrap();
+        // Rounding of a few micrometres.
+        let is_near = own.iter().zip(known).all(|(a, b)| (a - b).abs() < 1e-20);
+        assert!(is_near, "{own:?} {known:?}");
+    }
+}
+
+/// Judge: places by hand, for the line of a real map of 10 × 10 curves, whose scan goes back and forth; a table that does
+/// not fit gives no places and a remark.
+#[test]
+fn nanosurf_map_has_the_places_of_its_grid() {
+    let table = |line: &str| format!("SpecMapTable]|Count=1|Map0={line}");
+    let real = table("-2.25e-06;2.25e-06;-2.25e-06;2.25e-06;10;10;0;1");
+    let (found, _) = places(22, "Map", &real);
+    let there = (0..10).map(|step| -2.25e-6 + 0.5e-6 * f64::from(step));
+    let there: Vec<f64> = there.collect();
+    let first = there.iter().map(|x| [*x, -2.25e-6]);
+    let second = there.iter().rev().map(|x| [*x, -1.75e-6]);
+    let third = [[-2.25e-6, -1.25e-6], [-1.75e-6, -1.25e-6]];
+    let expected: Vec<_> = first.chain(second).chain(third).collect();
+    check_places(&found, &expected);
+
+    let (found, _) = places(2, "Map", &table("1e-6;3e-6;2e-6;2e-6;2;1;0;0"));
+    check_places(&found, &[[1e-6, 2e-6], [3e-6, 2e-6]]);
+    let (found, _) = places(1, "Map", &table("1e-6;1e-6;2e-6;2e-6;1;1;0;0"));
+    check_places(&found, &[[1e-6, 2e-6]]);
+
+    for (line, why) in [
+        ("0;1e-6;0;1e-6;1;2;0;1", "fewer places than"),
+        ("0;1e-6;0;1e-6;0;9;0;1", "fewer places than"),
+        ("0;1e-6;0;1e-6;2;2;30;1", "rotated"),
+        ("0;1e-6;0;1e99;2;2;0;1", "not stated"),
+        ("0;1e-6;0;1e-6;2", "not stated"),
+        ("0;1e-6;0;1e-6;two;2;0;1", "not stated"),
+    ] {
+        let (found, remarks) = places(3, "Map", &table(line));
+        assert_eq!(found, [None; 3], "{line}");
+        assert!(remarks.contains(why), "{remarks}");
+    }
+}
+
+/// Judge: the numbers of the list, in the units that it states.
+#[test]
+fn nanosurf_list_of_places_is_read() {
+    let listed =
+        "SpecPosTable]|PosAxis=Z;X;Y|PosUnit=m;um;m|Count=2|Pos0=0;1.5;-2e-6|Pos1=0;-3;4e-6";
+    let (found, remarks) = places(2, "Position list", listed);
+    check_places(&found, &[[1.5e-6, -2e-6], [-3e-6, 4e-6]]);
+    assert!(!remarks.contains("not known"), "{remarks}");
+    let (found, remarks) = places(3, "Position list", listed);
+    assert_eq!(found, [None; 3]);
+    assert!(remarks.contains("fewer places than"), "{remarks}");
+}
+
 /// Files that are cut short are refused; those of which a byte is another are refused or read: never a panic.
 #[test]
 fn damaged_microscope_files_are_refused_or_read() {
-    for whole in [force_wave(false), force_wave(true), nid(2)] {
+    let table =
+        "[DataSet\\SpecInfos\\SpecMapTable]\r\nCount=1\r\nMap0=0;1e-6;0;1e-6;1;2;0;1\r\n\r\n";
+    for whole in [force_wave(false), force_wave(true), nid_with(2, table)] {
         for end in 0..whole.len() {
             match read(&whole[..end]) {
                 Ok(all) => panic!("{end} of {} bytes were read: {all:?}", whole.len()),

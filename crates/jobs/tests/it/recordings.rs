@@ -46,6 +46,31 @@ fn texts_answer_as_files_do() {
     );
 }
 
+/// A curve in two waves of Igor is one recording; a position without its deflection is named, to be refused by name.
+#[test]
+fn the_position_of_a_curve_is_no_recording_of_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    // Of the seeds for fuzzing: four deflections, which stand for positions too.
+    let seed = "../../fuzz/corpus/documents/1a4be55dbe945d9e4e797c4cf97ccbd229e6d7f8";
+    let wave = &fs::read(seed).unwrap()[1..];
+    let recordings = Recordings {
+        paths: vec![folder.path().to_owned()],
+        ..Recordings::default()
+    };
+    let seen = || {
+        let mut names = Vec::new();
+        // So few samples may be refused.
+        let _ = recordings.read(|path| {
+            names.push(path.file_name().unwrap().to_str().unwrap().to_owned());
+        });
+        names
+    };
+    fs::write(folder.path().join("Curve7ZSnsr.ibw"), wave).unwrap();
+    assert_eq!(seen(), ["Curve7ZSnsr.ibw"]);
+    fs::write(folder.path().join("Curve7Defl.ibw"), wave).unwrap();
+    assert_eq!(seen(), ["Curve7Defl.ibw"]);
+}
+
 /// The bounds are those of the settings: 0 is an answer without repeated fits, and from ten draws on there is a spread.
 #[test]
 fn too_few_draws_are_refused() {

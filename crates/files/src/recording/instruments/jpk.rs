@@ -8,8 +8,8 @@
 //! index/7/segments/0/…            a segment of curve 7 of a map
 //! ```
 //!
-//! *Limits*: the time between two segments is taken as none. Data that JPK's program processed and exported as floating
-//! point numbers are refused.
+//! *Limits*: the time between two segments is taken as none. No real file with a deflection in floating-point numbers was
+//! found; that of a height was.
 
 use std::collections::BTreeSet;
 
@@ -107,14 +107,16 @@ struct Map<'f> {
     general: &'f Properties,
 }
 
-/// How the deflection and the force come from volts.
+/// How the deflection and the force come from the values of their channel.
 struct Calibration {
-    /// Volts to metres.
+    /// Values to metres.
     deflection: Linear,
     /// Newtons per metre.
     spring_constant: f64,
-    /// Volts to newtons.
+    /// Values to newtons.
     force: Linear,
+    /// Metres per volt; none where the values are no volts and the file does not state it.
+    sensitivity: Option<f64>,
 }
 
 impl Map<'_> {
@@ -135,19 +137,19 @@ impl Map<'_> {
         for segment in &segments {
             let to_height = segment.conversion(height, slot);
             let to_height = to_height.ok_or_else(|| part("has a height that is not calibrated"))?;
-            let (heights, volts) = (segment.volts(height)?, segment.volts(DEFLECTION)?);
+            let (heights, values) = (segment.values(height)?, segment.values(DEFLECTION)?);
             let duration = segment.duration();
             let duration =
                 duration.ok_or_else(|| part("does not state how long a segment took"))?;
-            if heights.len() != volts.len() {
+            if heights.len() != values.len() {
                 return Err(part("has more samples in one channel than in another"));
             }
-            let step = duration / volts.len().max(1) as f64;
-            let times = (0..volts.len()).map(|sample| start + step * sample as f64);
+            let step = duration / values.len().max(1) as f64;
+            let times = (0..values.len()).map(|sample| start + step * sample as f64);
             curve.time.extend(times);
             curve.height.extend(to_height.of(&heights));
-            curve.deflection.extend(calibration.deflection.of(&volts));
-            curve.force.extend(calibration.force.of(&volts));
+            curve.deflection.extend(calibration.deflection.of(&values));
+            curve.force.extend(calibration.force.of(&values));
             start += duration;
             if curve.time.len() > MOST_SAMPLES {
                 return Err(part("has more than 33,554,432 samples"));
@@ -211,32 +213,64 @@ impl Map<'_> {
     }
 
     fn calibration(&self, segment: &Segment<'_>) -> Result<Calibration, Error> {
+        let said = self.file.said;
+        let base = segment.base(DEFLECTION);
+        let uncalibrated_spring = || {
+            let what = "the spring constant of its cantilever, in newtons per metre";
+            self.file.uncalibrated("spring_constant_n_per_m", what)
+        };
+        let stated = segment.last_step(DEFLECTION, "distance");
+        let stated = stated.filter(|(of, _)| *of == "volts");
+        let sensitivity = stated
+            .map(|(_, own)| own.multiplier)
+            .or(said.sensitivity_m_per_v);
+        if base == Some("force") {
+            let stated = segment.last_step(DEFLECTION, "force");
+            let stated = stated.filter(|(of, _)| *of == "distance");
+            let stiffness = stated.map(|(_, own)| own).or_else(|| {
+                let multiplier = said.spring_constant_n_per_m?;
+                Some(Linear {
+                    multiplier,
+                    ..Linear::SAME
+                })
+            });
+            let stiffness = stiffness
+                .filter(|own| Domain::STIFFNESS.contains(own.multiplier))
+                .ok_or_else(uncalibrated_spring)?;
+            return Ok(Calibration {
+                deflection: stiffness.inverse().ok_or_else(uncalibrated_spring)?,
+                spring_constant: stiffness.multiplier,
+                force: Linear::SAME,
+                sensitivity,
+            });
+        }
         let distance = segment.conversion(DEFLECTION, "distance");
         let force = segment.conversion(DEFLECTION, "force");
-        let sensitivity = distance
+        let multiplier = distance
             .map(|own| own.multiplier)
-            .or(self.file.said.sensitivity_m_per_v);
-        let sensitivity = sensitivity.filter(|own| *own != 0.0).ok_or_else(|| {
+            .or(said.sensitivity_m_per_v);
+        let multiplier = multiplier.filter(|own| *own != 0.0).ok_or_else(|| {
             let what = "the sensitivity of its optical lever, in metres per volt";
             self.file.uncalibrated("sensitivity_m_per_v", what)
         })?;
         let deflection = distance.unwrap_or(Linear {
-            offset: 0.0,
-            multiplier: sensitivity,
+            multiplier,
+            ..Linear::SAME
         });
-        let known = force.map(|force| force.multiplier / sensitivity);
+        let known = force.map(|force| force.multiplier / multiplier);
         let spring_constant = known
-            .or(self.file.said.spring_constant_n_per_m)
+            .or(said.spring_constant_n_per_m)
             .filter(|own| Domain::STIFFNESS.contains(*own))
-            .ok_or_else(|| {
-                let what = "the spring constant of its cantilever, in newtons per metre";
-                self.file.uncalibrated("spring_constant_n_per_m", what)
-            })?;
+            .ok_or_else(uncalibrated_spring)?;
         Ok(Calibration {
             force: force.unwrap_or(Linear {
                 offset: spring_constant * deflection.offset,
                 multiplier: spring_constant * deflection.multiplier,
             }),
+            sensitivity: match base {
+                Some("distance") => sensitivity,
+                _ => Some(multiplier),
+            },
             deflection,
             spring_constant,
         })
@@ -251,10 +285,18 @@ impl Map<'_> {
                 plain_quantity("_s", duration, None)
             )
         });
+        let base = segments.first().and_then(|own| own.base(DEFLECTION));
+        let by = match base {
+            Some("distance") => "in metres, by".to_owned(),
+            Some("force") => "in newtons, deflection by".to_owned(),
+            _ => {
+                let metres = plain_quantity("_m", calibration.deflection.multiplier, None);
+                format!("by {metres} per volt and")
+            }
+        };
         format!(
             "read as a force curve of JPK: height from `{height}`, less the deflection of the cantilever; force from `{DEFLECTION}` \
-             by {} per volt and {}; segments {}",
-            plain_quantity("_m", calibration.deflection.multiplier, None),
+             {by} {}; segments {}",
             plain_quantity("_n_per_m", calibration.spring_constant, None),
             each.collect::<Vec<_>>().join(", ")
         )
@@ -291,7 +333,8 @@ impl Map<'_> {
             site,
             position_m: position.map(|[x, y]| [x, y, 0.0]),
             spring_constant_n_per_m: Some(calibration.spring_constant),
-            sensitivity_m_per_v: Some(calibration.deflection.multiplier)
+            sensitivity_m_per_v: calibration
+                .sensitivity
                 .filter(|own| Domain::SENSITIVITY.contains(*own)),
             source: (!source.is_empty()).then(|| source.join(", ")),
             ..RecordingHeader::default()

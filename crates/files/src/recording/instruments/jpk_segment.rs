@@ -1,8 +1,8 @@
 //! One segment of a curve in a JPK file: its channels, decoded and converted.
 //!
-//! A channel holds whole numbers n. The encoder makes them volts, v = a + b n; each conversion makes the values of the one
-//! before it into its own, linearly: volts to metres by the sensitivity of the optical lever, metres to newtons by the
-//! spring constant. Keys that several segments share are elsewhere, by a number: `channel.height.lcd-info.*=0`.
+//! A channel holds whole numbers n, which its encoder makes into the values of its base, mostly volts, v = a + b n; or
+//! floating-point numbers, which are these values. Each conversion makes the values of the one before it into its own,
+//! linearly: volts to metres by the sensitivity of the optical lever, metres to newtons by the spring constant. Keys that several segments share are elsewhere, by a number: `channel.height.lcd-info.*=0`.
 
 use super::InstrumentFile;
 use super::properties::{Properties, number};
@@ -30,6 +30,20 @@ pub(super) struct Linear {
 }
 
 impl Linear {
+    pub(super) const SAME: Self = Self {
+        offset: 0.0,
+        multiplier: 1.0,
+    };
+
+    /// What makes values into those that this makes into them; none where it makes all of them one.
+    pub(super) fn inverse(self) -> Option<Self> {
+        let own = Self {
+            offset: -self.offset / self.multiplier,
+            multiplier: self.multiplier.recip(),
+        };
+        (own.offset.is_finite() && own.multiplier.is_finite()).then_some(own)
+    }
+
     pub(super) fn of(self, values: &[f64]) -> Vec<f64> {
         let each = values.iter();
         each.map(|value| self.offset + self.multiplier * value)
@@ -106,39 +120,52 @@ impl Segment<'_> {
         })
     }
 
-    /// What volts are multiplied by to be values of a `conversion`, such as `distance`; none where it is not defined.
+    /// What values of the base become as those of a `conversion`, such as `distance`; none where it is not defined.
     pub(super) fn conversion(&self, name: &str, conversion: &str) -> Option<Linear> {
-        let base = self.of_channel(name, "conversion-set.conversions.base")?;
-        let mut all = Linear {
-            offset: 0.0,
-            multiplier: 1.0,
-        };
+        let base = self.base(name)?;
+        let mut all = Linear::SAME;
         let mut next = conversion;
         for _ in 0..MOST_CONVERSIONS {
             if next == base {
                 return Some(all);
             }
-            let own = format!("conversion-set.conversion.{next}");
-            all = all.after(self.scaling(name, &own)?);
-            next = self.of_channel(name, &format!("{own}.base-calibration-slot"))?;
+            let (before, last) = self.last_step(name, next)?;
+            all = all.after(last);
+            next = before;
         }
         None
+    }
+
+    /// What the values of a channel are before any conversion, such as `volts`.
+    pub(super) fn base(&self, name: &str) -> Option<&str> {
+        self.of_channel(name, "conversion-set.conversions.base")
+    }
+
+    /// The last step of a `conversion`: the one that it is made of, and how.
+    pub(super) fn last_step(&self, name: &str, conversion: &str) -> Option<(&str, Linear)> {
+        let own = format!("conversion-set.conversion.{conversion}");
+        let before = self.of_channel(name, &format!("{own}.base-calibration-slot"))?;
+        Some((before, self.scaling(name, &own)?))
     }
 
     /// The conversion of a channel that its file prefers.
     pub(super) fn preferred(&self, name: &str) -> Option<&str> {
         self.of_channel(name, "conversion-set.conversions.default")
+            .or_else(|| self.base(name))
     }
 
-    /// The unit of the values of a conversion.
+    /// The unit of the values of a conversion, or of the base.
     pub(super) fn unit(&self, name: &str, conversion: &str) -> Option<&str> {
-        let key = format!("conversion-set.conversion.{conversion}.scaling.unit");
+        let key = match self.base(name) == Some(conversion) {
+            true => "unit".to_owned(),
+            false => format!("conversion-set.conversion.{conversion}.scaling.unit"),
+        };
         self.of_channel(name, &format!("{key}.unit"))
             .or_else(|| self.of_channel(name, &key))
     }
 
-    /// The values of a channel as its encoder has them, in volts.
-    pub(super) fn volts(&self, name: &str) -> Result<Vec<f64>, Error> {
+    /// The values of a channel as its base has them, mostly in volts.
+    pub(super) fn values(&self, name: &str) -> Result<Vec<f64>, Error> {
         let part = |end: &str| format!("{}{end}", self.folder);
         let missing = |cause| {
             self.file
@@ -146,21 +173,34 @@ impl Segment<'_> {
         };
         let key = format!("channel.{name}.data.file.name");
         let file = self.own.get(&key).ok_or_else(|| missing("is not there"))?;
-        let encoder = self.scaling(name, "encoder");
-        let encoder = encoder.ok_or_else(|| missing("does not state its encoder"))?;
+        let kind = self
+            .of_channel(name, "encoder.type")
+            .or_else(|| self.of_channel(name, "type"))
+            .ok_or_else(|| missing("does not state its type"))?;
         let file = part(file);
         let bytes = self.archive.read(&file);
         let bytes = bytes.map_err(|cause| self.file.damaged(&*file, cause))?;
         let bytes = bytes.ok_or_else(|| self.file.damaged(file, "is not there"))?;
-        let numbers = match self.of_channel(name, "encoder.type") {
-            Some("signedshort") => whole(&bytes, |own| f64::from(i16::from_be_bytes(own))),
-            Some("unsignedshort") => whole(&bytes, |own| f64::from(u16::from_be_bytes(own))),
-            Some("signedinteger") => whole(&bytes, |own| f64::from(i32::from_be_bytes(own))),
-            Some("signedlong") => whole(&bytes, |own| i64::from_be_bytes(own) as f64),
-            Some("unsignedinteger") => whole(&bytes, |own| f64::from(u32::from_be_bytes(own))),
-            _ => return Err(missing("is encoded in a way that is not read")),
+        let numbers = match kind {
+            "signedshort" => whole(&bytes, |own| f64::from(i16::from_be_bytes(own))),
+            "unsignedshort" => whole(&bytes, |own| f64::from(u16::from_be_bytes(own))),
+            "signedinteger" => whole(&bytes, |own| f64::from(i32::from_be_bytes(own))),
+            "signedlong" => whole(&bytes, |own| i64::from_be_bytes(own) as f64),
+            "unsignedinteger" => whole(&bytes, |own| f64::from(u32::from_be_bytes(own))),
+            "float-data" | "float" => whole(&bytes, |own| f64::from(f32::from_be_bytes(own))),
+            "double-data" | "double" => whole(&bytes, f64::from_be_bytes),
+            _ => {
+                return Err(missing(
+                    "is encoded in a way that is not read; export the curve as text from JPK's program, or name another height \
+                     by --depth",
+                ));
+            }
         };
-        Ok(encoder.of(&numbers))
+        match self.scaling(name, "encoder") {
+            Some(encoder) => Ok(encoder.of(&numbers)),
+            None if kind.starts_with(['f', 'd']) => Ok(numbers),
+            None => Err(missing("does not state its encoder")),
+        }
     }
 }
 

@@ -8,14 +8,19 @@
 //! short and changed byte by byte.
 
 mod igor;
+mod igor_pair;
+mod igor_wave;
 mod jpk;
 mod jpk_segment;
 mod nanosurf;
+mod nanosurf_places;
 mod optics11;
 mod properties;
 mod zip;
 
 use std::path::Path;
+
+pub use igor_pair::{deflection_beside, position_beside};
 
 use super::{ForeignColumns, Origin, Recording, RecordingHeader, Samples};
 use crate::whole_file::{MOST_OF_TABLE, read_bytes};
@@ -60,7 +65,7 @@ impl Recording {
         if jpk::is_archive(bytes) {
             return jpk::read(&file);
         }
-        if igor::is_wave(bytes) {
+        if igor_wave::is_wave(bytes) {
             return Ok(vec![igor::read(&file)?]);
         }
         if nanosurf::is_nid(bytes) {

@@ -5,13 +5,14 @@
 //! place of a map; those of the way back are written from the end to the beginning. Samples are even in the time that the
 //! header states for a line without a trigger.
 //!
-//! *How we know*: `instruments::nanosurf_…`, and a map of 100 curves against the vendor's own reader
+//! *How we know*: `microscopes::nanosurf_…`, and a map of 100 curves against the vendor's own reader
 //! (`docs/comparisons/recordings.md`).
 //!
-//! *Limits*: places of a map are not read; images and spectra in the same file are passed over.
+//! *Limits*: images and spectra in the same file are passed over.
 
 use std::collections::BTreeMap;
 
+use super::nanosurf_places::Places;
 use super::properties::number;
 use super::{Curve, InstrumentFile, MOST_SAMPLES};
 use crate::quantity::plain_quantity;
@@ -44,7 +45,7 @@ pub(super) fn is_nid(bytes: &[u8]) -> bool {
 type Section<'t> = BTreeMap<&'t str, &'t str>;
 
 /// The header's sections, by their names.
-struct Header<'t>(BTreeMap<&'t str, Section<'t>>);
+pub(super) struct Header<'t>(BTreeMap<&'t str, Section<'t>>);
 
 impl<'t> Header<'t> {
     fn parse(text: &'t str) -> Self {
@@ -61,7 +62,7 @@ impl<'t> Header<'t> {
         Self(sections)
     }
 
-    fn get(&self, section: &str, key: &str) -> Option<&'t str> {
+    pub(super) fn get(&self, section: &str, key: &str) -> Option<&'t str> {
         self.0.get(section)?.get(key).copied()
     }
 
@@ -130,6 +131,7 @@ pub(super) fn read(file: &InstrumentFile<'_>) -> Result<Vec<Recording>, Error> {
         header: &header,
         channels: &channels,
         is_map: lines > 1,
+        places: Places::of(&header, lines),
     };
     let (mut all, mut samples) = (Vec::new(), 0);
     for line in 0..lines {
@@ -217,6 +219,7 @@ struct Curves<'f> {
     header: &'f Header<'f>,
     channels: &'f [Channel<'f>],
     is_map: bool,
+    places: Places,
 }
 
 const PARAMETERS: &str = "DataSet\\Parameters\\Spectroscopy";
@@ -326,11 +329,17 @@ impl Curves<'_> {
              spring constant {}",
             plain_quantity("_n_per_m", spring_constant, None)
         );
+        let mut remarks = vec![remark];
+        remarks.extend(self.places.cause().map(|cause| {
+            format!(
+                "the place of the curve is not known, for the table of places is not used: {cause}"
+            )
+        }));
         curve.recording(
             self.file,
             &part,
             self.recording_header(line, spring_constant),
-            vec![remark],
+            remarks,
         )
     }
 
@@ -343,6 +352,7 @@ impl Curves<'_> {
             site: self
                 .is_map
                 .then(|| format!("{} {line}", stem.to_string_lossy())),
+            position_m: self.places.of_curve(line).map(|[x, y]| [x, y, 0.0]),
             spring_constant_n_per_m: Some(spring_constant),
             sensitivity_m_per_v: self.file.said.sensitivity_m_per_v,
             source: Some(
