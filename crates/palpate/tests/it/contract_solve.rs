@@ -70,7 +70,7 @@ fn weight_and_loads_in_boxes_and_balls_are_carried() {
     assert_eq!(vector(&points[2]["at_m"]), [0.0, 0.0, 0.05]);
     let warnings = answer["warnings"].to_string();
     assert!(
-        warnings.contains("`points_m[2]` is 0.03 m outside of the body"),
+        warnings.contains("`points_m[2]` is 0.0300 m outside of the body"),
         "{warnings}"
     );
 }

@@ -16,7 +16,9 @@ pub fn affine_force(tool: &Tool, state: &ToolState, time: f64) -> AffineForce {
         return organ;
     };
     let pushed = state.is_pushed().then(|| state.pushed.force.normalize());
-    let normal = match (organ.contact, state.stopped.normal, pushed) {
+    // A tip that a wall wraps around has no law of its own: its points push it, as they do a shaft.
+    let has_law = organ.contact && organ.gradient != nalgebra::Matrix3::zeros();
+    let normal = match (has_law, state.stopped.normal, pushed) {
         (_, None, None) => return organ,
         (false, Some(normal), None) | (false, None, Some(normal)) => normal,
         // Two surfaces that push have no one normal.
