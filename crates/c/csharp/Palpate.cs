@@ -446,7 +446,7 @@ namespace Palpate
     {
         const string Library = "palpate_c";
         /// <summary>PALPATE_ABI of the header that this was written after.</summary>
-        const uint Abi = 1;
+        const uint Abi = 2;
 
         [StructLayout(LayoutKind.Sequential)]
         internal struct Preparation

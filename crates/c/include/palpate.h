@@ -143,7 +143,7 @@
  * The layout of structures and the signatures of functions in this header. It changes whenever programs have to be
  * recompiled; a program that loads the library at run time compares it with palpate_abi() first.
  */
-#define PALPATE_ABI 1
+#define PALPATE_ABI 2
 
 /**
  * How a call ended: the exit statuses of the command `palpate`.

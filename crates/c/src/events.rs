@@ -86,7 +86,7 @@ mod tests {
     fn bits_are_those_that_programs_were_compiled_with() {
         let bits = Event::WORDS.iter().map(|&(_, event)| bit(event));
         let told: Vec<u32> = bits.filter(|&bit| bit != 0).collect();
-        let expected: Vec<u32> = (0..=21)
+        let expected: Vec<u32> = (0..=23)
             .filter(|place| ![9, 10, 12].contains(place))
             .map(|place| 1 << place)
             .collect();

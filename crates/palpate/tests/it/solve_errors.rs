@@ -264,7 +264,10 @@ fn loads_that_are_none() {
     let refused_load = |more: &str, words: &[&str]| {
         refused(&load(&format!("{force}, {more}")), words);
     };
-    refused(&load(force), &["`load[0].region` is missing", "line"]);
+    refused(
+        &load(force),
+        &["`load[0].box_m` is missing", "region", "line"],
+    );
     refused(
         &load("force_n = [0.0, 0.0, 0.0], region = {}"),
         &["line 7", "`load[0].force_n` is [0.0, 0.0, 0.0]", "not zero"],
