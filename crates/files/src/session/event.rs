@@ -178,7 +178,7 @@ mod tests {
         assert_eq!(Events::from_words("cut;contact"), Some(events));
         assert_eq!(Events::from_words(""), Some(Events::NONE));
         assert_eq!(Events::from_words("contact;sneeze"), None);
-        assert_eq!(Event::WORDS.len(), 22);
+        assert_eq!(Event::WORDS.len(), 24);
     }
 
     #[test]
