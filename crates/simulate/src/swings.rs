@@ -37,7 +37,7 @@ impl Swings {
             self.turns = [self.turns[1], Some(at)];
             self.rises = self.rises.map(|rises| !rises);
         }
-        if ahead >= 0.0 || ahead < -LEAST {
+        if !(-LEAST..0.0).contains(&ahead) {
             self.extreme = Some((depth, time));
         }
     }

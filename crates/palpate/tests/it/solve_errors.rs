@@ -278,7 +278,11 @@ fn loads_that_are_none() {
     );
     refused_load(
         "region = { spheres = [{ center_m = [1.0, 0.0, 0.0], radius_m = 0.1 }] }",
-        &["line 7", "`load[0].region`", "without a part of the surface"],
+        &[
+            "line 7",
+            "`load[0].region`",
+            "without a part of the surface",
+        ],
     );
     refused_load(
         "line = { from_m = [0.0, 0.0, 0.05], to_m = [0.0, 0.0, 0.05] }",
