@@ -36,9 +36,9 @@ A problem names a body, its tissue and its loads. This is punch.toml:
     "
 The keys of each kind:
   indentation  block = { radius_m, height_m, base = \"bonded\" | \"lubricated\" }, outer side free;
-               indenter = { radius_m, face = \"stick\" | \"slip\", side = \"stick\" | \"slide\" | \"none\" },
-               or { shape = \"sphere\", radius_m, face }, or { shape = \"cone\", half_angle_deg,
-               radius_m (of its base), face }; depths_m, or
+               indenter = { radius_m, face = \"stick\" | \"slip\", or friction, side = \"stick\" |
+               \"slide\" | \"none\" }, or { shape = \"sphere\", radius_m, face }, or
+               { shape = \"cone\", half_angle_deg, radius_m (of its base), face }; depths_m, or
                ramp = { depth_m, ramp_s, hold_s, samples, method = \"convolution\" | \"full\" }
   hemisphere   radius_m, patch_radius_m, patch = \"slip\" | \"bonded\", depth_m; a linear tissue
   tube         length_m, inner_radius_m, outer_radius_m, ends fixed; pressure_pa or pressures_pa,
@@ -46,11 +46,11 @@ The keys of each kind:
   uniaxial     stretches
   solid        mesh (a surface or tetrahedra) and mesh_unit, or builtin and triangles; anchor as in
                a scene; patch = { center_m, radius_m, displacement_m, contact = \"stick\" | \"slip\" },
-               gravity_m_per_s2, or [[load]] with force_n and box_m = [[x, y, z], [x, y, z]], center_m
-               and radius_m, region = { planes, boxes, spheres } or line = { from_m, to_m };
-               points_m, whose displacement_m is asked for; [[point]] with name, at_m, and perhaps
-               along and measured_m, to which fit_stiffness = true fits the tissue; [[region]] with
-               name, tissue and a shape: layer, ball, ellipsoid, capsule, surface or label
+               gravity_m_per_s2, or [[load]] with force_n and a place: box_m, center_m and radius_m,
+               region = { planes, boxes, spheres } or line = { from_m, to_m }; points_m, whose
+               displacement_m is asked for; [[point]] with name, at_m, and perhaps along and
+               measured_m, to which fit_stiffness = true fits the tissue; [[region]] with name,
+               tissue and a shape: layer, ball, ellipsoid, capsule, surface or label
 All have format = 1, kind, accuracy (0.01 if not given), and tissue (a table or a file) or \
 builtin_tissue, as in a scene. A key ends in its unit; depths_mm is read as well as depths_m. \
 Moduli are instantaneous; only a ramp relaxes. `palpate examples DIR` writes a problem of each kind."
