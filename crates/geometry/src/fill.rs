@@ -8,19 +8,23 @@
 //! at most, whatever the surface.
 //!
 //! *How we know*: `fill::angles_hold_wherever_the_lattice_lies`, `fill::volume_converges_with_order_two`,
-//! `fill::real_organs_are_filled`, `fill::a_thin_rim_is_filled_where_it_is_asked_for`.
+//! `fill::real_organs_are_filled`, `fill::a_thin_rim_is_filled_where_it_is_asked_for`,
+//! `fill::a_lost_rod_is_told_with_its_end`.
 //!
 //! *Limits*: sharp edges are cut off by up to a third of an edge. What is thinner than about two
-//! edges may be lost; then the coarseness is refused, or [`fill_graded`] is finer there. Where a thin gap would leave tetrahedra that
+//! edges may be lost; then the coarseness is refused, or [`Fidelity`] tells what is missing and
+//! where. [`fill_graded`] is finer where it is asked to be. Where a thin gap would leave tetrahedra that
 //! touch in an edge or a vertex only, a few are taken away and the boundary lies off the surface.
 
 mod background;
+mod fidelity;
 mod graded;
 mod lattice;
 mod repair;
 mod stencil;
 
 use self::background::Background;
+pub use self::fidelity::Fidelity;
 use self::graded::GradedLattice;
 use self::lattice::Lattice;
 use self::stencil::Filling;

@@ -48,7 +48,7 @@ pub use cut::error::CutError;
 pub use cut::net::{Origin, Side};
 pub use cut::{CutMethod, CutProgress, CutSurface};
 pub use deviation::{Deviation, deviation};
-pub use fill::{FillSettings, fill, fill_graded};
+pub use fill::{Fidelity, FillSettings, fill, fill_graded};
 pub use io::error::{ReadError, ReadFault, UnknownUnit};
 pub use io::format::MeshFormat;
 pub use io::label_map::dicom::{DicomFolder, DicomSeries, read_dicom_folder};

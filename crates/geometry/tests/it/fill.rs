@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use palpate_geometry::{
-    FillSettings, Organ, Surface, TetrahedronError, TriangleMesh, Vec3, fill, fill_graded,
-    read_mesh, refine_to,
+    Fidelity, FillSettings, NodeId, Organ, Surface, TetrahedronError, TriangleMesh, Vec3, fill,
+    fill_graded, read_mesh, refine_to,
 };
 
 use crate::data;
@@ -97,6 +97,35 @@ fn a_thin_rim_is_filled_where_it_is_asked_for() {
         "{}",
         report(&relaxed)
     );
+}
+
+/// Judge: construction. A vertex of a kidney is drawn out to a rod that is far thinner than the lattice: its end is what
+/// is missing, by its length; a fine filling of the kidney itself deserves no warning, and a coarse one does.
+#[test]
+fn a_lost_rod_is_told_with_its_end() {
+    let (surface, _) = organ(Organ::Kidney, 20_000);
+    let mut mesh = surface.mesh().clone();
+    let vertices = mesh.vertices().iter().enumerate();
+    let (highest, top) = vertices
+        .max_by(|(_, a), (_, b)| a.z.total_cmp(&b.z))
+        .unwrap();
+    let (length, edge) = (0.02, 0.002);
+    let end = top + length * Vec3::z();
+    mesh.move_vertex(NodeId(highest as u32), end);
+    let with_rod = Surface::new(mesh).unwrap();
+    let of = |surface: &Surface, edge| {
+        let filling = fill(surface, &FillSettings::new(edge)).unwrap();
+        Fidelity::of(&filling, surface)
+    };
+    let found = of(&with_rod, edge);
+    assert_eq!(found.place, end);
+    // Some of its root is filled, and the lattice rounds the end of the kidney.
+    assert!((length - 3.0 * edge..length + edge).contains(&found.distance));
+    let said = found.warning(edge).unwrap();
+    assert!(said.contains("mm from it") && said.contains(&format!("{:.4}", end.z)));
+    assert_eq!(of(&surface, edge).warning(edge), None);
+    let coarse = of(&surface, 4.0 * edge);
+    assert!(coarse.volume < -0.005 && coarse.warning(4.0 * edge).is_some());
 }
 
 /// Judge: the volume of the surface that is filled. Chords of a curved side and cut-off edges both

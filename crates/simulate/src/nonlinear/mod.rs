@@ -47,8 +47,8 @@ pub(crate) use touch::Moved;
 use nalgebra::Rotation3;
 use palpate_files::Scene;
 use palpate_geometry::{
-    AabbTree, FillSettings, NodeId, Surface, TetrahedronError, TetrahedronMesh, TriangleMesh, Vec3,
-    coarsen, fill, refine_to,
+    AabbTree, Fidelity, FillSettings, NodeId, Surface, TetrahedronError, TetrahedronMesh,
+    TriangleMesh, Vec3, coarsen, fill, refine_to,
 };
 use palpate_mechanics::contact::{Tip, hertz_force};
 use palpate_mechanics::nonlinear::{
@@ -160,13 +160,18 @@ impl NonlinearOrgan {
             soft,
             neighbours,
         } = beside;
-        let organ = tetrahedra(surface, scene.model.nodes.unwrap_or(NODES), &regions)?;
+        let nodes = scene.model.nodes.unwrap_or(NODES);
+        let organ = tetrahedra(surface, nodes, &regions)?;
         let mut series = regions.series();
         let own = regions.of_elements(&organ);
         let filled = soft
             .iter()
             .map(|body| tetrahedra(&body.surface, body.nodes, &body.regions));
         let filled = filled.collect::<Result<Vec<_>, _>>()?;
+        let bodies = soft.iter().zip(&filled);
+        let bodies = bodies.map(|(body, mesh)| missing(&body.surface, body.nodes, mesh));
+        let missing = std::iter::once(missing(surface, nodes, &organ)).chain(bodies);
+        let missing: Vec<_> = missing.flatten().collect();
         let mut elements = own;
         for (body, mesh) in soft.iter().zip(&filled) {
             elements.extend(body.regions.of_elements(mesh), series.len());
@@ -179,6 +184,7 @@ impl NonlinearOrgan {
             densities,
             mut warnings,
         } = elements;
+        warnings.extend(missing);
         warnings.extend(regions.warnings.iter().cloned());
         let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
         let is_held = |tetrahedron: usize, place: &Vec3| {
@@ -334,4 +340,11 @@ fn tetrahedra(
     let detail = |place: &Vec3| edge / longest(place);
     let mesh = filling.and_then(|fine| coarsen(&fine, nodes, volume, detail));
     mesh.map_err(|error| palpate_mechanics::Error::from(error).into())
+}
+
+/// A warning where the mesh of so many nodes lacks a part of the body within `surface`.
+fn missing(surface: &Surface, nodes: usize, mesh: &TetrahedronMesh) -> Option<String> {
+    let edge = FillSettings::with_about(surface, nodes).edge;
+    let warning = Fidelity::of(mesh, surface).warning(edge)?;
+    Some(format!("{warning}; more `nodes` follow it closer"))
 }

@@ -61,6 +61,11 @@ impl TetrahedronMesh {
     /// # Errors
     /// When it touches itself in an edge or a vertex.
     pub fn boundary_surface(&self) -> Result<Surface, MeshError> {
+        Surface::new(self.boundary_mesh())
+    }
+
+    /// The triangles of the boundary with vertices of their own, which may touch in an edge or a vertex.
+    pub(crate) fn boundary_mesh(&self) -> TriangleMesh {
         let mut number = vec![None; self.vertices.len()];
         let mut vertices = Vec::new();
         let mut own = |node: NodeId| {
@@ -73,7 +78,7 @@ impl TetrahedronMesh {
         let triangles = triangles
             .map(|(corners, _)| corners.map(&mut own))
             .collect();
-        Surface::new(TriangleMesh::new(vertices, triangles)?)
+        TriangleMesh::new(vertices, triangles).expect("tetrahedra have a boundary")
     }
 
     /// For each tetrahedron the number of its piece. Pieces hang together over faces and are

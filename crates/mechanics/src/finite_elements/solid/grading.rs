@@ -20,8 +20,8 @@ use std::rc::Rc;
 
 use palpate_files::scene::Region;
 use palpate_geometry::{
-    FillSettings, Level, Surface, TetrahedronError, TetrahedronMesh, closest_on_triangle, fill,
-    fill_graded, refine_to, resolve_levels,
+    Fidelity, FillSettings, Level, Surface, TetrahedronError, TetrahedronMesh, closest_on_triangle,
+    fill, fill_graded, refine_to, resolve_levels,
 };
 
 use super::mesh::faces;
@@ -78,6 +78,8 @@ const OFF: f64 = 0.01;
 pub(super) struct MeshContext<'a> {
     body: &'a Body,
     filling: TetrahedronMesh,
+    /// Edge of the lattice that filled a surface [m].
+    lattice: Option<f64>,
     patch: Option<PatchEdge>,
     /// Points where the anchor ends [m].
     rim: Vec<Vec3>,
@@ -150,7 +152,7 @@ impl<'a> MeshContext<'a> {
         let (patch, warnings) = patch.transpose()?.unzip();
         let warnings: Vec<String> = warnings.unwrap_or_default();
         let regions = Rc::new(SolidRegions::new(problem)?);
-        let context = |filling: TetrahedronMesh| {
+        let context = |filling: TetrahedronMesh, lattice: Option<f64>| {
             let spacing = AT_ANCHOR * filling.quality().longest_edge;
             let rim = triangles.iter();
             let rim = rim.flat_map(|triangle| rim_in(triangle, &problem.anchor, spacing));
@@ -158,6 +160,7 @@ impl<'a> MeshContext<'a> {
                 body,
                 rim: rim.collect(),
                 filling,
+                lattice,
                 patch: patch.clone(),
                 regions: regions.clone(),
                 warnings: warnings.clone(),
@@ -165,11 +168,11 @@ impl<'a> MeshContext<'a> {
         };
         let surface = match body {
             Body::Surface(surface) => surface,
-            Body::Volume(mesh) => return Ok(context(mesh.clone())),
+            Body::Volume(mesh) => return Ok(context(mesh.clone(), None)),
         };
         let (coarse, edge) = filling(surface)?;
         let Some(PatchEdge { center, radius, .. }) = &patch else {
-            return Ok(context(coarse));
+            return Ok(context(coarse, Some(edge)));
         };
         let (center, radius) = (*center, *radius);
         let wanted = area_within(radius, &center, surface);
@@ -178,7 +181,7 @@ impl<'a> MeshContext<'a> {
                 near + SPREAD * ((point - center).norm() - 1.5 * radius).max(0.0)
             })
         };
-        let mut closest = context(coarse);
+        let mut closest = context(coarse, Some(edge));
         let mut found = closest.area_of_patch()?;
         let missed = |found: f64| (found / wanted - 1.0).abs();
         for halvings in 0..FINER_FILLINGS {
@@ -188,7 +191,7 @@ impl<'a> MeshContext<'a> {
             let Ok(tetrahedra) = finer(radius * 2.0_f64.powi(-halvings)) else {
                 break;
             };
-            let next = context(tetrahedra);
+            let next = context(tetrahedra, Some(FINER * edge));
             let area = next.area_of_patch()?;
             if missed(area) < missed(found) {
                 (closest, found) = (next, area);
@@ -265,7 +268,10 @@ impl<'a> MeshContext<'a> {
         }));
         let (mesh, resolved) = resolve_levels(mesh, surface, &levels)?;
         let (circle, borders) = resolved.split_at(usize::from(circle.is_some()));
-        let (mesh, warnings) = self.regions.put(mesh, borders)?;
+        let (mesh, mut warnings) = self.regions.put(mesh, borders)?;
+        if let Some((surface, lattice)) = surface.zip(self.lattice) {
+            warnings.extend(Fidelity::of(&mesh, surface).warning(lattice));
+        }
         Ok(Graded {
             mesh,
             crossing: circle.iter().map(|level| level.crossing).sum(),
