@@ -70,6 +70,6 @@ fn a_patch_on_a_thin_edge_has_its_area() {
     let thin = answer
         .warnings
         .iter()
-        .find(|warning| warning.contains("thin"));
+        .find(|warning| warning.contains("thin at the patch"));
     assert_eq!(thin, None);
 }
