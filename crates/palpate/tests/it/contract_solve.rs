@@ -77,6 +77,7 @@ fn weight_and_loads_in_boxes_and_balls_are_carried() {
 
 /// Judge: the same body in the words of the first version, to the last bit.
 #[test]
+#[ignore = "slow: elements in layers and shapes, minutes"]
 fn regions_are_layers_and_inclusions() {
     let soft = "tissue = { law = \"linear\", youngs_modulus_pa = 5000.0, poissons_ratio = 0.45 }\n";
     let now = solve(&format!(
@@ -138,6 +139,7 @@ fn cube_in_millimetres(edge: f64) -> String {
 
 /// A closed surface inside, with its unit. Judge: the volume of a cube.
 #[test]
+#[ignore = "slow: elements in layers and shapes, minutes"]
 fn a_region_is_the_inside_of_a_surface() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();

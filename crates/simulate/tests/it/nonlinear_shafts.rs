@@ -226,10 +226,20 @@ fn sessions_say_whether_a_shaft_was_known() {
     }
 }
 
-/// Whatever a tool with a shaft does, at up to a metre a second: every force is a number, and the organ is at rest
-/// afterwards.
 #[test]
+fn a_few_gestures_with_shafts_leave_an_organ_at_rest() {
+    at_rest_after(1);
+}
+
+#[test]
+#[ignore = "slow: 24 gestures, minutes"]
 fn random_gestures_with_shafts_leave_an_organ_at_rest() {
+    at_rest_after(4);
+}
+
+/// Whatever a tool with a shaft does, at up to a metre a second: every force is a number, and the organ is at rest
+/// afterwards. So many `times`, of six gestures each.
+fn at_rest_after(times: usize) {
     let setting = Setting {
         organ: "builtin = \"liver\"\ntriangles = 800",
         model: "nodes = 700",
@@ -239,7 +249,7 @@ fn random_gestures_with_shafts_leave_an_organ_at_rest() {
     let simulation = setting.simulation();
     let tree = AabbTree::new(simulation.surface().mesh());
     let mut random = Random(11);
-    for _ in 0..4 {
+    for _ in 0..times {
         let mut hands = Hands::new(&simulation);
         let any = |random: &mut Random| {
             let (point, normal) = nearest(&simulation, &tree, &random.place(&simulation).0);
