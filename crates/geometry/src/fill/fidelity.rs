@@ -1,7 +1,6 @@
 use crate::{AabbTree, Surface, TetrahedronMesh, Vec3};
 
-/// More volume than this part must not be missing unsaid [-]: half of a percent, a tenth of what the force of an organ
-/// may be off.
+/// A volume that is off by more than this part is told [-]: a tenth of what the force of an organ may be off.
 const VOLUME: f64 = 0.005;
 
 /// How faithfully tetrahedra fill a surface.
@@ -32,8 +31,8 @@ impl Fidelity {
         }
     }
 
-    /// A sentence where half of a percent of the volume is missing, or a part longer than an `edge` [m] of the lattice:
-    /// edges and corners are rounded by less.
+    /// A sentence where the volume is off by more than half of a percent, or a part longer than an `edge` [m] of the
+    /// lattice is missing: edges and corners are rounded by less.
     pub fn warning(&self, edge: f64) -> Option<String> {
         let Self {
             volume,
@@ -43,16 +42,18 @@ impl Fidelity {
         if volume.abs() <= VOLUME && *distance <= edge {
             return None;
         }
-        let missing = match volume.abs() > VOLUME {
-            true if *volume < 0.0 => {
-                format!("{:.1} % of the volume is missing, and ", -100.0 * volume)
+        let off = match *volume {
+            less if less < -VOLUME => {
+                format!("{:.1} % of the volume is missing, and ", -100.0 * less)
             }
-            true => format!("there is {:.1} % too much volume, and ", 100.0 * volume),
-            false => String::new(),
+            more if more > VOLUME => {
+                format!("there is {:.1} % too much volume, and ", 100.0 * more)
+            }
+            _ => String::new(),
         };
         let [x, y, z]: [f64; 3] = (*place).into();
         Some(format!(
-            "the tetrahedra follow the surface with edges of about {:.1} mm: {missing}they end up to {:.1} mm from it, \
+            "the tetrahedra follow the surface with edges of about {:.1} mm: {off}they end up to {:.1} mm from it, \
              at ({x:.4}, {y:.4}, {z:.4}) m, where it is sharp or thin",
             1e3 * edge,
             1e3 * distance,

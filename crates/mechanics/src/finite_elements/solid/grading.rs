@@ -206,6 +206,14 @@ impl<'a> MeshContext<'a> {
         Ok(closest)
     }
 
+    /// A warning where `mesh` lacks a part of the body.
+    pub(super) fn missing(&self, mesh: &TetrahedronMesh) -> Option<String> {
+        match (self.body, self.lattice) {
+            (Body::Surface(surface), Some(edge)) => Fidelity::of(mesh, surface).warning(edge),
+            _ => None,
+        }
+    }
+
     /// On the first mesh [m²].
     fn area_of_patch(&self) -> Result<f64, Error> {
         let mesh = self.mesh(0)?.mesh;
@@ -268,10 +276,7 @@ impl<'a> MeshContext<'a> {
         }));
         let (mesh, resolved) = resolve_levels(mesh, surface, &levels)?;
         let (circle, borders) = resolved.split_at(usize::from(circle.is_some()));
-        let (mesh, mut warnings) = self.regions.put(mesh, borders)?;
-        if let Some((surface, lattice)) = surface.zip(self.lattice) {
-            warnings.extend(Fidelity::of(&mesh, surface).warning(lattice));
-        }
+        let (mesh, warnings) = self.regions.put(mesh, borders)?;
         Ok(Graded {
             mesh,
             crossing: circle.iter().map(|level| level.crossing).sum(),

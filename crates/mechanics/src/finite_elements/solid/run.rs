@@ -154,6 +154,7 @@ impl SolidProblem {
         }
         answer.warnings.clone_from(&context.warnings);
         answer.warnings.extend(graded.warnings);
+        answer.warnings.extend(context.missing(&tetrahedra));
         if crossing > 0 {
             answer.warnings.push(format!(
                 "{crossing} edges of the mesh cross the edge of the patch, whose area is {:.3e} m²",
