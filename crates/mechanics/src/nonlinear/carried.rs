@@ -1,55 +1,73 @@
 //! Points that a body carries: those of the surface that is seen.
+//!
+//! A point in an element goes as that does. One outside goes with the nearest point of the boundary and turns about it with the
+//! body there: with Y that point, u its displacement and Q the rotation of the body there, X moves by
+//!
+//! ```text
+//! u(Y) + (Q(Y) − 1) (X − Y)
+//! ```
+//!
+//! Both are continuous along the boundary, so that a surface that is seen has no steps where elements end; quadratic
+//! functions grow fast outside their element, and differ from element to element.
 
 use std::ops::Range;
 
-use palpate_geometry::TetrahedronMesh;
+use nalgebra::Matrix3;
+use palpate_geometry::{AabbTree, NodeId, TetrahedronMesh, TriangleMesh};
 
+use super::boundary::shape_on_face;
 use super::elements::NODES;
+use super::state::NonlinearState;
 use crate::Vec3;
 use crate::finite_elements::ElementKind;
+use crate::finite_elements::solid::{Face, faces};
 
-/// Points with the element that each belongs to.
+/// A point that is less outside its element than this, in barycentric coordinates, is in it [-]: rounding.
+const OUTSIDE: f64 = 1e-9;
+
+/// Points with what each goes with.
 #[derive(Debug, Clone, Default)]
 pub struct CarriedPoints {
-    points: Vec<([u32; NODES], [f32; NODES])>,
+    points: Vec<CarriedPoint>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct CarriedPoint {
+    /// What it goes with, with weights [-].
+    nodes: [u32; NODES],
+    shape: [f32; NODES],
+    /// Where it is beside that [m], and what it turns with, with weights [-]; none in an element.
+    beside: Option<(Vec3, [(u32, f64); 3])>,
 }
 
 impl CarriedPoints {
-    /// `elements` are the nodes of the quadratic tetrahedra of `mesh`, of which those of `range` carry the `points`. A point outside goes with the tetrahedron whose
-    /// smallest barycentric coordinate there is the largest, as the point of it does whose coordinates are cut off at zero:
-    /// quadratic functions grow fast outside.
+    /// `elements` are the nodes of the quadratic tetrahedra of `mesh`, of which those of `range` carry the `points`.
     pub(super) fn new(
         mesh: &TetrahedronMesh,
         elements: &[u32],
         (points, range): (&[Vec3], Range<usize>),
     ) -> Self {
-        let frames: Vec<_> = range
-            .clone()
-            .map(|t| {
-                let [a, b, c, d] = mesh.positions(t);
-                let edges = nalgebra::Matrix3::from_columns(&[b - a, c - a, d - a]);
-                // Tetrahedra of a mesh are not flat.
-                (a, edges.try_inverse().unwrap_or_default())
-            })
+        let faces = faces(mesh).into_iter();
+        let faces: Vec<Face> = faces
+            .filter(|face| range.contains(&face.tetrahedron))
             .collect();
+        let corners = faces.iter().map(|face| face.corners).collect();
+        // Faces of a mesh are triangles of its vertices.
+        let Ok(boundary) = TriangleMesh::new(mesh.vertices().to_vec(), corners) else {
+            return Self::default();
+        };
+        let tree = AabbTree::new(&boundary);
+        let inside = InElements::new(mesh, range);
         let points = points.iter().map(|point| {
-            let (mut best, mut found) = (f64::NEG_INFINITY, (0, [0.0; 3]));
-            for (number, (corner, inverse)) in range.clone().zip(&frames) {
-                let [x, y, z]: [f64; 3] = (inverse * (point - corner)).into();
-                let least = (1.0 - x - y - z).min(x).min(y).min(z);
-                if least > best {
-                    (best, found) = (least, (number, [x, y, z]));
-                }
-            }
-            let (number, at) = found;
-            let at = within(at);
-            let own = &elements[number * NODES..][..NODES];
-            let mut shape = [0.0; NODES];
-            ElementKind::Tet10.shape(at, &mut shape);
-            (
-                std::array::from_fn(|k| own[k]),
-                shape.map(|value| value as f32),
-            )
+            inside.of(elements, point).unwrap_or_else(|| {
+                let nearest = tree.nearest(&boundary, point);
+                let on = nearest.on;
+                CarriedPoint::beside(
+                    &faces[nearest.triangle.index()],
+                    on.barycentric,
+                    point - on.position,
+                )
+            })
         });
         Self {
             points: points.collect(),
@@ -71,25 +89,176 @@ impl CarriedPoints {
         self.points.is_empty()
     }
 
-    /// Displacement [m] of each point, in their order, where the nodes have the `displacements` [m].
+    /// Displacement [m] of each point, in their order, where the body is in `state`.
     pub fn displacements<'a>(
         &'a self,
-        displacements: &'a [f64],
+        state: &'a NonlinearState,
     ) -> impl Iterator<Item = Vec3> + 'a {
-        self.points.iter().map(|(nodes, shape)| {
-            let mut sum = Vec3::zeros();
-            for (&node, &weight) in nodes.iter().zip(shape) {
-                let u = &displacements[3 * node as usize..][..3];
-                sum += f64::from(weight) * Vec3::new(u[0], u[1], u[2]);
+        self.points.iter().map(|point| point.displacement(state))
+    }
+}
+
+impl CarriedPoint {
+    /// A point that is `beside` the point of a face with these `barycentric` coordinates [m].
+    fn beside(face: &Face, barycentric: [f64; 3], beside: Vec3) -> Self {
+        let (mut nodes, mut shape) = ([face.nodes[0] as u32; NODES], [0.0; NODES]);
+        let weights = shape_on_face(barycentric);
+        for (k, (node, weight)) in face.nodes.iter().zip(weights).enumerate() {
+            (nodes[k], shape[k]) = (*node as u32, weight as f32);
+        }
+        let corners = face.corners.map(NodeId::index);
+        let turns = std::array::from_fn(|k| (corners[k] as u32, barycentric[k]));
+        Self {
+            nodes,
+            shape,
+            beside: Some((beside, turns)),
+        }
+    }
+
+    fn displacement(&self, state: &NonlinearState) -> Vec3 {
+        let mut sum = Vec3::zeros();
+        for (&node, &weight) in self.nodes.iter().zip(&self.shape) {
+            let u = &state.displacements[3 * node as usize..][..3];
+            sum += f64::from(weight) * Vec3::new(u[0], u[1], u[2]);
+        }
+        if let Some((beside, turns)) = &self.beside {
+            for &(node, weight) in turns {
+                let q = state.rotations[node as usize].map(f64::from);
+                sum += weight * (Matrix3::from_column_slice(&q) * beside - beside);
             }
-            sum
+        }
+        sum
+    }
+}
+
+/// Tetrahedra with what finds barycentric coordinates in them.
+struct InElements {
+    first: usize,
+    frames: Vec<(Vec3, Matrix3<f64>)>,
+}
+
+impl InElements {
+    fn new(mesh: &TetrahedronMesh, range: Range<usize>) -> Self {
+        let first = range.start;
+        let frames = range.map(|tetrahedron| {
+            let [a, b, c, d] = mesh.positions(tetrahedron);
+            let edges = Matrix3::from_columns(&[b - a, c - a, d - a]);
+            // Tetrahedra of a mesh are not flat.
+            (a, edges.try_inverse().unwrap_or_default())
+        });
+        Self {
+            first,
+            frames: frames.collect(),
+        }
+    }
+
+    /// A point that is in one of them.
+    fn of(&self, elements: &[u32], point: &Vec3) -> Option<CarriedPoint> {
+        let mut frames = self.frames.iter();
+        let mut at = [0.0; 3];
+        let number = frames.position(|(corner, inverse)| {
+            at = (inverse * (point - corner)).into();
+            let [x, y, z] = at;
+            (1.0 - x - y - z).min(x).min(y).min(z) >= -OUTSIDE
+        })?;
+        let own = &elements[(self.first + number) * NODES..][..NODES];
+        let mut shape = [0.0; NODES];
+        ElementKind::Tet10.shape(at, &mut shape);
+        Some(CarriedPoint {
+            nodes: std::array::from_fn(|k| own[k]),
+            shape: shape.map(|value| value as f32),
+            beside: None,
         })
     }
 }
 
-/// A point whose barycentric coordinates are not negative.
-fn within([x, y, z]: [f64; 3]) -> [f64; 3] {
-    let cut = [1.0 - x - y - z, x, y, z].map(|coordinate: f64| coordinate.max(0.0));
-    let sum: f64 = cut.iter().sum();
-    [cut[1] / sum, cut[2] / sum, cut[3] / sum]
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix3, Rotation3};
+    use palpate_geometry::{NodeId, TetrahedronMesh};
+
+    use super::Vec3;
+    use crate::nonlinear::{Moduli, NonlinearModel, NonlinearState};
+
+    /// A flat and a tall tetrahedron that share a face.
+    fn model() -> NonlinearModel {
+        let vertices = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.3, 0.3, 0.2],
+            [0.3, 0.3, -2.0],
+        ];
+        let vertices = vertices.map(Vec3::from).to_vec();
+        let tetrahedra = vec![[0, 1, 2, 3].map(NodeId), [0, 2, 1, 4].map(NodeId)];
+        let mesh = TetrahedronMesh::new(vertices, tetrahedra).unwrap();
+        let moduli = vec![Moduli::mooney_rivlin(1.0, 0.0, 0.45).unwrap(); 2];
+        NonlinearModel::on_boundary(&mesh, &moduli, |_, place| place.z == 0.0).unwrap()
+    }
+
+    /// The body moved and turned by `turn` about the origin, node by node.
+    fn moved(
+        model: &NonlinearModel,
+        place: impl Fn(&Vec3) -> Vec3,
+        turn: &Matrix3<f64>,
+    ) -> NonlinearState {
+        let mut state = NonlinearState::at_rest(model, 0);
+        for (at, node) in model.nodes().iter().enumerate() {
+            let by = place(node) - node;
+            state.displacements[3 * at..][..3].copy_from_slice(by.as_slice());
+            state.rotations[at] = std::array::from_fn(|k| turn.as_slice()[k] as f32);
+        }
+        state
+    }
+
+    /// Places around the body, inside and outside.
+    fn places() -> Vec<Vec3> {
+        let steps = |k: i32| 0.13 * f64::from(k) - 0.5;
+        let grid = (0..15).flat_map(|i| (0..15).map(move |j| (i, j)));
+        let grid = grid.flat_map(|(i, j)| (0..15).map(move |k| (i, j, k)));
+        grid.map(|(i, j, k)| Vec3::new(steps(i), steps(j), 2.0 * steps(k) - 1.0))
+            .collect()
+    }
+
+    /// Judge: the rotation itself; weights are kept in single precision.
+    #[test]
+    fn what_is_turned_carries_its_points_along() {
+        let model = model();
+        let turn = Rotation3::from_euler_angles(0.4, -1.1, 2.0);
+        let state = moved(&model, |place| turn * place, turn.matrix());
+        let places = places();
+        let carried = model.carried(&places, 0..2);
+        for (place, by) in places.iter().zip(carried.displacements(&state)) {
+            assert!((place + by - turn * place).norm() < 1e-5, "{place}");
+        }
+    }
+
+    /// Judge: continuity. Places around a bent body, as near as 1e-6 to one another, stay as near, but for those that
+    /// are as far from two parts of a dent: the body has none.
+    #[test]
+    fn what_is_carried_has_no_steps() {
+        let model = model();
+        let bent = |place: &Vec3| {
+            let [x, y, z] = [place.x, place.y, place.z];
+            place + Vec3::new(0.3 * z * z, 0.2 * x * y, 0.1 * x * x)
+        };
+        let state = moved(&model, bent, &Matrix3::identity());
+        let near = Vec3::new(5e-7, -4e-7, 6e-7);
+        let outside: Vec<Vec3> = (0..2000)
+            .map(|k| {
+                let (up, around) = (1.0 - f64::from(k) / 1000.0, 2.4 * f64::from(k));
+                let across = (1.0 - up * up).sqrt();
+                let direction = Vec3::new(across * around.cos(), across * around.sin(), up);
+                Vec3::new(0.3, 0.3, -0.5) + 3.0 * direction
+            })
+            .collect();
+        let beside: Vec<Vec3> = outside.iter().map(|place| place + near).collect();
+        let [first, second] = [outside, beside].map(|places| {
+            let carried = model.carried(&places, 0..2);
+            carried.displacements(&state).collect::<Vec<_>>()
+        });
+        for (own, other) in first.iter().zip(&second) {
+            assert!((own - other).norm() < 1e-5, "{own} {other}");
+        }
+    }
 }

@@ -150,6 +150,12 @@ impl NonlinearState {
             .sum()
     }
 
+    /// How far a node went in the last step at most, along an axis [m].
+    pub fn last_way(&self) -> f64 {
+        let each = self.displacements.iter().zip(&self.before);
+        each.fold(0.0, |most, (now, before)| (now - before).abs().max(most))
+    }
+
     /// By how much the last step changed the weighted mean of the displacements of `nodes` [m].
     pub(super) fn last_advance(&self, nodes: &[(u32, f64)]) -> Vec3 {
         let nodes = nodes.iter();

@@ -105,10 +105,39 @@ pub fn advance(
     state: &mut NonlinearState,
     workspace: &mut Workspace,
 ) -> Advance {
-    pulp::Arch::new().dispatch(
-        #[inline(always)]
-        || step(model, conditions, pace, state, workspace),
-    )
+    pulp::Arch::new().dispatch(Step {
+        model,
+        conditions,
+        pace,
+        state,
+        workspace,
+    })
+}
+
+/// A step, compiled for the widest vectors of the machine. A closure in its place would be called through a shim, which
+/// is compiled for the narrowest.
+struct Step<'a> {
+    model: &'a NonlinearModel,
+    conditions: Conditions<'a>,
+    pace: Pace,
+    state: &'a mut NonlinearState,
+    workspace: &'a mut Workspace,
+}
+
+impl pulp::WithSimd for Step<'_> {
+    type Output = Advance;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Advance {
+        let Self {
+            model,
+            conditions,
+            pace,
+            state,
+            workspace,
+        } = self;
+        step(model, conditions, pace, state, workspace)
+    }
 }
 
 #[inline(always)]

@@ -152,7 +152,7 @@ impl Moved {
                 );
             }
             if is_instant {
-                let field = carried.displacements(&self.state.displacements);
+                let field = carried.displacements(&self.state);
                 instants.push(Instant {
                     force: self.state.force(0),
                     field: field.collect(),

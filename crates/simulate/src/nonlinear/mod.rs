@@ -210,7 +210,7 @@ impl NonlinearOrgan {
         let hangs = scene.model.gravity_m_per_s2.map(|_| {
             let rest = NonlinearState::at_rest(&model, 0);
             let mut mesh = shown.mesh().clone();
-            let moved = carried.displacements(&rest.displacements);
+            let moved = carried.displacements(&rest);
             for (number, (from, by)) in shown.mesh().vertices().iter().zip(moved).enumerate() {
                 mesh.move_vertex(NodeId(number as u32), from + by);
             }

@@ -1,7 +1,8 @@
 //! Neighbours that the organ stays out of, with Coulomb's friction: rigid bodies, and with them what bends (`soft`).
 //!
 //! Each point of the boundary keeps the distance that it has from a neighbour at rest, as far as it lies within it there:
-//! where an organ grows through a neighbour, nothing pushes it out.
+//! where an organ grows through a neighbour, nothing pushes it out. What lies deeper in it than [`GROWN_IN`] does not meet it
+//! at all: its nearest surface says nothing of where it would go.
 //!
 //! *How we know*: `nonlinear_neighbours::…`.
 
@@ -16,15 +17,21 @@ use super::shafts::ShaftMotion;
 use crate::neighbour::Neighbour;
 use crate::state::ToolState;
 
-/// Points that are nearer than this may bear in the step [m]: no part of an organ goes much farther in one.
-const NEAR: f64 = 2e-3;
+/// Points that are nearer than this and what a step goes may bear in it [m]; one that goes farther bears in the next.
+const NEAR: f64 = 0.3e-3;
+
+/// A step goes no farther than this [m]: no part of an organ goes much farther in one.
+const FARTHEST: f64 = 2e-3;
+
+/// Points that are so deep in a neighbour at rest do not meet it [m].
+const GROWN_IN: f64 = 2e-3;
 
 /// The points of the boundary as neighbours meet them.
 #[derive(Debug, Clone)]
 pub(super) struct Skin {
     /// At rest, on the shown surface, which coarse faces cut short [m].
     places: Vec<Vec3>,
-    /// For each neighbour, how deep they lie in it at rest, as negative distances [m].
+    /// For each neighbour, how deep they lie in it at rest, as negative distances [m]; −∞ where they do not meet it.
     overlaps: Vec<Vec<f64>>,
 }
 
@@ -45,7 +52,10 @@ impl Skin {
             let places = places.iter().zip(points);
             let depths = places.map(|(place, point)| {
                 let place = place + point.displacement(&rest.displacements);
-                neighbour.distance(&place).0.min(0.0)
+                match neighbour.distance(&place).0.min(0.0) {
+                    deep if deep < -GROWN_IN => f64::NEG_INFINITY,
+                    overlap => overlap,
+                }
             });
             depths.collect()
         };
@@ -101,15 +111,16 @@ impl Candidates {
         }
     }
 
-    /// Finds them where the body is in `state`, and the shafts which go from one part of their ways to another [-]; those that are deepest if a
-    /// step cannot take all.
+    /// Finds them where the body is in `state`, and the shafts which go from one part of their ways to another [-], in a step in
+    /// which the tools go a `way` [m]; those that are deepest if a step cannot take all.
     pub(super) fn find(
         &mut self,
         organ: &NonlinearOrgan,
         neighbours: &[Neighbour],
-        (shafts, parts): (&[Option<ShaftMotion>], [f64; 2]),
+        (shafts, parts, way): (&[Option<ShaftMotion>], [f64; 2], f64),
         state: &NonlinearState,
     ) {
+        let near = NEAR + (way + state.last_way()).min(FARTHEST);
         let (points, skin) = (organ.model.boundary_points(), &organ.skin);
         self.found.clear();
         if let (Some(search), Some(boundary)) = (&mut self.touching, &organ.touching) {
@@ -126,13 +137,13 @@ impl Candidates {
                 let allowed = overlap[number];
                 let bears = state.contact_force(number as u32) > 0.0;
                 let least = known.distance - (place - known.place).norm();
-                if least - allowed > NEAR && !bears {
+                if least - allowed > near && !bears {
                     continue;
                 }
                 let (distance, normal) = neighbour.distance(&place);
                 *known = Known { place, distance };
                 let gap = distance - allowed;
-                if gap < NEAR {
+                if gap < near {
                     let contact = UnilateralContact {
                         point: number as u32,
                         normal,

@@ -168,13 +168,16 @@ impl ShaftMotion {
         before.is_none_or(|before| before.length == 0.0 && self.now.length > 0.0)
     }
 
+    /// How far its ends move at most [m].
+    pub(super) fn way(&self) -> f64 {
+        let end = |shaft: &Shaft| shaft.tip + shaft.along * shaft.length;
+        let tip = (self.now.tip - self.before.tip).norm();
+        tip.max((end(&self.now) - end(&self.before)).norm())
+    }
+
     /// How far it moves, in what it may move in a part of a step [-].
     pub(super) fn parts(&self) -> f64 {
-        let end = |shaft: &Shaft| shaft.tip + shaft.along * shaft.length;
-        let way = (self.now.tip - self.before.tip)
-            .norm()
-            .max((end(&self.now) - end(&self.before)).norm());
-        way / FARTHEST.min(FARTHEST_IN_RADII * self.now.radius)
+        self.way() / FARTHEST.min(FARTHEST_IN_RADII * self.now.radius)
     }
 
     /// Where it is after this `part` of its way [-].

@@ -40,7 +40,7 @@ impl NonlinearOrgan {
         };
         let shown = &mut workspace.shown;
         let mut largest = 0.0_f64;
-        let carried = self.shown.displacements(&body.state.displacements);
+        let carried = self.shown.displacements(&body.state);
         for (own, by) in shown.iter_mut().zip(carried) {
             *own = by;
             largest = largest.max(by.norm_squared());

@@ -260,14 +260,19 @@ impl NonlinearOrgan {
         body.is_at_rest = false;
         let series = &simulation.material.prony;
         let targets = &workspace.targets;
-        let ways = targets
+        let own = |target: &Option<Target>| target.map_or(0.0, |target| target.way.norm());
+        let shafts = || workspace.shafts.iter().flatten();
+        let ways = targets.iter().zip(&body.loads);
+        let ways = ways.map(|(target, load)| own(target) / farthest(load));
+        let asked = ways.chain(shafts().map(ShaftMotion::parts));
+        let asked = asked.fold(0.0, f64::max);
+        let parts = (asked.ceil() as usize).clamp(1, MOST_PARTS);
+        let reach = (MOST_PARTS as f64 / asked).min(1.0) / parts as f64;
+        let way = targets
             .iter()
-            .zip(&body.loads)
-            .map(|(target, load)| target.map_or(0.0, |target| target.way.norm() / farthest(load)));
-        let shafts = workspace.shafts.iter().flatten().map(ShaftMotion::parts);
-        let way = ways.chain(shafts).fold(0.0, f64::max);
-        let parts = (way.ceil() as usize).clamp(1, MOST_PARTS);
-        let reach = (MOST_PARTS as f64 / way).min(1.0) / parts as f64;
+            .map(own)
+            .chain(shafts().map(ShaftMotion::way));
+        let way = reach * way.fold(0.0, f64::max);
         let mut pace = Pace {
             iterations: self.iterations,
             elapsed: elapsed / parts as f64,
@@ -279,7 +284,7 @@ impl NonlinearOrgan {
             if part == 1 || self.touching.is_some() || has_shafts {
                 let candidates = &mut workspace.candidates;
                 let ways = [part - 1, part].map(|part| reach * part as f64);
-                let shafts = (&workspace.shafts[..], ways);
+                let shafts = (&workspace.shafts[..], ways, way);
                 candidates.find(self, &simulation.neighbours, shafts, &body.state);
                 let is_hard = candidates.touches_itself() || candidates.touches_shafts();
                 pace.iterations = match is_hard {
