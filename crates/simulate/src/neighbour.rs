@@ -11,7 +11,7 @@
 use nalgebra::Matrix3;
 use palpate_files::Scene;
 use palpate_files::scene::Shape;
-use palpate_geometry::{AabbTree, PatchField, Surface, Vec3};
+use palpate_geometry::{AabbTree, PatchField, Surface, TriangleId, Vec3};
 use palpate_mechanics::contact::Friction;
 
 use crate::contact::{Contact, RestSurface};
@@ -45,6 +45,16 @@ pub(crate) struct Stopped {
     pub(crate) normal: Option<Vec3>,
 }
 
+/// The place of a neighbour that is nearest to another.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct NearestPlace {
+    /// Signed distance, negative inside [m].
+    pub(crate) distance: f64,
+    /// Smooth normal there [-].
+    pub(crate) normal: Vec3,
+    pub(crate) triangle: TriangleId,
+}
+
 impl Neighbour {
     /// Those of `scene` at which its tools stop. The others are read too, so that a missing file is told here.
     pub(crate) fn all(scene: &Scene, tools: &[Tool]) -> Result<Vec<Self>, Error> {
@@ -72,9 +82,9 @@ impl Neighbour {
         Ok(all)
     }
 
-    /// Signed distance of a `place` [m], negative inside, and the smooth normal of the nearest place.
-    pub(crate) fn distance(&self, place: &Vec3) -> (f64, Vec3) {
-        let (nearest, distance) = self.surface.signed_distance(&self.tree, place);
+    /// What is nearest to a `place` [m]; found sooner where a triangle is known that is `near`.
+    pub(crate) fn nearest(&self, place: &Vec3, near: Option<TriangleId>) -> NearestPlace {
+        let (nearest, distance) = self.surface.signed_distance_from(&self.tree, place, near);
         let corners = self.surface.mesh().corners(nearest.triangle);
         let normals = self.surface.vertex_normals();
         let normal: Vec3 = corners
@@ -82,7 +92,11 @@ impl Neighbour {
             .zip(nearest.on.barycentric)
             .map(|(node, weight)| normals[node.index()] * weight)
             .sum();
-        (distance, normal.normalize())
+        NearestPlace {
+            distance,
+            normal: normal.normalize(),
+            triangle: nearest.triangle,
+        }
     }
 
     fn surface(&self, tool: usize) -> RestSurface<'_> {

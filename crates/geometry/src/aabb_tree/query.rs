@@ -36,8 +36,19 @@ fn within_reach(point: &Vec3) -> Vec3 {
 impl AabbTree {
     /// The point of `mesh` nearest to `point` [m], of which no coordinate counts for more than a thousand kilometres.
     pub fn nearest(&self, mesh: &TriangleMesh, point: &Vec3) -> Nearest {
+        self.nearest_from(mesh, point, None)
+    }
+
+    /// As [`Self::nearest`], sooner where a triangle is known that is near the point: that of a place it was at before.
+    pub fn nearest_from(
+        &self,
+        mesh: &TriangleMesh,
+        point: &Vec3,
+        near: Option<TriangleId>,
+    ) -> Nearest {
         let point = within_reach(point);
         self.search(
+            near,
             |aabb| aabb.squared_distance(&point),
             |triangle| {
                 let on = closest_on_triangle(&mesh.positions(triangle), &point);
@@ -135,17 +146,24 @@ impl AabbTree {
         ControlFlow::Continue(())
     }
 
-    /// Branch and bound, nearer box first, over squared distances.
+    /// Branch and bound, nearer box first, over squared distances, from the bound of a triangle that is `near`.
     fn search(
         &self,
+        near: Option<TriangleId>,
         to_box: impl Fn(&Aabb) -> f64,
         to_triangle: impl Fn(TriangleId) -> (f64, PointOnTriangle),
     ) -> Nearest {
-        let mut best = (
-            f64::INFINITY,
-            TriangleId(u32::MAX),
-            PointOnTriangle::NOWHERE,
-        );
+        let mut best = match near {
+            Some(triangle) => {
+                let (squared, on) = to_triangle(triangle);
+                (squared, triangle, on)
+            }
+            None => (
+                f64::INFINITY,
+                TriangleId(u32::MAX),
+                PointOnTriangle::NOWHERE,
+            ),
+        };
         let mut stack = [(0u32, 0.0); STACK];
         let mut filled = 1;
         while filled > 0 {

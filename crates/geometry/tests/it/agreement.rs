@@ -102,6 +102,25 @@ fn a_segment_without_length_is_a_point() {
     }
 }
 
+/// Judge: the search without a triangle that is known, bit for bit, wherever that triangle is.
+#[test]
+fn a_known_triangle_changes_no_answer() {
+    for each in [Organ::Esophagus, Organ::Cube] {
+        let (surface, tree) = organ(each, 2_000);
+        let mesh = surface.mesh();
+        let triangles: Vec<_> = mesh.triangle_ids().collect();
+        let mut random = Random(6);
+        for _ in 0..tries(5_000) {
+            let point = random.around(mesh);
+            let known = triangles[(random.unit() * triangles.len() as f64) as usize];
+            let alone = tree.nearest(mesh, &point);
+            assert_eq!(tree.nearest_from(mesh, &point, Some(known)), alone);
+            let same = tree.nearest_from(mesh, &point, Some(alone.triangle));
+            assert_eq!(same, alone);
+        }
+    }
+}
+
 /// Judge: parry's ray cast, from either side.
 #[test]
 fn ray_hits_where_that_of_parry_does() {

@@ -53,9 +53,9 @@ pub(super) fn touched(
 ) -> Vec<Step> {
     let target = Vec3::from(goal.target_m);
     let bodies = simulation.neighbours.iter();
-    let nearest = bodies.map(|body| body.distance(&target));
-    let nearest = nearest.min_by(|(one, _), (other, _)| one.abs().total_cmp(&other.abs()));
-    let normal = nearest.map_or(-Vec3::y(), |(_, normal)| normal);
+    let nearest = bodies.map(|body| body.nearest(&target, None));
+    let nearest = nearest.min_by(|one, other| one.distance.abs().total_cmp(&other.distance.abs()));
+    let normal = nearest.map_or(-Vec3::y(), |nearest| nearest.normal);
     let own = &simulation.tools[tool];
     let on = target + own.overhang() * normal;
     let outward = match own.trocar {

@@ -6,7 +6,7 @@
 //!
 //! *How we know*: `nonlinear_neighbours::…`.
 
-use palpate_geometry::{AabbTree, Surface, Vec3};
+use palpate_geometry::{AabbTree, Surface, TriangleId, Vec3};
 use palpate_mechanics::nonlinear::{
     Against, MOST_CONTACTS, NonlinearModel, NonlinearState, TouchingSearch, UnilateralContact,
 };
@@ -52,7 +52,7 @@ impl Skin {
             let places = places.iter().zip(points);
             let depths = places.map(|(place, point)| {
                 let place = place + point.displacement(&rest.displacements);
-                match neighbour.distance(&place).0.min(0.0) {
+                match neighbour.nearest(&place, None).distance.min(0.0) {
                     deep if deep < -GROWN_IN => f64::NEG_INFINITY,
                     overlap => overlap,
                 }
@@ -70,11 +70,13 @@ impl Skin {
     }
 }
 
-/// Where a point was when its distance was last sought [m], and that distance: a bound of what it is elsewhere.
+/// Where a point was when its distance was last sought [m], and that distance: a bound of what it is elsewhere. The
+/// triangle that was nearest only makes the next search shorter.
 #[derive(Debug, Clone, Copy)]
 struct Known {
     place: Vec3,
     distance: f64,
+    nearest: Option<TriangleId>,
 }
 
 /// The points that may bear in a step. Scratch.
@@ -96,6 +98,7 @@ impl Candidates {
         let unknown = Known {
             place: Vec3::zeros(),
             distance: f64::NEG_INFINITY,
+            nearest: None,
         };
         let count = organ.skin.neighbours() * points;
         let touching = organ.touching.as_ref().map(TouchingSearch::new);
@@ -140,9 +143,14 @@ impl Candidates {
                 if least - allowed > near && !bears {
                     continue;
                 }
-                let (distance, normal) = neighbour.distance(&place);
-                *known = Known { place, distance };
-                let gap = distance - allowed;
+                let nearest = neighbour.nearest(&place, known.nearest);
+                let normal = nearest.normal;
+                *known = Known {
+                    place,
+                    distance: nearest.distance,
+                    nearest: Some(nearest.triangle),
+                };
+                let gap = nearest.distance - allowed;
                 if gap < near {
                     let contact = UnilateralContact {
                         point: number as u32,
