@@ -1,7 +1,7 @@
 //! The organ that is seen: its surface, carried by the elements, and under each tool where the tool has it.
 //!
 //! The elements around a tip know a load as wide as they resolve, and not the tip. What the surface lacks to meet the tip
-//! fades as the dimple of a flat tip does, and ends where the load ends:
+//! fades as the dimple of a flat tip does, with the distance r from it, and ends where the load ends:
 //!
 //! ```text
 //! e 2/π asin(a/r) (1 − (r/R)²)²
@@ -80,13 +80,10 @@ impl NonlinearOrgan {
                 continue;
             }
             let square = load.radius.powi(2);
-            for ((by, vertex), normal) in shown
-                .iter_mut()
-                .zip(rest.vertices())
-                .zip(simulation.surface.vertex_normals())
-            {
+            // The far side of a wall goes along, as far as it is near: moved alone, this side would go through it.
+            for (by, vertex) in shown.iter_mut().zip(rest.vertices()) {
                 let apart = (vertex - place).norm_squared();
-                if apart < square && normal.dot(&load.normal) > 0.0 {
+                if apart < square {
                     let dimple = FRAC_2_PI * (radius / apart.sqrt()).min(1.0).asin();
                     *by += lacks * (dimple * (1.0 - apart / square).powi(2));
                 }

@@ -112,6 +112,21 @@ fn the_traction_is_shown() {
     passes_at_a_human_pace(include_str!("../../../../assets/tasks/traction.toml"), 0..4);
 }
 
+/// Where the organ bends, beside its neighbours.
+#[test]
+fn the_traction_is_shown_by_the_model_of_its_task() {
+    let text = include_str!("../../../../assets/tasks/traction.toml");
+    let scene = draw_variant(&Scene::parse(text, "traction.toml").unwrap(), 1).unwrap();
+    assert_eq!(scene.model.kind, ModelKind::Nonlinear);
+    let simulation = Simulation::new(&scene).unwrap();
+    let (status, score, fastest) = shown(&(scene, simulation));
+    println!("{:.1} s, {:?}", score.duration, score.outcome);
+    assert_eq!(status, Status::Over { late: false });
+    assert_eq!(score.outcome.passed(), Some(true));
+    assert_eq!(score.errors.force_limit + score.errors.drops, 0);
+    assert!(fastest < 0.05 && score.duration > 10.0);
+}
+
 #[test]
 fn the_myotomy_is_shown() {
     passes_at_a_human_pace(include_str!("../../../../assets/tasks/myotomy.toml"), 0..3);

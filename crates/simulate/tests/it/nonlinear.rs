@@ -186,10 +186,11 @@ fn a_pulled_hemisphere_is_that_of_finite_elements() {
     }
 }
 
-/// A tube that is pulled aside by 3 cm keeps its volume, and goes back when it is let go. Tolerances: 2 % of what is seen,
-/// of which the dimple under the jaws is a part; nothing is left.
+/// A tube that is pulled aside by 3 cm grows by no more than its tissue does, and goes back when it is let go. Judge: a bar
+/// that is stretched as far as the tube's halves, of 30 mm, are at most: its volume grows by (1 − 2ν) ln λ. What bends
+/// and what is held grows less. Nothing is left.
 #[test]
-fn a_pulled_tube_keeps_its_volume_and_goes_back() {
+fn a_pulled_tube_grows_as_its_tissue_does_and_goes_back() {
     let setting = Setting {
         organ: "builtin = \"esophagus\"",
         contact: "stick",
@@ -208,7 +209,8 @@ fn a_pulled_tube_keeps_its_volume_and_goes_back() {
     }
     let volume = hands.state.deformed.volume() / rest - 1.0;
     println!("{before} N, volume {volume}");
-    assert!(volume.abs() < 0.02, "{volume}");
+    let grows = (1.0 - 2.0 * setting.poissons_ratio) * 2.0_f64.sqrt().ln();
+    assert!(volume > 0.0 && volume < grows, "{volume}");
     assert!(displaced(&hands, &simulation) > 0.028);
     for _ in 0..80 {
         hands.go(&[pose(&(tip - Vec3::y() * 0.03), &turned, 0.0)]);

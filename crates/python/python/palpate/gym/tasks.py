@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from types import MappingProxyType
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,6 +53,8 @@ class Task:
     word: str
     #: The built-in scene.
     builtin: str
+    #: The model that learners get in the built-in scene, where it is another than that scene's.
+    model: ClassVar[Mapping[str, Any] | None] = None
     #: Numbers that are seen of the goal.
     goal_size = 0
 
@@ -153,6 +157,8 @@ class Traction(Task):
 
     word = "traction"
     builtin = "traction"
+    #: The scene's own bends, in some milliseconds a step.
+    model = MappingProxyType({"kind": "hybrid", "mechanical_triangles": 2500})
     goal_size = 1
     #: Of the force [-], and of the place [m].
     SPREAD = 0.25

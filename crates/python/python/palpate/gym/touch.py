@@ -87,9 +87,11 @@ class Touch:
         self.randomization = Randomization(randomization)
         self.images, self.has_parts = tuple(images), observation == "dict" or len(images) > 0
         if simulation is None:
-            scene = scene if scene is not None else palpate.Scene.builtin(kind.builtin)
+            own = None
+            if scene is None:
+                scene, own = palpate.Scene.builtin(kind.builtin), kind.model
             # The surface is not looked at.
-            simulation = palpate.Simulation(_of_model(scene, model), show_every=1e9)
+            simulation = palpate.Simulation(_of_model(scene, model, own), show_every=1e9)
         if substeps is None:
             substeps = max(1, round(press.DURATION / simulation.step_length)) if action == "press" else SUBSTEPS
         self.simulation = simulation
@@ -370,12 +372,15 @@ def _check(word: object, name: str, known: tuple[str, ...]) -> None:
         raise palpate.InputError(f"`{name}` has no {word!r}; give one of {', '.join(map(repr, known))}")
 
 
-def _of_model(scene: palpate.Scene, model: str | None) -> palpate.Scene:
-    """The same scene under another model, if one is named."""
-    if model is None:
-        return scene
+def _of_model(scene: palpate.Scene, model: str | None, own: Mapping[str, Any] | None) -> palpate.Scene:
+    """The same scene under another model: the `own` one of an environment, if none is named."""
     content = scene.to_dict()
-    content["model"] = {**content.get("model", {}), "kind": model}
-    if model == "local":
+    if own is not None and model in (None, own["kind"]):
+        content["model"] = dict(own)
+    elif model == "local":
         content["model"] = {"kind": "local"}
+    elif model is not None:
+        content["model"] = {**content.get("model", {}), "kind": model}
+    else:
+        return scene
     return palpate.Scene(content)
