@@ -40,6 +40,9 @@ impl AabbTree {
     }
 
     /// As [`Self::nearest`], sooner where a triangle is known that is near the point: that of a place it was at before.
+    ///
+    /// # Panics
+    /// When that triangle is not of `mesh`.
     pub fn nearest_from(
         &self,
         mesh: &TriangleMesh,
