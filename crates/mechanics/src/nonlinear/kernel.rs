@@ -69,6 +69,15 @@ pub(super) fn forces<T: Scalar>(
     }
 }
 
+/// Whether one of the elements is inside out somewhere.
+pub(super) fn are_inverted<T: Scalar>(deformed: &[Deformed<T>]) -> bool {
+    let mut gradients = deformed.iter().flat_map(|own| &own.gradients);
+    gradients.any(|f| {
+        let determinants = dot(&f[0], &cofactors(f)[0]);
+        determinants.0.iter().any(|j| *j <= T::of(0.0))
+    })
+}
+
 /// Adds the change of the forces [N] when the displacements change by `du` [m].
 #[inline(always)]
 pub(super) fn products<T: Scalar>(

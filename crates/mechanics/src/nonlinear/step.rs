@@ -42,8 +42,16 @@ pub struct Advance {
     pub was_unstable: bool,
     /// Whether no finite displacements were found, which put the body back to rest.
     pub was_reset: bool,
-    /// Whether an element of a body that relaxes is inside out.
+    /// Whether an element is inside out; of a body that does not relax this is looked for where the step was unstable.
     pub is_inverted: bool,
+}
+
+impl Advance {
+    /// Whether the step found no equilibrium, and its forces say nothing: its stiffness was not positive, and elements are
+    /// inside out.
+    pub fn has_no_answer(&self) -> bool {
+        self.was_reset || (self.was_unstable && self.is_inverted)
+    }
 }
 
 /// Scratch of a step; dropping it changes nothing.
@@ -171,6 +179,9 @@ fn step(
     workspace.constraints.finish(body, residual, displacements);
     workspace.constraints.remember(couplings, state);
     advance.is_inverted = workspace.end(model, advance.was_shortened, state);
+    if advance.was_unstable && !model.relaxes() {
+        advance.is_inverted = kernel::are_inverted(&workspace.deformed);
+    }
     state.is_smooth = !advance.was_shortened && !advance.was_unstable;
     advance.was_reset = !state.is_finite();
     if advance.was_reset {

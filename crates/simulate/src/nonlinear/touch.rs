@@ -97,8 +97,8 @@ pub(super) fn carry_back_anew(
 /// How the steps of a period ended.
 #[derive(Debug, Clone, Copy, Default)]
 struct Ended {
-    /// Whether the body had to be put back to rest.
-    was_reset: bool,
+    /// Whether one of them had no answer.
+    has_no_answer: bool,
     /// Whether elements of a body that relaxes are inside out.
     is_inverted: bool,
 }
@@ -165,7 +165,10 @@ impl NonlinearOrgan {
         }
         let before = body.state.largest(&self.model);
         let ended = self.go((simulation, elapsed), body, workspace);
-        if ended.was_reset || body.state.largest(&self.model) > self.size || self.is_unsound(body) {
+        if ended.has_no_answer
+            || body.state.largest(&self.model) > self.size
+            || self.is_unsound(body)
+        {
             body.state.reset(&self.model);
             body.histories.fill(ForceHistory::default());
             tools.iter_mut().for_each(ToolState::lose);
@@ -310,7 +313,7 @@ impl NonlinearOrgan {
             };
             let (state, solver) = (&mut body.state, &mut workspace.solver);
             let advance = advance(&self.model, conditions, pace, state, solver);
-            ended.was_reset |= advance.was_reset;
+            ended.has_no_answer |= advance.has_no_answer();
             ended.is_inverted = advance.is_inverted;
             for (number, own) in body.histories.iter_mut().enumerate() {
                 let (follows, history) = relaxes[number];

@@ -220,6 +220,42 @@ fn a_pulled_tube_grows_as_its_tissue_does_and_goes_back() {
     assert!(left < 1e-6, "{left}");
 }
 
+/// A tube is pulled aside at 290 mm/s until nothing holds any more, with and without relaxation. The force grows from step
+/// to step by no more than its half, up to the last one, and then is none; what is let go ends at rest. Before, the steps in
+/// which elements turned inside out ended with tens of newtons.
+#[test]
+fn a_hand_that_pulls_without_end_feels_no_leap() {
+    for prony in ["[]", "[{ g = 0.4, tau_s = 2.0 }]"] {
+        let setting = Setting {
+            organ: "builtin = \"esophagus\"",
+            contact: "stick",
+            prony,
+            ..LIVER
+        };
+        let simulation = graspers(&setting, 1);
+        let (mut hands, tip, turned) = holding(&simulation, &Vec3::new(0.0, -0.0075, 0.0));
+        let mut before = 0.05;
+        for step in 0..=150 {
+            let way = 1.45e-3 * f64::from(step);
+            let to = tip - Vec3::new(0.7, 0.7, 0.0) * way;
+            hands.go(&[pose(&to, &turned, 1.0)]);
+            let force = hands.state.tools[0].force.norm();
+            assert!(
+                force < 1.5 * before + 0.05,
+                "{prony}, {step}: {before}, {force}"
+            );
+            before = force.max(0.05);
+        }
+        for _ in 0..400 {
+            hands.go(&[pose(&(tip - Vec3::y()), &turned, 0.0)]);
+        }
+        assert_eq!(hands.state.tools[0].force, Vec3::zeros());
+        let left = displaced(&hands, &simulation);
+        println!("{prony}: {left} m left");
+        assert!(left < 1e-3, "{left}");
+    }
+}
+
 /// Judge: symmetry. Two graspers stretch a tube along its axis: what one feels the other feels against it, but for the
 /// ends that are held and the tube's bend. Tolerance: a fifth.
 #[test]
