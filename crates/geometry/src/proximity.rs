@@ -125,7 +125,7 @@ impl Surface {
         self.signed_distance_from(tree, point, None)
     }
 
-    /// As [`Self::signed_distance`], sooner where a triangle is known that is `near` the point.
+    /// As [`Self::signed_distance`], faster if `near` is a triangle close to the point.
     pub fn signed_distance_from(
         &self,
         tree: &AabbTree,

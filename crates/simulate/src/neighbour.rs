@@ -82,7 +82,7 @@ impl Neighbour {
         Ok(all)
     }
 
-    /// What is nearest to a `place` [m]; found sooner where a triangle is known that is `near`.
+    /// The place nearest to `place` [m]; the search is faster if `near` is a triangle close to it.
     pub(crate) fn nearest(&self, place: &Vec3, near: Option<TriangleId>) -> NearestPlace {
         let (nearest, distance) = self.surface.signed_distance_from(&self.tree, place, near);
         let corners = self.surface.mesh().corners(nearest.triangle);

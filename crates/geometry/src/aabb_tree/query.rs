@@ -39,7 +39,7 @@ impl AabbTree {
         self.nearest_from(mesh, point, None)
     }
 
-    /// As [`Self::nearest`], sooner where a triangle is known that is near the point: that of a place it was at before.
+    /// As [`Self::nearest`], faster if `near` is a triangle close to the point, such as the nearest one of the step before.
     ///
     /// # Panics
     /// When that triangle is not of `mesh`.
@@ -149,7 +149,7 @@ impl AabbTree {
         ControlFlow::Continue(())
     }
 
-    /// Branch and bound, nearer box first, over squared distances, from the bound of a triangle that is `near`.
+    /// Branch and bound, nearer box first, over squared distances, starting from the distance of the triangle `near`.
     fn search(
         &self,
         near: Option<TriangleId>,

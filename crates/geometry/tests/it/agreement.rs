@@ -102,7 +102,7 @@ fn a_segment_without_length_is_a_point() {
     }
 }
 
-/// Judge: the search without a triangle that is known, bit for bit, wherever that triangle is.
+/// Judge: the search without a known triangle, bit for bit.
 #[test]
 fn a_known_triangle_changes_no_answer() {
     for each in [Organ::Esophagus, Organ::Cube] {

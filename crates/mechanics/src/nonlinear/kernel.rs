@@ -69,7 +69,7 @@ pub(super) fn forces<T: Scalar>(
     }
 }
 
-/// Whether one of the elements is inside out somewhere.
+/// Whether an element is inverted at an integration point.
 pub(super) fn are_inverted<T: Scalar>(deformed: &[Deformed<T>]) -> bool {
     let mut gradients = deformed.iter().flat_map(|own| &own.gradients);
     gradients.any(|f| {

@@ -19,12 +19,12 @@
 //! `docs/theory/large_deformation.md`.
 
 mod boundary;
-mod carried;
 mod complementarity;
 mod constraints;
 mod contact;
 mod coupling;
 mod elements;
+mod embedded;
 mod friction;
 mod gravity;
 mod kernel;
@@ -42,10 +42,10 @@ mod touching;
 mod touching_search;
 
 pub use boundary::{Boundary, SpreadLoad};
-pub use carried::CarriedPoints;
 pub use constraints::Conditions;
 pub use contact::{Against, BoundaryPoint, MOST_CONTACTS, TOOL_POINTS, UnilateralContact};
 pub use coupling::Coupling;
+pub use embedded::EmbeddedPoints;
 pub use law::Moduli;
 pub use model::{MOST_INFLUENCE_BYTES, NonlinearModel};
 pub use state::NonlinearState;

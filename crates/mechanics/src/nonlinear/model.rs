@@ -4,9 +4,9 @@ use nalgebra::Matrix3;
 use palpate_geometry::TetrahedronMesh;
 
 use super::boundary::{Boundary, SpreadLoad};
-use super::carried::CarriedPoints;
 use super::contact::BoundaryPoint;
 use super::elements::{NODES, Pack};
+use super::embedded::EmbeddedPoints;
 use super::law::Moduli;
 use super::relaxation::Relaxation;
 use super::rest::{Influence, RestFactors};
@@ -187,9 +187,16 @@ impl NonlinearModel {
         SpreadLoad::with_room(self.nodes.len())
     }
 
-    /// The `points` [m], to be carried along by the tetrahedra of a range.
-    pub fn carried(&self, points: &[Vec3], tetrahedra: Range<usize>) -> CarriedPoints {
-        CarriedPoints::new(&self.mesh, &self.elements, (points, tetrahedra))
+    /// Embeds `points` [m] in the tetrahedra of a range.
+    ///
+    /// # Errors
+    /// When the range is empty.
+    pub fn embed(
+        &self,
+        points: &[Vec3],
+        tetrahedra: Range<usize>,
+    ) -> Result<EmbeddedPoints, Error> {
+        EmbeddedPoints::new(&self.mesh, &self.elements, (points, tetrahedra))
     }
 
     /// What a force on the weighted mean of `nodes` moves it by [m/N], by the factors of the stiffness at rest, turned as

@@ -47,8 +47,8 @@ pub struct Advance {
 }
 
 impl Advance {
-    /// Whether the step found no equilibrium, and its forces say nothing: its stiffness was not positive, and elements are
-    /// inside out.
+    /// Whether the step found no equilibrium and its forces are meaningless: the stiffness is not positive, and elements are
+    /// inverted.
     pub fn has_no_answer(&self) -> bool {
         self.was_reset || (self.was_unstable && self.is_inverted)
     }
@@ -122,8 +122,8 @@ pub fn advance(
     })
 }
 
-/// A step, compiled for the widest vectors of the machine. A closure in its place would be called through a shim, which
-/// is compiled for the narrowest.
+/// A step, compiled for the vector instructions of the processor. A closure would be called through a shim, which is
+/// compiled without them.
 struct Step<'a> {
     model: &'a NonlinearModel,
     conditions: Conditions<'a>,

@@ -120,9 +120,8 @@ impl Moved {
         (steps, iterations, more): (usize, usize, usize),
         places: &[Vec3],
     ) -> Vec<Instant> {
-        let carried = self
-            .model
-            .carried(places, 0..self.model.mesh().tetrahedra().len());
+        let all = 0..self.model.mesh().tetrahedra().len();
+        let embedded = self.model.embed(places, all).unwrap();
         let mut workspace = self.model.workspace(1);
         let pace = Pace {
             iterations,
@@ -152,7 +151,7 @@ impl Moved {
                 );
             }
             if is_instant {
-                let field = carried.displacements(&self.state);
+                let field = embedded.displacements(&self.state);
                 instants.push(Instant {
                     force: self.state.force(0),
                     field: field.collect(),

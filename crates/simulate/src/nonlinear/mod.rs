@@ -52,7 +52,7 @@ use palpate_geometry::{
 };
 use palpate_mechanics::contact::{Tip, hertz_force};
 use palpate_mechanics::nonlinear::{
-    CarriedPoints, NonlinearModel, NonlinearState, SpreadLoad, TouchingBoundary, Workspace,
+    EmbeddedPoints, NonlinearModel, NonlinearState, SpreadLoad, TouchingBoundary, Workspace,
 };
 use palpate_mechanics::{ForceHistory, LinearElastic};
 
@@ -90,7 +90,7 @@ pub(crate) struct NonlinearOrgan {
     pub(crate) model: NonlinearModel,
     /// The organ, then the neighbours that bend.
     pieces: Vec<Piece>,
-    shown: CarriedPoints,
+    shown: EmbeddedPoints,
     skin: Skin,
     shaft_skin: ShaftSkin,
     /// How they touch one another, if anything does.
@@ -199,18 +199,18 @@ impl NonlinearOrgan {
         if let Some(gravity) = scene.model.gravity_m_per_s2 {
             model = model.under_gravity(&densities, &gravity.into())?;
         }
-        let mut carried = CarriedPoints::default();
+        let mut embedded = EmbeddedPoints::default();
         let mut vertices = shown.mesh().vertices();
         let surfaces = std::iter::once(surface).chain(soft.iter().map(|body| &body.surface));
         for (surface, range) in surfaces.zip(&merged.ranges) {
             let (own, others) = vertices.split_at(surface.mesh().vertices().len());
-            carried.extend(model.carried(own, range.clone()));
+            embedded.extend(model.embed(own, range.clone())?);
             vertices = others;
         }
         let hangs = scene.model.gravity_m_per_s2.map(|_| {
             let rest = NonlinearState::at_rest(&model, 0);
             let mut mesh = shown.mesh().clone();
-            let moved = carried.displacements(&rest);
+            let moved = embedded.displacements(&rest);
             for (number, (from, by)) in shown.mesh().vertices().iter().zip(moved).enumerate() {
                 mesh.move_vertex(NodeId(number as u32), from + by);
             }
@@ -224,7 +224,7 @@ impl NonlinearOrgan {
         let organ = Self {
             shaft_skin: ShaftSkin::new(&model, (shown, tree), &pieces),
             size: (high - low).norm(),
-            shown: carried,
+            shown: embedded,
             skin: Skin::new(&model, (shown, tree), neighbours),
             hangs,
             iterations: match ratio < NEARLY_INCOMPRESSIBLE {

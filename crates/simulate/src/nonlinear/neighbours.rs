@@ -1,8 +1,8 @@
 //! Neighbours that the organ stays out of, with Coulomb's friction: rigid bodies, and with them what bends (`soft`).
 //!
 //! Each point of the boundary keeps the distance that it has from a neighbour at rest, as far as it lies within it there:
-//! where an organ grows through a neighbour, nothing pushes it out. What lies deeper in it than [`GROWN_IN`] does not meet it
-//! at all: its nearest surface says nothing of where it would go.
+//! where an organ grows through a neighbour, nothing pushes it out. Points deeper than [`GROWN_IN`] are not in
+//! contact with it: the nearest surface is not the one that they would leave through.
 //!
 //! *How we know*: `nonlinear_neighbours::…`.
 
@@ -17,21 +17,32 @@ use super::shafts::ShaftMotion;
 use crate::neighbour::Neighbour;
 use crate::state::ToolState;
 
-/// Points that are nearer than this and what a step goes may bear in it [m]; one that goes farther bears in the next.
+/// A point is a candidate for contact within this distance plus the motion of the step [m]. One that moves farther is a
+/// candidate in the next step.
 const NEAR: f64 = 0.3e-3;
 
-/// A step goes no farther than this [m]: no part of an organ goes much farther in one.
-const FARTHEST: f64 = 2e-3;
+/// The motion of a step counts up to this [m]: hardly any part of an organ moves farther.
+const MOST_MOTION: f64 = 2e-3;
 
-/// Points that are so deep in a neighbour at rest do not meet it [m].
+/// Points deeper in a neighbour at rest are not in contact with it [m].
 const GROWN_IN: f64 = 2e-3;
+
+/// What moves in a step, or in a part of it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StepMotion<'a> {
+    pub(super) shafts: &'a [Option<ShaftMotion>],
+    /// From which part of its motion each shaft moves to which [-].
+    pub(super) parts: [f64; 2],
+    /// How far the tools move at most [m].
+    pub(super) way: f64,
+}
 
 /// The points of the boundary as neighbours meet them.
 #[derive(Debug, Clone)]
 pub(super) struct Skin {
     /// At rest, on the shown surface, which coarse faces cut short [m].
     places: Vec<Vec3>,
-    /// For each neighbour, how deep they lie in it at rest, as negative distances [m]; −∞ where they do not meet it.
+    /// For each neighbour, how deep they lie in it at rest, as negative distances [m]; −∞ without contact.
     overlaps: Vec<Vec<f64>>,
 }
 
@@ -70,8 +81,8 @@ impl Skin {
     }
 }
 
-/// Where a point was when its distance was last sought [m], and that distance: a bound of what it is elsewhere. The
-/// triangle that was nearest only makes the next search shorter.
+/// Where a point was when its distance was last computed [m], and that distance, which bounds it elsewhere. The nearest
+/// triangle then makes the next search faster and changes no result.
 #[derive(Debug, Clone, Copy)]
 struct Known {
     place: Vec3,
@@ -114,16 +125,15 @@ impl Candidates {
         }
     }
 
-    /// Finds them where the body is in `state`, and the shafts which go from one part of their ways to another [-], in a step in
-    /// which the tools go a `way` [m]; those that are deepest if a step cannot take all.
+    /// Finds the candidates of a step from `state`; the deepest ones if the step cannot take all.
     pub(super) fn find(
         &mut self,
         organ: &NonlinearOrgan,
         neighbours: &[Neighbour],
-        (shafts, parts, way): (&[Option<ShaftMotion>], [f64; 2], f64),
+        motion: StepMotion<'_>,
         state: &NonlinearState,
     ) {
-        let near = NEAR + (way + state.last_way()).min(FARTHEST);
+        let near = NEAR + (motion.way + state.last_way()).min(MOST_MOTION);
         let (points, skin) = (organ.model.boundary_points(), &organ.skin);
         self.found.clear();
         if let (Some(search), Some(boundary)) = (&mut self.touching, &organ.touching) {
@@ -163,9 +173,9 @@ impl Candidates {
                 }
             }
         }
-        for motion in shafts.iter().flatten() {
+        for shaft in motion.shafts.iter().flatten() {
             let found = &mut self.found;
-            organ.meet_shaft(motion, parts, state, |gap, contact| {
+            organ.meet_shaft(shaft, motion.parts, state, |gap, contact| {
                 found.push((gap, contact));
             });
         }

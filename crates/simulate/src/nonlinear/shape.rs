@@ -1,4 +1,4 @@
-//! The organ that is seen: its surface, carried by the elements, and under each tool where the tool has it.
+//! The display mesh: its vertices are embedded in the elements, and under each tool they meet the tool.
 //!
 //! The elements around a tip know a load as wide as they resolve, and not the tip. What the surface lacks to meet the tip
 //! fades as the dimple of a flat tip does, with the distance r from it, and ends where the load ends:
@@ -40,8 +40,8 @@ impl NonlinearOrgan {
         };
         let shown = &mut workspace.shown;
         let mut largest = 0.0_f64;
-        let carried = self.shown.displacements(&body.state);
-        for (own, by) in shown.iter_mut().zip(carried) {
+        let embedded = self.shown.displacements(&body.state);
+        for (own, by) in shown.iter_mut().zip(embedded) {
             *own = by;
             largest = largest.max(by.norm_squared());
         }
@@ -80,7 +80,7 @@ impl NonlinearOrgan {
                 continue;
             }
             let square = load.radius.powi(2);
-            // The far side of a wall goes along, as far as it is near: moved alone, this side would go through it.
+            // On both sides of a wall: otherwise the near side would pass through the far one.
             for (by, vertex) in shown.iter_mut().zip(rest.vertices()) {
                 let apart = (vertex - place).norm_squared();
                 if apart < square {

@@ -26,6 +26,7 @@ use palpate_mechanics::contact::{Friction, half_space_stiffness, half_space_tang
 use palpate_mechanics::nonlinear::{Conditions, NonlinearModel, Pace, advance};
 use palpate_mechanics::{ForceHistory, Limits, PronySeries};
 
+use super::neighbours::StepMotion;
 use super::shafts::{Pushed, ShaftMotion};
 use super::soft::Piece;
 use super::target::{Now, Target, farthest, positive, slippery};
@@ -286,9 +287,12 @@ impl NonlinearOrgan {
             let has_shafts = workspace.shafts.iter().any(Option::is_some);
             if part == 1 || self.touching.is_some() || has_shafts {
                 let candidates = &mut workspace.candidates;
-                let ways = [part - 1, part].map(|part| reach * part as f64);
-                let shafts = (&workspace.shafts[..], ways, way);
-                candidates.find(self, &simulation.neighbours, shafts, &body.state);
+                let motion = StepMotion {
+                    shafts: &workspace.shafts,
+                    parts: [part - 1, part].map(|part| reach * part as f64),
+                    way,
+                };
+                candidates.find(self, &simulation.neighbours, motion, &body.state);
                 let is_hard = candidates.touches_itself() || candidates.touches_shafts();
                 pace.iterations = match is_hard {
                     true => ITERATIONS_TOUCHING,

@@ -220,9 +220,8 @@ fn a_pulled_tube_grows_as_its_tissue_does_and_goes_back() {
     assert!(left < 1e-6, "{left}");
 }
 
-/// The esophagus of the traction task is pulled aside at 290 mm/s until nothing holds any more. The force
-/// grows from step to step by no more than its half, up to the last one, and then is none; what is let go ends at rest.
-/// Before, a step in which elements turned inside out ended with 20 N.
+/// The esophagus of the traction task is pulled aside at 290 mm/s until the model has no answer. The force increases by no
+/// more than half from step to step, then is zero; released, the organ comes to rest.
 #[test]
 fn a_hand_that_pulls_without_end_feels_no_leap() {
     let text = include_str!("../../../../assets/tasks/traction.toml");

@@ -1,14 +1,14 @@
-//! Points that a body carries: those of the surface that is seen.
+//! Points that are embedded in the elements: the vertices of the display mesh.
 //!
-//! A point in an element goes as that does. One outside goes with the nearest point of the boundary and turns about it with the
-//! body there: with Y that point, u its displacement and Q the rotation of the body there, X moves by
+//! A point X inside an element moves by its shape functions. A point outside moves with the nearest point Y of the boundary,
+//! and rotates about it with the body: with u the displacement and Q the rotation of the body at Y,
 //!
 //! ```text
 //! u(Y) + (Q(Y) − 1) (X − Y)
 //! ```
 //!
-//! Both are continuous along the boundary, so that a surface that is seen has no steps where elements end; quadratic
-//! functions grow fast outside their element, and differ from element to element.
+//! Both are continuous along the boundary, so that the display mesh has no steps between elements. Shape functions would have:
+//! outside their element quadratic functions grow fast, and differ from element to element.
 
 use std::ops::Range;
 
@@ -18,63 +18,73 @@ use palpate_geometry::{AabbTree, NodeId, TetrahedronMesh, TriangleMesh};
 use super::boundary::shape_on_face;
 use super::elements::NODES;
 use super::state::NonlinearState;
-use crate::Vec3;
 use crate::finite_elements::ElementKind;
 use crate::finite_elements::solid::{Face, faces};
+use crate::{Error, Vec3};
 
-/// A point that is less outside its element than this, in barycentric coordinates, is in it [-]: rounding.
+/// Barycentric coordinates down to minus this are inside [-]: rounding.
 const OUTSIDE: f64 = 1e-9;
 
-/// Points with what each goes with.
+/// Points that move with the elements of a body.
 #[derive(Debug, Clone, Default)]
-pub struct CarriedPoints {
-    points: Vec<CarriedPoint>,
+pub struct EmbeddedPoints {
+    points: Vec<EmbeddedPoint>,
 }
 
 #[derive(Debug, Clone, Copy)]
-struct CarriedPoint {
-    /// What it goes with, with weights [-].
+struct EmbeddedPoint {
+    /// Nodes, and their weights in the displacement [-].
     nodes: [u32; NODES],
     shape: [f32; NODES],
-    /// Where it is beside that [m], and what it turns with, with weights [-]; none in an element.
-    beside: Option<(Vec3, [(u32, f64); 3])>,
+    /// None inside an element.
+    outside: Option<Outside>,
 }
 
-impl CarriedPoints {
-    /// `elements` are the nodes of the quadratic tetrahedra of `mesh`, of which those of `range` carry the `points`.
+/// Where a point outside is relative to the nearest point of the boundary.
+#[derive(Debug, Clone, Copy)]
+struct Outside {
+    /// X − Y [m].
+    offset: Vec3,
+    /// Nodes, and their weights in the rotation [-].
+    rotation: [(u32, f64); 3],
+}
+
+impl EmbeddedPoints {
+    /// `elements` are the nodes of the quadratic tetrahedra of `mesh`; the `points` are embedded in those of `range`.
+    ///
+    /// # Errors
+    /// When the range is empty.
     pub(super) fn new(
         mesh: &TetrahedronMesh,
         elements: &[u32],
         (points, range): (&[Vec3], Range<usize>),
-    ) -> Self {
+    ) -> Result<Self, Error> {
         let faces = faces(mesh).into_iter();
         let faces: Vec<Face> = faces
             .filter(|face| range.contains(&face.tetrahedron))
             .collect();
         let corners = faces.iter().map(|face| face.corners).collect();
-        // Faces of a mesh are triangles of its vertices.
-        let Ok(boundary) = TriangleMesh::new(mesh.vertices().to_vec(), corners) else {
-            return Self::default();
-        };
+        let boundary = TriangleMesh::new(mesh.vertices().to_vec(), corners);
+        let boundary = boundary.map_err(|_| Error::NoElements)?;
         let tree = AabbTree::new(&boundary);
         let inside = InElements::new(mesh, range);
         let points = points.iter().map(|point| {
             inside.of(elements, point).unwrap_or_else(|| {
                 let nearest = tree.nearest(&boundary, point);
                 let on = nearest.on;
-                CarriedPoint::beside(
+                EmbeddedPoint::outside(
                     &faces[nearest.triangle.index()],
                     on.barycentric,
                     point - on.position,
                 )
             })
         });
-        Self {
+        Ok(Self {
             points: points.collect(),
-        }
+        })
     }
 
-    /// Carries the points of `other` as well, after its own.
+    /// Appends the points of `other`.
     pub fn extend(&mut self, other: Self) {
         self.points.extend(other.points);
     }
@@ -98,20 +108,20 @@ impl CarriedPoints {
     }
 }
 
-impl CarriedPoint {
-    /// A point that is `beside` the point of a face with these `barycentric` coordinates [m].
-    fn beside(face: &Face, barycentric: [f64; 3], beside: Vec3) -> Self {
+impl EmbeddedPoint {
+    /// A point at this `offset` [m] from the point of a face with these `barycentric` coordinates.
+    fn outside(face: &Face, barycentric: [f64; 3], offset: Vec3) -> Self {
         let (mut nodes, mut shape) = ([face.nodes[0] as u32; NODES], [0.0; NODES]);
         let weights = shape_on_face(barycentric);
         for (k, (node, weight)) in face.nodes.iter().zip(weights).enumerate() {
             (nodes[k], shape[k]) = (*node as u32, weight as f32);
         }
         let corners = face.corners.map(NodeId::index);
-        let turns = std::array::from_fn(|k| (corners[k] as u32, barycentric[k]));
+        let rotation = std::array::from_fn(|k| (corners[k] as u32, barycentric[k]));
         Self {
             nodes,
             shape,
-            beside: Some((beside, turns)),
+            outside: Some(Outside { offset, rotation }),
         }
     }
 
@@ -121,17 +131,17 @@ impl CarriedPoint {
             let u = &state.displacements[3 * node as usize..][..3];
             sum += f64::from(weight) * Vec3::new(u[0], u[1], u[2]);
         }
-        if let Some((beside, turns)) = &self.beside {
-            for &(node, weight) in turns {
+        if let Some(Outside { offset, rotation }) = &self.outside {
+            for &(node, weight) in rotation {
                 let q = state.rotations[node as usize].map(f64::from);
-                sum += weight * (Matrix3::from_column_slice(&q) * beside - beside);
+                sum += weight * (Matrix3::from_column_slice(&q) * offset - offset);
             }
         }
         sum
     }
 }
 
-/// Tetrahedra with what finds barycentric coordinates in them.
+/// Tetrahedra, with the maps to their barycentric coordinates.
 struct InElements {
     first: usize,
     frames: Vec<(Vec3, Matrix3<f64>)>,
@@ -152,8 +162,8 @@ impl InElements {
         }
     }
 
-    /// A point that is in one of them.
-    fn of(&self, elements: &[u32], point: &Vec3) -> Option<CarriedPoint> {
+    /// A point inside one of them.
+    fn of(&self, elements: &[u32], point: &Vec3) -> Option<EmbeddedPoint> {
         let mut frames = self.frames.iter();
         let mut at = [0.0; 3];
         let number = frames.position(|(corner, inverse)| {
@@ -164,10 +174,10 @@ impl InElements {
         let own = &elements[(self.first + number) * NODES..][..NODES];
         let mut shape = [0.0; NODES];
         ElementKind::Tet10.shape(at, &mut shape);
-        Some(CarriedPoint {
+        Some(EmbeddedPoint {
             nodes: std::array::from_fn(|k| own[k]),
             shape: shape.map(|value| value as f32),
-            beside: None,
+            outside: None,
         })
     }
 }
@@ -196,7 +206,7 @@ mod tests {
         NonlinearModel::on_boundary(&mesh, &moduli, |_, place| place.z == 0.0).unwrap()
     }
 
-    /// The body moved and turned by `turn` about the origin, node by node.
+    /// The body with its nodes at the given places, each rotated by `turn`.
     fn moved(
         model: &NonlinearModel,
         place: impl Fn(&Vec3) -> Vec3,
@@ -222,21 +232,21 @@ mod tests {
 
     /// Judge: the rotation itself; weights are kept in single precision.
     #[test]
-    fn what_is_turned_carries_its_points_along() {
+    fn embedded_points_rotate_with_the_body() {
         let model = model();
         let turn = Rotation3::from_euler_angles(0.4, -1.1, 2.0);
         let state = moved(&model, |place| turn * place, turn.matrix());
         let places = places();
-        let carried = model.carried(&places, 0..2);
-        for (place, by) in places.iter().zip(carried.displacements(&state)) {
+        let embedded = model.embed(&places, 0..2).unwrap();
+        for (place, by) in places.iter().zip(embedded.displacements(&state)) {
             assert!((place + by - turn * place).norm() < 1e-5, "{place}");
         }
     }
 
-    /// Judge: continuity. Places around a bent body, as near as 1e-6 to one another, stay as near, but for those that
-    /// are as far from two parts of a dent: the body has none.
+    /// Judge: continuity. Pairs of points around a bent body, 1e-6 apart, stay as near. The body is convex, so that each has one
+    /// nearest point of the boundary.
     #[test]
-    fn what_is_carried_has_no_steps() {
+    fn embedded_points_move_continuously() {
         let model = model();
         let bent = |place: &Vec3| {
             let [x, y, z] = [place.x, place.y, place.z];
@@ -254,8 +264,8 @@ mod tests {
             .collect();
         let beside: Vec<Vec3> = outside.iter().map(|place| place + near).collect();
         let [first, second] = [outside, beside].map(|places| {
-            let carried = model.carried(&places, 0..2);
-            carried.displacements(&state).collect::<Vec<_>>()
+            let embedded = model.embed(&places, 0..2).unwrap();
+            embedded.displacements(&state).collect::<Vec<_>>()
         });
         for (own, other) in first.iter().zip(&second) {
             assert!((own - other).norm() < 1e-5, "{own} {other}");
