@@ -67,6 +67,9 @@ namespace Palpate
         ShaftUnknown = 1u << 22,
         /// <summary>The direction of its shaft is known again.</summary>
         ShaftKnown = 1u << 23,
+        /// <summary>No equilibrium of the organ was found: it is at rest again, and the tool has lost what it touched and
+        /// held.</summary>
+        NoEquilibrium = 1u << 24,
     }
 
     /// <summary>Three numbers along x, y and z.</summary>

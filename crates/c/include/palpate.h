@@ -125,6 +125,11 @@
 #define PALPATE_EVENT_SHAFT_KNOWN (1 << 23)
 
 /**
+ * No equilibrium of the organ was found: it is at rest again, and the tool has lost what it touched and held.
+ */
+#define PALPATE_EVENT_NO_EQUILIBRIUM (1 << 24)
+
+/**
  * The version of this header.
  */
 #define PALPATE_VERSION_MAJOR 0

@@ -44,6 +44,8 @@ pub const PALPATE_EVENT_SHAFT_RELEASE: u32 = 1 << 21;
 pub const PALPATE_EVENT_SHAFT_UNKNOWN: u32 = 1 << 22;
 /// The direction of its shaft is known again.
 pub const PALPATE_EVENT_SHAFT_KNOWN: u32 = 1 << 23;
+/// No equilibrium of the organ was found: it is at rest again, and the tool has lost what it touched and held.
+pub const PALPATE_EVENT_NO_EQUILIBRIUM: u32 = 1 << 24;
 
 /// The bit of an event: none for what a caller has done itself.
 fn bit(event: Event) -> u32 {
@@ -70,6 +72,7 @@ fn bit(event: Event) -> u32 {
         Event::ShaftRelease => PALPATE_EVENT_SHAFT_RELEASE,
         Event::ShaftUnknown => PALPATE_EVENT_SHAFT_UNKNOWN,
         Event::ShaftKnown => PALPATE_EVENT_SHAFT_KNOWN,
+        Event::NoEquilibrium => PALPATE_EVENT_NO_EQUILIBRIUM,
     }
 }
 
@@ -86,7 +89,7 @@ mod tests {
     fn bits_are_those_that_programs_were_compiled_with() {
         let bits = Event::WORDS.iter().map(|&(_, event)| bit(event));
         let told: Vec<u32> = bits.filter(|&bit| bit != 0).collect();
-        let expected: Vec<u32> = (0..=23)
+        let expected: Vec<u32> = (0..=24)
             .filter(|place| ![9, 10, 12].contains(place))
             .map(|place| 1 << place)
             .collect();

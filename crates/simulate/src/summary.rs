@@ -90,6 +90,7 @@ pub(crate) struct Tally {
     pulled: f64,
     shaft_contacts: u64,
     non_finite: u64,
+    without_equilibrium: u64,
     off_model: u64,
     perforations: u64,
 }
@@ -106,6 +107,7 @@ impl Tally {
             pulled: 0.0,
             shaft_contacts: 0,
             non_finite: 0,
+            without_equilibrium: 0,
             off_model: 0,
             perforations: 0,
         }
@@ -122,6 +124,7 @@ impl Tally {
             self.contacts += counts(Event::Contact);
             self.shaft_contacts += counts(Event::ShaftContact);
             self.non_finite += counts(Event::NonFiniteForce);
+            self.without_equilibrium += counts(Event::NoEquilibrium);
             self.off_model += u64::from(tool.off_model && tool.contact.is_some());
             self.perforations += counts(Event::Perforation);
             self.peak_force = self.peak_force.max(tool.force.norm());
@@ -188,6 +191,14 @@ impl Tally {
             format!(
                 "{} forces were no finite number and were taken as zero",
                 self.non_finite
+            ),
+        );
+        warn(
+            self.without_equilibrium > 0,
+            format!(
+                "{} times no equilibrium of the organ was found, and it was put back to rest: it was pulled or pressed too \
+                 far, or too fast",
+                self.without_equilibrium
             ),
         );
         warn(

@@ -282,7 +282,7 @@ impl Tip {
         Key::number(
             "friction",
             Domain::FRICTION,
-            "Coulomb's coefficient of a tip that sticks, as in the table `contact`.",
+            "Coulomb's coefficient of a tip that sticks, as in the table `contact`; of the nonlinear model also that of the shaft.",
         )
         .optional("0.3", "it never slides"),
     ];

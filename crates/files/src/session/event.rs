@@ -54,6 +54,8 @@ words! {
         ShaftUnknown = "shaft_unknown",
         /// The direction of its shaft is known again.
         ShaftKnown = "shaft_known",
+        /// No equilibrium of the organ was found: it is at rest again, and the tool has lost what it touched and held.
+        NoEquilibrium = "no_equilibrium",
     }
 }
 
@@ -178,7 +180,7 @@ mod tests {
         assert_eq!(Events::from_words("cut;contact"), Some(events));
         assert_eq!(Events::from_words(""), Some(Events::NONE));
         assert_eq!(Events::from_words("contact;sneeze"), None);
-        assert_eq!(Event::WORDS.len(), 24);
+        assert_eq!(Event::WORDS.len(), 25);
     }
 
     #[test]

@@ -10,10 +10,10 @@
 use nalgebra::Matrix3;
 
 use super::complementarity::Complementarity;
-use super::contact::{Contacts, MOST_CONTACTS, ROWS, Rubbed, UnilateralContact};
+use super::contact::{Contacts, MOST_CONTACTS, ROWS, UnilateralContact};
 use super::coupling::{Coupling, Rows, influence};
 use super::model::NonlinearModel;
-use super::state::NonlinearState;
+use super::state::{ContactMemory, NonlinearState};
 use crate::Vec3;
 
 /// Columns of Z of contacts: with more of them, four projections cost less by solutions.
@@ -61,7 +61,7 @@ pub(super) struct Constraints {
     pub(super) known: Vec<f64>,
     /// Forces in the rows that slide [N]; zero in the others.
     pub(super) slid: Vec<f64>,
-    pub(super) remembered: Vec<(usize, Rubbed)>,
+    pub(super) remembered: Vec<ContactMemory>,
     /// The contacts that have columns of Z, and these; three values a node [m/N].
     with_columns: Vec<usize>,
     columns: Vec<f32>,
@@ -141,7 +141,7 @@ impl Constraints {
             self.force[row] = if number < self.contacts.normals() {
                 state.pressed_at(contact.slot)
             } else {
-                contact.normal.dot(&state.rubbed[contact.slot].force)
+                contact.normal.dot(&state.rubbed_at(contact.slot).force)
             };
         }
         self.begin_kinds(state);
@@ -278,22 +278,32 @@ impl Constraints {
         self.remember_contacts(state);
     }
 
-    /// Σ a (S⁻¹ a)ᵀ over the contacts that bear [N/m], with the vector a of each contact [-], in their order.
-    pub(super) fn stiffness(&mut self, ways: impl Iterator<Item = Vec3> + Clone) -> Matrix3<f64> {
+    /// Σ a (S⁻¹ a)ᵀ over the rows in contact that do not slide [N/m], with a the vector that `motion` has for a contact's number
+    /// and a direction.
+    pub(super) fn stiffness(
+        &mut self,
+        motion: impl Fn(usize, &Vec3) -> Vec3 + Clone,
+    ) -> Matrix3<f64> {
         let (count, tools) = (self.count(), self.tools.rows.len());
         let normals = self.contacts.normals();
+        let rubs = self.contacts.rubs.iter();
+        let along = rubs.flat_map(|rub| [(rub.normal, rub.along), (rub.normal, rub.along + 1)]);
+        let rows = (0..normals).map(|row| (row, row)).chain(along);
+        let rows = rows.map(|(contact, row)| {
+            let direction = &self.contacts.listed[row].normal;
+            (tools + row, motion(contact, direction))
+        });
         let mut sum = Matrix3::zeros();
         for axis in 0..3 {
             self.violation[..count].fill(0.0);
-            let own = self.violation[tools..tools + normals].iter_mut();
-            for (own, way) in own.zip(ways.clone()) {
-                *own = way[axis];
+            for (row, motion) in rows.clone() {
+                self.violation[row] = motion[axis];
             }
             self.problem
                 .solve_bearing(&self.violation, &mut self.t[..count]);
-            for (force, way) in self.t[tools..tools + normals].iter().zip(ways.clone()) {
-                for row in 0..3 {
-                    sum[(row, axis)] += way[row] * force;
+            for (row, motion) in rows.clone() {
+                for of in 0..3 {
+                    sum[(of, axis)] += motion[of] * self.t[row];
                 }
             }
         }

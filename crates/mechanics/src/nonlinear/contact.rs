@@ -11,15 +11,14 @@
 //! The half-space stands still in the step, or goes with another place of the boundary ([`super::touching`]): then u is the
 //! displacement of the point less that of the place, which bears −λ.
 //!
-//! A point that bears and sticks keeps its anchor a, through the same compliance; the force τ along the surface stays
-//! within the cone, and the anchor goes along where it slides:
+//! A point in contact that sticks keeps its anchor a, through the same compliance; an anchor on a tool moves with the tool.
+//! The force τ along the surface stays within the cone, and the anchor follows a point that slides:
 //!
 //! ```text
 //! e · (u − a) + c τ = 0,   |τ| ≤ μ λ
 //! ```
 //!
-//! A contact that is smaller than a face is not resolved. A point that begins to bear has friction from the next step on.
-//! Tools are taken without friction.
+//! A contact that is smaller than a face is not resolved. A new contact has friction from the next step on.
 
 use palpate_geometry::TetrahedronMesh;
 
@@ -73,8 +72,8 @@ pub enum Against {
     Tool {
         /// Its number.
         number: usize,
-        /// How far what is behind the half-space goes in the step [m].
-        way: Vec3,
+        /// How far the place of the tool behind the half-space moves in the step [m].
+        motion: Vec3,
     },
     /// Another place of the boundary, which bears as much the other way: nodes with their weights [-].
     Boundary([(u32, f64); NODES]),
@@ -89,7 +88,7 @@ pub struct UnilateralContact {
     pub normal: Vec3,
     /// Distance of the point at rest from the half-space [m]; negative inside.
     pub offset: f64,
-    /// Coulomb's coefficient μ [-]; against a tool it is taken as zero.
+    /// Coulomb's coefficient μ [-].
     pub friction: f64,
     /// What is behind the half-space.
     pub against: Against,
@@ -221,6 +220,8 @@ pub(super) struct Contact {
     pub(super) is_between: bool,
     pub(super) normal: Vec3,
     offset: f64,
+    /// How far the anchor moves in the step [m]: with a tool.
+    motion: Vec3,
 }
 
 impl Contact {
@@ -244,6 +245,10 @@ impl Contact {
             is_between: matches!(contact.against, Against::Boundary(_)),
             normal: contact.normal,
             offset: contact.offset,
+            motion: match contact.against {
+                Against::Tool { motion, .. } => motion,
+                Against::Still | Against::Boundary(_) => Vec3::zeros(),
+            },
         }
     }
 
@@ -274,11 +279,11 @@ impl Contact {
     }
 
     /// The displacement at which the point would bear no friction [m].
-    fn anchor(&self, state: &NonlinearState) -> Vec3 {
-        let known = state.rubbed[self.slot].anchor;
+    pub(super) fn anchor(&self, state: &NonlinearState) -> Vec3 {
+        let known = state.rubbed_at(self.slot).anchor;
         match self.is_between {
             true => self.displacement(&state.displacements) + known,
-            false => known,
+            false => known + self.motion,
         }
     }
 
@@ -333,8 +338,7 @@ impl Contacts {
         for (normal, contact) in contacts.iter().enumerate() {
             let own = self.listed[normal];
             let bears = state.pressed_at(own.slot) > 0.0;
-            let is_of_tool = matches!(contact.against, Against::Tool { .. });
-            if bears && contact.friction > 0.0 && !is_of_tool {
+            if bears && contact.friction > 0.0 {
                 let along = self.listed.len();
                 let anchor = own.anchor(state);
                 let [first, second] = tangents(&contact.normal);

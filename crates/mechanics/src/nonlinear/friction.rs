@@ -8,7 +8,7 @@
 use super::complementarity::Kind;
 use super::constraints::Constraints;
 use super::contact::{Rub, Rubbed};
-use super::state::{NO_CONTACT, NonlinearState};
+use super::state::{ContactMemory, NonlinearState};
 use crate::Vec3;
 
 /// Problems of complementarity to solve: a few are the rule.
@@ -32,7 +32,7 @@ impl Constraints {
         kinds[tools..tools + normals].fill(Kind::Unilateral);
         for rub in &self.contacts.rubs {
             let slot = self.contacts.listed[rub.normal].slot;
-            let kind = match state.rubbed[slot].slides {
+            let kind = match state.rubbed_at(slot).slides {
                 true => Kind::Open,
                 false => Kind::Bilateral,
             };
@@ -165,8 +165,7 @@ impl Constraints {
         self.remembered.clear();
         let normals = &self.contacts.listed[..self.contacts.normals()];
         for (number, contact) in normals.iter().enumerate() {
-            let remembers_friction = contact.slot < state.rubbed.len();
-            if self.force[tools + number] > 0.0 && remembers_friction {
+            if self.force[tools + number] > 0.0 {
                 let begun = Rubbed {
                     anchor: match contact.is_between {
                         false => contact.displacement(&state.displacements),
@@ -179,26 +178,24 @@ impl Constraints {
                     Some(rub) => self.rubbed(rub, state),
                     None => begun,
                 };
-                self.remembered.push((contact.slot, rubbed));
+                self.remembered.push(ContactMemory {
+                    slot: contact.slot,
+                    force: self.force[tools + number],
+                    rubbed,
+                });
             }
         }
         state.pressed.fill(0.0);
-        state.on_tools.fill(NO_CONTACT);
-        let mut on_tools = state.on_tools.iter_mut();
-        for (contact, force) in normals.iter().zip(&self.force[tools..]) {
-            match state.pressed.get_mut(contact.slot) {
-                Some(pressed) => *pressed = *force,
-                None if *force > 0.0 => {
-                    if let Some(own) = on_tools.next() {
-                        *own = (contact.slot, *force);
-                    }
-                }
-                None => {}
-            }
-        }
         state.rubbed.fill(Rubbed::default());
-        for (slot, rubbed) in self.remembered.drain(..) {
-            state.rubbed[slot] = rubbed;
+        state.on_tools.fill(ContactMemory::default());
+        let mut on_tools = state.on_tools.iter_mut();
+        for memory in self.remembered.drain(..) {
+            if let Some(pressed) = state.pressed.get_mut(memory.slot) {
+                *pressed = memory.force;
+                state.rubbed[memory.slot] = memory.rubbed;
+            } else if let Some(own) = on_tools.next() {
+                *own = memory;
+            }
         }
     }
 
@@ -210,7 +207,7 @@ impl Constraints {
         let lag = first.compliance * force;
         let anchor = match (first.is_between, slides) {
             (false, true) => first.displacement(&state.displacements) + lag,
-            (false, false) => state.rubbed[first.slot].anchor,
+            (false, false) => first.anchor(state),
             (true, true) => lag,
             (true, false) => {
                 let lags = [first, second].map(|own| own.normal * -own.gap(&state.displacements));

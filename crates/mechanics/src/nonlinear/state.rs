@@ -14,9 +14,6 @@ const FADES: u32 = 10;
 
 const UNTURNED: [f32; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
-/// In the place of a contact with a tool that is not there.
-pub(super) const NO_CONTACT: (usize, f64) = (usize::MAX, 0.0);
-
 /// A body between two steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NonlinearState {
@@ -31,13 +28,33 @@ pub struct NonlinearState {
     /// Force of the contact at each point of the boundary with what stands still [N], then with the boundary itself.
     pub(super) pressed: Vec<f64>,
     pub(super) rubbed: Vec<Rubbed>,
-    /// Slots and forces [N] of the contacts with tools, then [`NO_CONTACT`]: few of very many points.
-    pub(super) on_tools: Vec<(usize, f64)>,
+    /// The contacts with tools, then [`ContactMemory::default`]: few of very many points.
+    pub(super) on_tools: Vec<ContactMemory>,
     /// Stress at the integration points in the past; none where nothing relaxes.
     pub(super) stress: Vec<Remembered<f32>>,
     /// Forces on the nodes by tools that have let go [N], and the steps in which they still act.
     pub(super) fading: Vec<f32>,
     pub(super) fades: u32,
+}
+
+/// What is remembered of a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ContactMemory {
+    pub(super) slot: usize,
+    /// Force along the normal [N].
+    pub(super) force: f64,
+    pub(super) rubbed: Rubbed,
+}
+
+impl Default for ContactMemory {
+    /// None.
+    fn default() -> Self {
+        Self {
+            slot: usize::MAX,
+            force: 0.0,
+            rubbed: Rubbed::default(),
+        }
+    }
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -68,7 +85,7 @@ impl NonlinearState {
             tools: vec![tool; tools],
             pressed: vec![0.0; 2 * model.boundary_points().len()],
             rubbed: vec![Rubbed::default(); 2 * model.boundary_points().len()],
-            on_tools: vec![NO_CONTACT; MOST_CONTACTS],
+            on_tools: vec![ContactMemory::default(); MOST_CONTACTS],
             stress: model
                 .relaxation
                 .as_ref()
@@ -99,7 +116,7 @@ impl NonlinearState {
         self.fading.fill(0.0);
         self.pressed.fill(0.0);
         self.rubbed.fill(Rubbed::default());
-        self.on_tools.fill(NO_CONTACT);
+        self.on_tools.fill(ContactMemory::default());
         self.fades = 0;
         self.is_smooth = true;
         for tool in &mut self.tools {
@@ -232,20 +249,37 @@ impl NonlinearState {
         self.pressed_at(contact.slot(model))
     }
 
-    /// Whether any place of the boundary bears on a tool beside its tip.
-    pub fn bears_on_tools(&self) -> bool {
-        self.on_tools[0] != NO_CONTACT
+    /// Force of friction at a contact [N] on its point after the last step.
+    ///
+    /// # Panics
+    /// When it has no point of `model`, or the state is that of another.
+    pub fn friction_of(&self, model: &NonlinearModel, contact: &UnilateralContact) -> Vec3 {
+        self.rubbed_at(contact.slot(model)).force
+    }
+
+    /// Whether any place of the boundary is in contact with a tool beside its tip.
+    pub fn touches_tools(&self) -> bool {
+        self.on_tools[0] != ContactMemory::default()
     }
 
     pub(super) fn pressed_at(&self, slot: usize) -> f64 {
         match self.pressed.get(slot) {
             Some(force) => *force,
-            None => {
-                let known = self.on_tools.iter().take_while(|own| **own != NO_CONTACT);
-                let mut own = known.filter(|own| own.0 == slot);
-                own.next().map_or(0.0, |own| own.1)
-            }
+            None => self.on_tool(slot).force,
         }
+    }
+
+    pub(super) fn rubbed_at(&self, slot: usize) -> Rubbed {
+        match self.rubbed.get(slot) {
+            Some(rubbed) => *rubbed,
+            None => self.on_tool(slot).rubbed,
+        }
+    }
+
+    fn on_tool(&self, slot: usize) -> ContactMemory {
+        let none = ContactMemory::default();
+        let mut known = self.on_tools.iter().take_while(|own| **own != none);
+        *known.find(|own| own.slot == slot).unwrap_or(&none)
     }
 
     /// Whether any place of the boundary bears on another.

@@ -94,10 +94,13 @@ impl Workspace {
 }
 
 impl Workspace {
-    /// How the forces of the contacts of the last step resist, where the half-space of each moves along its normal by `ways`
-    /// [-] times a small displacement x of what is behind them: Σ a (S⁻¹ a)ᵀ [N/m], with a of each in its order.
-    pub fn contact_stiffness(&mut self, ways: impl Iterator<Item = Vec3> + Clone) -> Matrix3<f64> {
-        self.constraints.stiffness(ways)
+    /// How the forces of the contacts of the last step resist a small displacement x of what is behind them [N/m], where
+    /// contact number i moves by `motion(i, d) · x` along a direction d: its normal, and where it sticks along the surface.
+    pub fn contact_stiffness(
+        &mut self,
+        motion: impl Fn(usize, &Vec3) -> Vec3 + Clone,
+    ) -> Matrix3<f64> {
+        self.constraints.stiffness(motion)
     }
 }
 
@@ -216,12 +219,12 @@ fn guess(
         }
     }
     for contact in contacts {
-        if let Against::Tool { way, .. } = contact.against
+        if let Against::Tool { motion, .. } = contact.against
             && state.force_of(model, contact) > 0.0
         {
             let nodes = &model.tool_points()[contact.point as usize].nodes;
             let last = contact.normal.dot(&state.last_advance(nodes));
-            along += contact.normal.dot(&way) * last;
+            along += contact.normal.dot(&motion) * last;
             length += last * last;
         }
     }

@@ -188,7 +188,7 @@ fn a_sphere_presses_as_on_finite_elements_and_leaves_the_body_at_rest() {
             0.45,
             Against::Tool {
                 number: 0,
-                way: Vec3::zeros(),
+                motion: Vec3::zeros(),
             },
         ),
     ] {

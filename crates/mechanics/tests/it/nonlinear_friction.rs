@@ -5,8 +5,8 @@ use nalgebra::Matrix3;
 use palpate_geometry::TetrahedronMesh;
 use palpate_mechanics::Vec3;
 use palpate_mechanics::nonlinear::{
-    Against, Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace, UnilateralContact,
-    Workspace, advance,
+    Against, BoundaryPoint, Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace,
+    TOOL_POINTS, UnilateralContact, Workspace, advance,
 };
 
 /// Edges of the block [m].
@@ -26,6 +26,8 @@ struct Block {
     /// The nodes at half the height, which a tool drags.
     dragged: Vec<(u32, f64)>,
     friction: f64,
+    /// Where the plane has gone to [m] as a tool; none of one that stands still.
+    plane: Option<Vec3>,
 }
 
 /// All forces of contacts [N]: along the normal, along the surface, and the largest |τ| − μ λ.
@@ -55,26 +57,56 @@ impl Block {
             dragged: dragged.into_iter().map(|node| (node, weight)).collect(),
             model,
             friction,
+            plane: None,
         }
     }
 
-    fn contacts(&self, depth: f64) -> Vec<UnilateralContact> {
-        let points = self.model.boundary_points().iter().enumerate();
+    /// Under a plane that is a tool.
+    fn under_tool(friction: f64) -> Self {
+        Self {
+            plane: Some(Vec3::zeros()),
+            ..Self::new(friction)
+        }
+    }
+
+    /// The points that the plane may touch: of a tool the first four of each face's twenty.
+    fn points(&self) -> Vec<&BoundaryPoint> {
+        match self.plane {
+            None => self.model.boundary_points().iter().collect(),
+            Some(_) => self.model.tool_points().iter().collect(),
+        }
+    }
+
+    /// Those with the plane, which goes by `motion` [m] in the step.
+    fn contacts(&self, depth: f64, motion: Vec3) -> Vec<UnilateralContact> {
+        let number = 0;
+        let against = match self.plane {
+            None => Against::Still,
+            Some(_) => Against::Tool { number, motion },
+        };
+        let [few, more] = TOOL_POINTS;
+        let is_used = |number: usize| self.plane.is_none() || number % (few + more) < few;
+        let points = self.points().into_iter().enumerate();
         points
-            .filter(|(_, point)| point.place.z > HEIGHT - 1e-9)
+            .filter(|(number, point)| point.place.z > HEIGHT - 1e-9 && is_used(*number))
             .map(|(number, point)| UnilateralContact {
                 point: number as u32,
                 normal: -Vec3::z(),
                 offset: HEIGHT - depth - point.place.z,
                 friction: self.friction,
-                against: Against::Still,
+                against,
             })
             .collect()
     }
 
     /// A step under the plane at this `depth` [m], with the tool displaced by `to` [m] if it holds.
     fn step(&mut self, depth: f64, to: Option<Vec3>) {
-        let contacts = self.contacts(depth);
+        self.step_plane(depth, to, Vec3::zeros());
+    }
+
+    /// The same while the plane goes by `motion` [m].
+    fn step_plane(&mut self, depth: f64, to: Option<Vec3>, motion: Vec3) {
+        let contacts = self.contacts(depth, motion);
         let coupling = to.map(|to| Coupling {
             nodes: &self.dragged,
             along: None,
@@ -115,9 +147,9 @@ impl Block {
             along: Vec3::zeros(),
             beyond: f64::NEG_INFINITY,
         };
-        for point in 0..self.model.boundary_points().len() as u32 {
-            let normal = self.state.contact_force(point);
-            let along = self.state.friction_force(point);
+        for contact in self.contacts(0.0, Vec3::zeros()) {
+            let normal = self.state.force_of(&self.model, &contact);
+            let along = self.state.friction_of(&self.model, &contact);
             assert!(normal >= 0.0 && along.z.abs() < 1e-12);
             forces.normal += normal;
             forces.along += along;
@@ -148,6 +180,33 @@ fn a_dragged_block_slides_at_coulombs_force() {
         }
         println!("mu {friction}: {last:.4} of the cone");
         assert!(last > 0.98, "{last}");
+    }
+}
+
+/// Judge: only motion relative to the plane counts. A plane that moves as a tool over the block slides at μ N along its motion, as the
+/// one at rest does under the block that is dragged the other way, but for 2 % of each cone. Before, it carries the block along
+/// with less.
+#[test]
+fn a_tool_that_moves_slides_as_one_at_rest() {
+    let friction = 0.3;
+    let (mut still, mut tool) = (Block::new(friction), Block::under_tool(friction));
+    let starts = [&mut still, &mut tool].map(|block| {
+        block.press();
+        block.middle()
+    });
+    let by = 5e-5 * Vec3::new(-0.8, 0.6, 0.0);
+    for step in 1..=60 {
+        still.step(DEPTH, Some(starts[0] - by * f64::from(step)));
+        tool.step_plane(DEPTH, None, by);
+        let forces = tool.forces();
+        let part = forces.along.dot(&by.normalize()) / (friction * forces.normal);
+        assert!(part < 1.0 + 1e-9, "{part}");
+        assert!(step > 1 || part < 0.9, "slides at once: {part}");
+    }
+    for forces in [still.forces(), tool.forces()] {
+        let cone = friction * forces.normal;
+        println!("{:?} of {cone} N", forces.along);
+        assert!((forces.along - cone * by.normalize()).norm() < 0.02 * cone);
     }
 }
 

@@ -1,7 +1,8 @@
-//! Shafts that push what bends, without friction.
+//! Shafts in contact with what bends, with Coulomb's friction.
 //!
 //! A shaft is a rod that points of the boundary stay out of. What a tip or jaws load answers to them: there the rod begins
-//! behind them, and what their load reaches does not meet it. Other pieces of the body meet all of the rod, from its tip on.
+//! behind them, and what their load reaches is not in contact with it. Other pieces of the body are in contact with all of
+//! the rod, from its tip on. A rod does not turn about its own axis: its friction does not oppose that.
 //!
 //! On a tool in a trocar, of length ℓ and direction e, a force f at a distance s from the tip is felt at the tip by its work:
 //!
@@ -80,6 +81,8 @@ pub(super) struct ShaftMotion {
     loaded: Option<(usize, Vec3, f64)>,
     /// How far behind the tip it begins [m]: where a tip loads, and elsewhere.
     begins: [f64; 2],
+    /// Coulomb's coefficient [-].
+    friction: f64,
     /// The pieces that it goes through, bit by bit.
     pierced: Pierced,
 }
@@ -158,6 +161,7 @@ impl ShaftMotion {
             now,
             loaded: place.map(|place| (body.on[number], place, load.radius)),
             begins: [tool.shaft_begins(), tool.shaft_ends()],
+            friction: tool.friction.unwrap_or(0.0),
             pierced: 0,
         })
     }
@@ -339,17 +343,17 @@ impl NonlinearOrgan {
                 let is_wrapped = self.pieces[face.piece].bends_around[motion.tool];
                 if bears && (is_wrapped || !motion.is_left_out(face.piece, rest)) {
                     let at = shaft.at(&(rest + moved));
-                    let way = shaft.tip - was.tip + (shaft.along - was.along) * at;
+                    let moves = shaft.tip - was.tip + (shaft.along - was.along) * at;
                     visit(
                         gap,
                         UnilateralContact {
                             point: point as u32,
                             normal,
                             offset: gap - normal.dot(&moved),
-                            friction: 0.0,
+                            friction: motion.friction,
                             against: Against::Tool {
                                 number: motion.tool,
-                                way,
+                                motion: moves,
                             },
                         },
                     );
@@ -405,16 +409,13 @@ impl NonlinearOrgan {
             let moved = points[point].displacement(&state.displacements);
             shaft.at(&(self.shaft_skin.places[point] + moved))
         };
-        // How far the rod moves along the normal where the tip moves.
-        let way = |contact: &UnilateralContact| {
-            let normal = contact.normal;
-            match (is_of(contact, tool), shaft.is_in_trocar) {
-                (false, _) => Vec3::zeros(),
-                (true, false) => normal,
-                (true, true) => {
-                    let across = normal - shaft.along * shaft.along.dot(&normal);
-                    normal - across * (at(contact) / shaft.length)
-                }
+        // With this vector a, a place of the rod moves by a · x along `direction` where the tip moves by x; of a force there,
+        // what is felt at the tip.
+        let at_tip = |contact: &UnilateralContact, direction: &Vec3| match shaft.is_in_trocar {
+            false => *direction,
+            true => {
+                let across = direction - shaft.along * shaft.along.dot(direction);
+                direction - across * (at(contact) / shaft.length)
             }
         };
         let mut pushed = Pushed::default();
@@ -422,17 +423,24 @@ impl NonlinearOrgan {
             if !is_of(contact, tool) {
                 continue;
             }
-            let force = state.force_of(&self.model, contact);
-            pushed.force -= force * way(contact);
+            let force = contact.normal * state.force_of(&self.model, contact)
+                + state.friction_of(&self.model, contact);
+            pushed.force -= at_tip(contact, &force);
             if !shaft.is_in_trocar {
                 let arm = shaft.along * at(contact);
-                pushed.torque -= force * arm.cross(&contact.normal);
+                pushed.torque -= arm.cross(&force);
             }
         }
         if pushed == Pushed::default() {
             return Some(pushed);
         }
-        pushed.gradient = -solver.contact_stiffness(contacts.iter().map(way));
+        pushed.gradient = -solver.contact_stiffness(|number, direction| {
+            let contact = &contacts[number];
+            match is_of(contact, tool) {
+                true => at_tip(contact, direction),
+                false => Vec3::zeros(),
+            }
+        });
         let all = pushed.force.iter().chain(&pushed.torque);
         let mut all = all.chain(&pushed.gradient);
         all.all(|component| component.is_finite()).then_some(pushed)

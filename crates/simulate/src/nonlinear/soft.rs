@@ -10,7 +10,7 @@ use std::ops::Range;
 use palpate_files::Scene;
 use palpate_files::scene::{Location, Region, SoftNeighbour};
 use palpate_geometry::{AabbTree, NodeId, Surface, TetrahedronMesh, Vec3};
-use palpate_mechanics::contact::{Friction, Tip};
+use palpate_mechanics::contact::Tip;
 use palpate_mechanics::nonlinear::{NonlinearModel, TouchingBoundary};
 use palpate_mechanics::{LinearElastic, TipLaw};
 
@@ -168,11 +168,10 @@ impl Piece {
     }
 }
 
-/// Whether a `wall` so thick [m] bends around a tip: a ball that slips and is wider than the wall. One that sticks is taken as
-/// a dimple all the same.
+/// Whether a `wall` so thick [m] bends around a tip: a ball that can slide and is wider than the wall. One that sticks whatever
+/// the force is taken as a dimple all the same.
 fn wraps(tool: &Tool, wall: f64) -> bool {
-    let slips = tool.bond == Friction::Frictionless;
-    matches!(tool.tip, Tip::Sphere { radius } if slips && radius > wall)
+    matches!(tool.tip, Tip::Sphere { radius } if tool.slides() && radius > wall)
 }
 
 /// The organ's tetrahedra and those of the neighbours that bend.

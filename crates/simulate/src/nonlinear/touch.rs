@@ -179,7 +179,7 @@ impl NonlinearOrgan {
         // relaxes takes its time.
         let is_late = body.state.largest(&self.model) > SLOWEST_RETURN * before;
         let state = &body.state;
-        let is_held = state.bears_friction() || state.touches_itself() || state.bears_on_tools();
+        let is_held = state.bears_friction() || state.touches_itself() || state.touches_tools();
         if is_free && is_late && !is_held && (ended.is_inverted || !self.model.relaxes()) {
             body.state.shrink(&self.model, SLOWEST_RETURN);
         }
@@ -486,7 +486,7 @@ impl ToolState {
     /// Loses what it touches and holds of an organ whose answer was none.
     fn lose(&mut self) {
         if self.touches() {
-            self.row.events.insert(Event::NonFiniteForce);
+            self.row.events.insert(Event::NoEquilibrium);
             self.row.events.insert(Event::Release);
         }
         if self.grip.hold.take().is_some() {

@@ -126,6 +126,7 @@ impl<'a> Hands<'a> {
             assert!(force.is_finite(), "{:?}", tool.row);
             assert!(tool.grip_force.is_finite() && tool.grip_force >= 0.0);
             assert!(!tool.row.events.contains(Event::NonFiniteForce), "{tool:?}");
+            assert!(!tool.row.events.contains(Event::NoEquilibrium), "{tool:?}");
             self.seen.steps += 1;
             self.seen.forces += usize::from(force > 0.0);
             self.seen.holds += usize::from(tool.grip_force > 0.0);

@@ -221,7 +221,7 @@ fn a_pulled_tube_grows_as_its_tissue_does_and_goes_back() {
 }
 
 /// The esophagus of the traction task is pulled aside at 290 mm/s until the model has no answer. The force increases by no
-/// more than half from step to step, then is zero; released, the organ comes to rest.
+/// more than half from step to step, then is zero, and an event says why; released, the organ comes to rest.
 #[test]
 fn a_hand_that_pulls_without_end_feels_no_leap() {
     let text = include_str!("../../../../assets/tasks/traction.toml");
@@ -236,16 +236,19 @@ fn a_hand_that_pulls_without_end_feels_no_leap() {
         let grip = (f64::from(step) / 40.0 - 1.0).clamp(0.0, 1.0);
         hands.go(&[pose(&(tip - Vec3::y() * above), &turned, grip), None]);
     }
-    let (mut before, mut most) = (0.05, 0.0_f64);
+    let (mut before, mut most, mut told) = (0.05, 0.0_f64, 0);
     for step in 0..=100 {
         let to = tip - Vec3::new(0.98e-3, 1.06e-3, 0.0) * f64::from(step);
         hands.go(&[pose(&to, &turned, 1.0), None]);
+        let events = hands.state.tools[0].row.events;
+        told += u32::from(events.contains(Event::NoEquilibrium));
         let force = hands.state.tools[0].force.norm();
         assert!(force < 1.5 * before + 0.05, "{step}: {before}, {force}");
         (before, most) = (force.max(0.05), most.max(force));
     }
     println!("{most} N at most");
     assert!(most > 0.5, "{most}");
+    assert_eq!(told, 1);
     for _ in 0..400 {
         hands.go(&[pose(&(tip - Vec3::y()), &turned, 0.0), None]);
     }
@@ -417,7 +420,7 @@ fn gestures(setting: &Setting<'_>, count: usize) {
                 for tool in &hands.state.tools {
                     assert!(tool.force.iter().all(|component| component.is_finite()));
                     largest = largest.max(tool.force.norm());
-                    lost += usize::from(tool.row.events.contains(Event::NonFiniteForce));
+                    lost += usize::from(tool.row.events.contains(Event::NoEquilibrium));
                 }
                 let far = displaced(&hands, &simulation);
                 assert!(far.is_finite() && far < 1.0, "{far}");

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::UnitQuaternion;
+use palpate_files::scene::TipContact;
 use palpate_files::{Event, Pose, Scene, Session};
 use palpate_geometry::{AabbTree, Vec3};
 use palpate_simulate::interactive::affine_force;
@@ -30,6 +31,14 @@ fn along(direction: &Vec3) -> UnitQuaternion<f64> {
 fn with_trocar(trocar: Option<Vec3>) -> Simulation {
     let mut scene = CUBE.scene();
     scene.tools[0].trocar_m = trocar.map(Into::into);
+    Simulation::new(&scene).unwrap()
+}
+
+/// Whose tip and shaft slide beyond Coulomb's force.
+pub(crate) fn with_friction(setting: &Setting<'_>, friction: f64) -> Simulation {
+    let mut scene = setting.scene();
+    scene.tools[0].tip.contact = TipContact::Stick;
+    scene.tools[0].tip.friction = Some(friction);
     Simulation::new(&scene).unwrap()
 }
 
@@ -79,6 +88,52 @@ fn a_shaft_across_a_cube_is_pushed_at_its_middle() {
     println!("{felt:?} N at the tip");
     assert!((felt.z / force.z - 23.0 / 30.0).abs() < 0.03, "{felt}");
     assert_eq!(tool(&leant).torque, Vec3::zeros());
+}
+
+/// Judge: Coulomb's law. A shaft on a cube that is drawn along itself is held back by less than μ N, then by μ N, but for 3 %: the
+/// cube bulges. It is so the other way too, and the hand's work on the way there and back is what friction takes.
+#[test]
+fn a_shaft_drawn_along_itself_slides_at_coulombs_force() {
+    let (friction, by) = (0.2, 1e-4);
+    let simulation = with_friction(&CUBE, friction);
+    let (tip, turned) = (beside(4e-3), along(&Vec3::x()));
+    let mut hands = lay(&simulation, &tip, &turned);
+    let (mut at, mut work, mut last) = (0.0, 0.0, tool(&hands).force);
+    assert!(last.x.abs() < 0.1 * friction * last.z, "{last}");
+    for (direction, steps) in [(1.0, 60), (-1.0, 120)] {
+        for step in 1..=steps {
+            at += direction * by;
+            hands.go(&[pose(&(tip + Vec3::x() * at), &turned, 0.0)]);
+            let now = tool(&hands).force;
+            work -= 0.5 * (last + now).x * direction * by;
+            last = now;
+            let part = -direction * now.x / (friction * now.z);
+            assert!(part < 1.03, "{part}");
+            assert!(step > 1 || part.abs() < 1.0 - 1e-6 || direction < 0.0);
+            if step == steps {
+                println!("{part:.4} of the cone at {at} m, {now:?} N, {work} J");
+                assert!(part > 0.97, "{part}");
+            }
+        }
+    }
+    assert!(work > 0.0, "{work}");
+}
+
+/// Judge: the next step's own answer, where a shaft sticks: a tenth of a millimetre along it.
+#[test]
+fn the_stiffness_of_a_shaft_that_sticks_is_that_of_its_force() {
+    let simulation = with_friction(&CUBE, 2.0);
+    let (tip, turned) = (beside(4e-3), along(&Vec3::x()));
+    let mut hands = lay(&simulation, &tip, &turned);
+    let before = affine_force(&simulation.tools()[0], tool(&hands), 0.0);
+    let further = Vec3::x() * 1e-4;
+    for _ in 0..10 {
+        hands.go(&[pose(&(tip + further), &turned, 0.0)]);
+    }
+    let grown = tool(&hands).force - before.force;
+    let foreseen = before.gradient * further;
+    println!("{grown:?} N, foreseen {foreseen:?}");
+    assert!((foreseen - grown).norm() < 0.15 * grown.norm());
 }
 
 /// Judge: rows of the session say what the tool's state does.

@@ -28,6 +28,7 @@ fn pulled(
         hands.go(&[pose(&(jaws_at + way * part), &upright, 1.0), tip]);
         for (largest, own) in largest.iter_mut().zip(&hands.state.tools) {
             assert!(!own.row.events.contains(Event::NonFiniteForce));
+            assert!(!own.row.events.contains(Event::NoEquilibrium));
             *largest = largest.max(own.force.norm());
         }
     }

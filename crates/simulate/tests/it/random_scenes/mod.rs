@@ -168,6 +168,7 @@ impl<'a> Check<'a> {
             assert!(own.force.iter().all(|c| c.is_finite()), "{at}: {row:?}");
             assert!(own.stiffness.iter().all(|c| c.is_finite()), "{at}: {row:?}");
             assert!(!row.events.contains(Event::NonFiniteForce), "{at}: {row:?}");
+            assert!(!row.events.contains(Event::NoEquilibrium), "{at}: {row:?}");
             assert!(!row.events.contains(Event::EnergyGain), "{at}: {row:?}");
             assert!(
                 row.depth_m.is_finite() && row.depth_m >= 0.0,
