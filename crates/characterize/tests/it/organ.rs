@@ -171,6 +171,7 @@ fn under_sliding_punch() -> Body {
 
 /// The same under a punch without friction, as deep as the judge finds equilibria.
 #[test]
+#[ignore = "slow: finite elements of a hemisphere and of a large piece"]
 fn a_modulus_on_a_hemisphere_is_within_its_interval_without_friction() {
     let held = held(
         SoughtLaw::NeoHookean,
@@ -183,6 +184,7 @@ fn a_modulus_on_a_hemisphere_is_within_its_interval_without_friction() {
 
 /// The same under a sphere, which is felt 5 % softer on a hemisphere of ten times its radius than on a plane.
 #[test]
+#[ignore = "slow: finite elements of a hemisphere and of a large piece"]
 fn a_modulus_on_a_hemisphere_is_within_its_interval_under_a_sphere() {
     let body = Body::under_sphere(RADIUS);
     let held = held(SoughtLaw::NeoHookean, body, 0.4 * RADIUS, 1);

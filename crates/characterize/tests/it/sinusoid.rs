@@ -260,16 +260,16 @@ fn held(noise: Correlated, (rate, frequency, duration): (f64, f64, f64), count: 
     held.map(|held| f64::from(held) / count as f64)
 }
 
-/// Judge: a known stiffness without phase, 150 times with noise of 1 mN that is correlated. Tolerance: of 150 times
-/// 95 % some 92 to 98 % by chance (twice the standard error 1.8 %), and what the estimate of the correlation costs;
+/// Judge: a known stiffness without phase, 50 times with noise of 1 mN that is correlated. Tolerance: of 50 times
+/// 95 % some 89 to 100 % by chance (twice the standard error 3.1 %), and what the estimate of the correlation costs;
 /// what takes the noise as white holds it in half to three quarters of the cases.
 #[test]
 fn intervals_hold_the_truth_in_correlated_noise() {
     for noise in [Correlated::FirstOrder(0.1), Correlated::OneOverF] {
-        let [stiffness, phase] = held(noise, (100.0, 1.0, 14.0), 150);
+        let [stiffness, phase] = held(noise, (100.0, 1.0, 14.0), 50);
         println!("{noise:?}: stiffness {stiffness:.3}, phase {phase:.3}");
         for part in [stiffness, phase] {
-            assert!((0.90..=0.99).contains(&part), "{noise:?}: {part}");
+            assert!(part >= 0.86, "{noise:?}: {part}");
         }
     }
 }

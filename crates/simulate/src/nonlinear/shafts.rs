@@ -96,7 +96,7 @@ fn bit(piece: usize) -> Pierced {
 }
 
 /// What tissue does to a shaft, felt at the tip.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Pushed {
     /// [N], and [N m] about the tip.
     pub(crate) force: Vec3,
@@ -473,16 +473,6 @@ fn outward(set: Range<usize>, place: impl Fn(usize) -> Vec3) -> Vec3 {
     let [corner, across, along] = [0, across, along].map(|k| place(set.start + k));
     let normal = (along - corner).cross(&(across - corner));
     normal.try_normalize(0.0).unwrap_or_default()
-}
-
-impl Default for Pushed {
-    fn default() -> Self {
-        Self {
-            force: Vec3::zeros(),
-            torque: Vec3::zeros(),
-            gradient: Matrix3::zeros(),
-        }
-    }
 }
 
 impl ToolState {

@@ -195,16 +195,16 @@ fn sphere(body: Body, poissons_ratio: f64, radius: f64) -> Case<'static> {
     }
 }
 
-/// Quick form of `tips_on_a_cube`: all of a sphere's depths, where Hertz's paraboloid is 25 to 60 % too stiff.
+/// Quick form of `tips_on_a_cube`: depths to a sphere's radius, where Hertz's paraboloid is 25 to 60 % too stiff.
 #[test]
 fn spheres_on_a_cube_are_those_of_finite_elements() {
-    for (poissons_ratio, kinds) in [
-        (0.3, &["local"][..]),
-        (0.45, &["local", "hybrid", "nonlinear"]),
-        (0.49, &["local"]),
+    for (poissons_ratio, kinds, depths) in [
+        (0.3, &["local"][..], &[1.0][..]),
+        (0.45, &["local", "hybrid", "nonlinear"], &[0.2, 0.5, 1.0]),
+        (0.49, &["local"], &[0.5]),
     ] {
         let case = sphere(Body::Cube, poissons_ratio, 0.01);
-        for (kind, depth, off) in case.compared(kinds, &[0.2, 0.5, 1.0]) {
+        for (kind, depth, off) in case.compared(kinds, depths) {
             assert!(
                 off.abs() < PROMISED,
                 "{kind} {poissons_ratio} {depth}: {off}"
@@ -222,17 +222,26 @@ fn spheres_on_a_hemisphere_are_those_of_finite_elements() {
     }
 }
 
-/// Flat tips at small depth, where they are linear.
+/// A flat tip at small depth, where it is linear.
 #[test]
-fn flat_tips_are_those_of_finite_elements() {
-    for body in [Body::Cube, Body::Hemisphere] {
-        let case = Case {
-            shape: "flat",
-            ..sphere(body, 0.45, 0.005)
-        };
-        for (kind, depth, off) in case.compared(&["local", "hybrid"], &[0.02]) {
-            assert!(off.abs() < PROMISED, "{kind} {body:?} {depth}: {off}");
-        }
+fn a_flat_tip_on_a_cube_is_that_of_finite_elements() {
+    flat_on(Body::Cube);
+}
+
+/// The same on a body that is round itself.
+#[test]
+#[ignore = "slow: half a minute"]
+fn a_flat_tip_on_a_hemisphere_is_that_of_finite_elements() {
+    flat_on(Body::Hemisphere);
+}
+
+fn flat_on(body: Body) {
+    let case = Case {
+        shape: "flat",
+        ..sphere(body, 0.45, 0.005)
+    };
+    for (kind, depth, off) in case.compared(&["local", "hybrid"], &[0.02]) {
+        assert!(off.abs() < PROMISED, "{kind} {body:?} {depth}: {off}");
     }
 }
 
@@ -301,7 +310,7 @@ fn tips_on_a_hemisphere() {
 fn spheres_on_a_neo_hookean_cube_are_those_of_finite_elements() {
     let radius = 0.01;
     let law: Arc<dyn Law> = Arc::new(NeoHookean::incompressible(YOUNGS_MODULUS / 6.0).unwrap());
-    let depths = [0.002, 0.005, 0.01];
+    let depths = [0.005, 0.01];
     let exact =
         depths.map(|depth| Body::Cube.judged(law.clone(), (IndenterShape::Sphere, radius), depth));
     for kind in ["local", "hybrid"] {
