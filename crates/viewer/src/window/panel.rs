@@ -1,9 +1,9 @@
 use eframe::egui::accesskit::Role;
-use eframe::egui::{self, Button, Color32, RichText, Ui};
+use eframe::egui::{self, Button, Color32, Response, RichText, Ui};
 use egui_plot::{Line, PlotPoints};
 use palpate_files::BuiltinTissue;
 use palpate_files::scene::{BuiltinOrgan, ModelKind, Shading, TipContact, TipShape};
-use palpate_servo::{LoopReport, lock_memory};
+use palpate_servo::{LoopReport, Priority, lock_memory};
 use palpate_simulate::{TRUSTED_DEPTH, Work};
 
 use super::SimulatorWindow;
@@ -11,7 +11,7 @@ use super::enhancement;
 use super::page::{self, quiet};
 use super::preparation::Preparation;
 use super::rates::Rates;
-use super::texts::{text, tool_name};
+use super::texts::{decimal, text, tool_name};
 use crate::history::SPAN;
 use crate::style::{DEPTH, FAULT, FORCE, ON_STOP, QUIET, STOP, WARNING};
 
@@ -245,82 +245,108 @@ fn rates(window: &SimulatorWindow, ui: &mut Ui) {
         .as_ref()
         .map(|play| 1.0 / play.simulation.step());
     let render_quality = &window.picture.render_quality;
+    let priority = |priority: Priority| match priority {
+        Priority::RealTime => text!("priority-real-time"),
+        Priority::Ordinary => text!("priority-ordinary"),
+    };
     egui::Grid::new("rates").num_columns(2).show(ui, |ui| {
-        ui.label("display");
-        ui.label(format!(
-            "{:.0} Hz, {}x, {:.0} % of the pixels",
-            rates.display,
-            render_quality.samples(),
-            100.0 * render_quality.scale() * render_quality.scale()
-        ));
-        ui.end_row();
-        ui.label("model");
-        ui.label(format!(
-            "{:.0} of {:.0} Hz, {} priority",
-            rates.model,
-            wanted.unwrap_or(0.0),
-            rates.answers.priority.word()
-        ));
-        ui.end_row();
-        ui.label("servo");
-        ui.label(format!(
-            "{:.0} of 1000 Hz, {} priority",
-            rates.servo,
-            rates.touch.priority.word()
-        ));
-        ui.end_row();
+        let pixels = render_quality.scale().powi(2);
+        row(
+            ui,
+            text!("rates-display"),
+            text!(
+                "rates-pictures",
+                rate = decimal(rates.display, 0),
+                samples = render_quality.samples(),
+                pixels = decimal(100.0 * f64::from(pixels), 0),
+            ),
+        );
+        row(
+            ui,
+            text!("rates-model"),
+            text!(
+                "rates-of",
+                rate = decimal(rates.model, 0),
+                wanted = decimal(wanted.unwrap_or(0.0), 0),
+                priority = priority(rates.answers.priority),
+            ),
+        );
+        row(
+            ui,
+            text!("rates-servo"),
+            text!(
+                "rates-of",
+                rate = decimal(rates.servo, 0),
+                wanted = "1000",
+                priority = priority(rates.touch.priority),
+            ),
+        );
         quality(rates, ui);
     });
     ui.label(RichText::new(window.gpu.adapter()).small().color(QUIET));
+}
+
+/// A row of a grid; what its name means is seen under the pointer.
+fn row(ui: &mut Ui, name: String, value: String) -> Response {
+    let name = ui.label(name);
+    ui.label(value);
+    ui.end_row();
+    name
 }
 
 /// How good the touch was since the start.
 fn quality(rates: &Rates, ui: &mut Ui) {
     let (touch, answers) = (&rates.touch, &rates.answers);
     let late = touch.lateness;
-    ui.label("late")
-        .on_hover_text("how long after its time a tick began: p50, p99, p99.9, longest");
-    let [p50, p99, p99_9, max] = [late.p50, late.p99, late.p99_9, late.max].map(|time| 1e6 * time);
-    ui.label(format!("{p50:.0}, {p99:.0}, {p99_9:.0}, {max:.0} µs"));
-    ui.end_row();
-    ui.label("left out")
-        .on_hover_text("ticks and steps whose time had passed; they are never made up for");
-    ui.label(format!("{} ticks, {} steps", touch.missed, answers.missed));
-    ui.end_row();
-    ui.label("between").on_hover_text(
-        "how far the force between the model's answers was from what it then found: root of \
-             the mean square, largest",
+    let [median, most, nearly_all, longest] =
+        [late.p50, late.p99, late.p99_9, late.max].map(|time| decimal(1e6 * time, 0));
+    let times = text!(
+        "quality-times",
+        median = median,
+        most = most,
+        nearly = nearly_all,
+        longest = longest,
     );
-    let [mean, most] = [answers.extrapolation.rms, answers.extrapolation.max].map(|f| 1e3 * f);
-    ui.label(format!("off by {mean:.2}, at most {most:.1} mN"));
-    ui.end_row();
-    ui.label("energy")
-        .on_hover_text("work that the loop did on the hand; tissue only takes some");
-    ui.label(format!("{:.3} mJ to the hand", 1e3 * touch.energy));
-    ui.end_row();
+    row(ui, text!("quality-late"), times).on_hover_text(text!("quality-late-hint"));
+    let (ticks, steps) = (touch.missed, answers.missed);
+    let missed = text!("quality-missed", ticks = ticks, steps = steps);
+    row(ui, text!("quality-left-out"), missed).on_hover_text(text!("quality-left-out-hint"));
+    let [mean, most] =
+        [answers.extrapolation.rms, answers.extrapolation.max].map(|force| 1e3 * force);
+    let off = text!(
+        "quality-off",
+        mean = decimal(mean, 2),
+        most = decimal(most, 1)
+    );
+    row(ui, text!("quality-between"), off).on_hover_text(text!("quality-between-hint"));
+    let work = text!("quality-work", work = decimal(1e3 * touch.energy, 3));
+    row(ui, text!("quality-energy"), work).on_hover_text(text!("quality-energy-hint"));
     limits(touch, ui);
 }
 
 /// What the stages between model and hand did.
 fn limits(touch: &LoopReport, ui: &mut Ui) {
     let did = touch.interventions;
-    ui.label("limits").on_hover_text(format!(
-        "ticks in which a force was changed on its way to the hand: late {}, faded {}, damped {}, walls {}, \
-         saturated {}, thermally limited {}, rate limited {}; dead-man switch released {} times",
-        did.deadline_missed,
-        did.faded,
-        did.damped,
-        did.walls,
-        did.saturated,
-        did.thermally_limited,
-        did.rate_limited,
-        did.dead_man_released,
+    ui.label(text!("quality-limits")).on_hover_text(text!(
+        "quality-limits-hint",
+        late = did.deadline_missed,
+        faded = did.faded,
+        damped = did.damped,
+        walls = did.walls,
+        saturated = did.saturated,
+        thermal = did.thermally_limited,
+        rate = did.rate_limited,
+        released = did.dead_man_released,
     ));
     match touch.fault {
         Some(fault) => ui
-            .colored_label(FAULT, "forces are off")
+            .colored_label(FAULT, text!("quality-forces-off"))
             .on_hover_text(fault.to_string()),
-        None => ui.label(format!("{} ticks, {} faults", did.count(), touch.faults)),
+        None => ui.label(text!(
+            "quality-faults",
+            ticks = did.count(),
+            faults = touch.faults,
+        )),
     };
     ui.end_row();
 }
