@@ -74,16 +74,23 @@ impl Work {
 pub struct Progress {
     /// What is being done.
     pub work: Work,
-    /// How much of it is done [-]; of a response, how much of all three of its works.
+    /// How much of it is done [-]; of a response, how much of all its works.
     pub part: f64,
+}
+
+impl Progress {
+    /// At the beginning of a work that is told alone.
+    pub(crate) fn begin(work: Work) -> Self {
+        Self { work, part: 0.0 }
+    }
 }
 
 /// Tells what is begun; an error when it shall not be.
 pub(crate) fn tell(
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
-    work: Work,
+    progress: Progress,
 ) -> Result<(), Error> {
-    match watch(Progress { work, part: 0.0 }) {
+    match watch(progress) {
         ControlFlow::Continue(()) => Ok(()),
         ControlFlow::Break(()) => Err(palpate_mechanics::Error::BrokenOff.into()),
     }

@@ -10,7 +10,6 @@ use crate::digest::SceneDigest;
 use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin, surround};
 use crate::neighbour::Neighbour;
 use crate::nonlinear::{Beside, NonlinearOrgan, Regions, SoftBody};
-use crate::preparation::tell;
 use crate::region_places::read_regions;
 use crate::tool::{Tool, settings, typical_radius};
 use crate::{Error, Progress, Resources, Work, nodule, organ, target, tip_laws, trocar};
@@ -168,14 +167,13 @@ impl Simulation {
         let nonlinear = match regions {
             None => None,
             Some(regions) => {
-                tell(watch, Work::Tetrahedra)?;
                 let (shown, organ) = ((&surface, &tree), (&organ_surface, regions));
                 let beside = Beside {
                     tools: &tools,
                     soft: &soft,
                     neighbours: &neighbours,
                 };
-                let (organ, more) = NonlinearOrgan::new(scene, shown, organ, beside)?;
+                let (organ, more) = NonlinearOrgan::new(scene, shown, organ, beside, watch)?;
                 warnings.extend(more);
                 Some(organ)
             }

@@ -39,7 +39,7 @@ pub(super) fn response(
     let mut file = place(ingredients, resources);
     let mut warnings = Vec::new();
     if let Some(place) = file.as_ref().filter(|place| place.exists()) {
-        tell(watch, Work::Reading)?;
+        tell(watch, Progress::begin(Work::Reading))?;
         match read(ingredients, place, resources.memory) {
             Ok(response) => {
                 return Ok(Found {
@@ -55,7 +55,7 @@ pub(super) fn response(
     }
     let response = solve(ingredients, resources.memory, watch)?;
     if let Some(place) = &file {
-        tell(watch, Work::Storing)?;
+        tell(watch, Progress::begin(Work::Storing))?;
         if let Err(error) = store(ingredients, &response, place) {
             warnings.push(format!("the organ's response is not cached: {error}"));
             file = None;

@@ -20,7 +20,7 @@
 //! Neighbours that collide keep the organ out (`neighbours`); those that bend, and further organs, are pieces of the body
 //! (`soft`).
 //!
-//! Shafts push what bends, without friction (`shafts`).
+//! Shafts are in contact with what bends (`shafts`).
 //!
 //! *Limits*: quasi-static. A body that is nearly incompressible is taken with a Poisson's ratio of 0.49.
 //!
@@ -44,6 +44,8 @@ pub(crate) use soft::SoftBody;
 use soft::{Merged, Piece, touching};
 pub(crate) use touch::Moved;
 
+use std::ops::ControlFlow;
+
 use nalgebra::Rotation3;
 use palpate_files::Scene;
 use palpate_geometry::{
@@ -58,6 +60,7 @@ use palpate_mechanics::{ForceHistory, LinearElastic};
 
 use crate::grip::Swept;
 use crate::neighbour::Neighbour;
+use crate::preparation::{Progress, Work, tell};
 use crate::shaft::Shaft;
 use crate::tool::Tool;
 use crate::{Error, held_region};
@@ -68,6 +71,9 @@ const NODES: usize = 1_500;
 /// Tetrahedra of the first filling for each node that is wanted, and by how much they become more where walls are lost.
 const TETRAHEDRA_PER_NODE: usize = 8;
 const MORE: usize = 3;
+
+/// Part of the time to make it that the tetrahedra take [-].
+const FILLED: f64 = 0.5;
 
 /// Edges that are made coarser, in those that are wanted [-].
 const OF_EDGE: f64 = 0.6;
@@ -154,7 +160,9 @@ impl NonlinearOrgan {
         (shown, tree): (&Surface, &AabbTree),
         (surface, regions): (&Surface, Regions),
         beside: Beside<'_>,
+        watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<(Self, Vec<String>), Error> {
+        tell(watch, Progress::begin(Work::Tetrahedra))?;
         let Beside {
             tools,
             soft,
@@ -194,6 +202,8 @@ impl NonlinearOrgan {
                 Some(number) => soft[number as usize].holds(place),
             }
         };
+        let (work, part) = (Work::Factors, FILLED);
+        tell(watch, Progress { work, part })?;
         let mut model = NonlinearModel::on_boundary(&merged.mesh, &moduli, is_held)?
             .relaxing(&series, &numbers)?;
         if let Some(gravity) = scene.model.gravity_m_per_s2 {
