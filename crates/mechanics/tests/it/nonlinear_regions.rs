@@ -149,7 +149,7 @@ fn more_small_moves_are_those_of_finite_elements() {
 
 const SMALL: [Vec3; 2] = [Vec3::new(0.0, 0.0, -3e-4), Vec3::new(3e-4, 0.0, 0.0)];
 
-fn as_finite_elements((name, c10): &(&str, &Tissue), way: Vec3) {
+fn as_finite_elements((name, c10): &(&str, &'static Tissue), way: Vec3) {
     let force = found([8, 8, 4], c10, way);
     let moved = judge([12, 12, 6], c10, force);
     let error = (moved - way).norm() / way.norm();
