@@ -4,7 +4,7 @@
 //! w = S x + q,   w = 0 in bilateral rows,   x ≥ 0, w ≥ 0, x w = 0 in unilateral rows,   x = 0 in open rows
 //! ```
 //!
-//! with S symmetric and positive: the contacts that bear are found by block principal pivoting, which goes over to single
+//! with S symmetric and positive: the active contacts are found by block principal pivoting, which goes over to single
 //! pivots where the blocks do not help, and so ends [Portugal, Júdice and Vicente 1994]. Nothing is allocated.
 
 /// Exchanges of blocks that may pass without progress.
@@ -27,7 +27,7 @@ pub(super) enum Kind {
     Open,
 }
 
-/// The problem, its solution and the factors of its bearing part.
+/// The problem, its solution and the factors of its active part.
 #[derive(Debug, Clone)]
 pub(super) struct Complementarity {
     /// S, row by row, `room` in each.
@@ -35,9 +35,9 @@ pub(super) struct Complementarity {
     pub(super) q: Vec<f64>,
     pub(super) x: Vec<f64>,
     pub(super) kinds: Vec<Kind>,
-    pub(super) bears: Vec<bool>,
+    pub(super) active: Vec<bool>,
     is_infeasible: Vec<bool>,
-    /// The rows that bear, and S of these = L Lᵀ.
+    /// The active rows, and S of these = L Lᵀ.
     free: Vec<usize>,
     factor: Vec<f64>,
     right: Vec<f64>,
@@ -51,7 +51,7 @@ impl Complementarity {
             q: vec![0.0; room],
             x: vec![0.0; room],
             kinds: vec![Kind::Unilateral; room],
-            bears: vec![false; room],
+            active: vec![false; room],
             is_infeasible: vec![false; room],
             free: Vec::with_capacity(room),
             factor: vec![0.0; room * room],
@@ -68,14 +68,14 @@ impl Complementarity {
         self.matrix[row * self.room + column]
     }
 
-    /// Solves for the first `count` rows; `bears` is where the unilateral ones begin. Whether it was solved; if not, the
+    /// Solves for the first `count` rows; `active` is where the unilateral ones begin. Whether it was solved; if not, the
     /// last trial stands, without forces that pull, or nothing where S is not positive.
     pub(super) fn solve(&mut self, count: usize) -> bool {
-        for (bears, kind) in self.bears.iter_mut().zip(&self.kinds[..count]) {
+        for (active, kind) in self.active.iter_mut().zip(&self.kinds[..count]) {
             match kind {
-                Kind::Bilateral => *bears = true,
+                Kind::Bilateral => *active = true,
                 Kind::Unilateral => {}
-                Kind::Open => *bears = false,
+                Kind::Open => *active = false,
             }
         }
         let (mut fewest, mut patience) = (count + 1, PATIENCE);
@@ -101,14 +101,15 @@ impl Complementarity {
             } else if patience > 0 {
                 patience -= 1;
             } else {
-                self.bears[last] = !self.bears[last];
+                self.active[last] = !self.active[last];
                 continue;
             }
             for row in 0..count {
                 self.is_infeasible[row] = self.violates(row, count);
             }
-            for (bears, is_infeasible) in self.bears[..count].iter_mut().zip(&self.is_infeasible) {
-                *bears ^= is_infeasible;
+            for (active, is_infeasible) in self.active[..count].iter_mut().zip(&self.is_infeasible)
+            {
+                *active ^= is_infeasible;
             }
         }
         for (x, kind) in self.x.iter_mut().zip(&self.kinds[..count]) {
@@ -119,8 +120,8 @@ impl Complementarity {
         false
     }
 
-    /// Solves S t = `right` in the rows that bear, which are those of the last [`Self::solve`]; zero in the others.
-    pub(super) fn solve_bearing(&mut self, right: &[f64], t: &mut [f64]) {
+    /// Solves S t = `right` in the active rows, which are those of the last [`Self::solve`]; zero in the others.
+    pub(super) fn solve_active(&mut self, right: &[f64], t: &mut [f64]) {
         for (k, &row) in self.free.iter().enumerate() {
             self.right[k] = right[row];
         }
@@ -131,7 +132,7 @@ impl Complementarity {
         }
     }
 
-    /// Whether [`Self::solve_bearing`] has an answer in this row, other than zero.
+    /// Whether [`Self::solve_active`] has an answer in this row, other than zero.
     pub(super) fn is_free(&self, row: usize) -> bool {
         self.free.binary_search(&row).is_ok()
     }
@@ -179,18 +180,18 @@ impl Complementarity {
                 .fold(0.0_f64, |most, x| most.max(x.abs()));
             -ZERO * largest
         };
-        if self.bears[row] {
+        if self.active[row] {
             self.x[row] < zero(&self.x)
         } else {
             self.left(row, count) < zero(&self.q)
         }
     }
 
-    /// Cholesky's factors of the rows that bear; whether they are positive.
+    /// Cholesky's factors of the active rows; whether they are positive.
     fn factor(&mut self, count: usize) -> bool {
-        let Self { free, bears, .. } = self;
+        let Self { free, active, .. } = self;
         free.clear();
-        free.extend((0..count).filter(|&row| bears[row]));
+        free.extend((0..count).filter(|&row| active[row]));
         let size = free.len();
         for i in 0..size {
             for j in 0..=i {
@@ -256,7 +257,7 @@ mod tests {
                         *problem.at(i, j) = sum + if i == j { 0.01 } else { 0.0 };
                     }
                     problem.q[i] = draw(&mut random);
-                    problem.bears[i] = draw(&mut random) > 0.0;
+                    problem.active[i] = draw(&mut random) > 0.0;
                 }
                 assert!(problem.solve(count));
                 for i in 0..count {

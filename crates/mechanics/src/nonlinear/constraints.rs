@@ -1,10 +1,10 @@
-//! The conditions of a step and their forces: those of tools, which hold, and those of contacts, which bear or are open,
+//! The conditions of a step and their forces: those of tools, which hold, and those of contacts, which are active or open,
 //! stick or slide (`friction`).
 //!
-//! What bears is found once in a step, with the forces of the tools, by the compliance of the body at rest, turned with
-//! the body ([`Complementarity`]); the conjugate gradients are projected onto these conditions. Forces, and what bears, are
-//! found once more at the end, without moving the body. Of the contacts, those that bear have columns of Z, up to
-//! [`MOST_COLUMNS`]; where more bear, each projection takes a solution by the factors instead, which costs as much as
+//! The active contacts are found once in a step, with the forces of the tools, by the compliance of the body at rest, turned with
+//! the body ([`Complementarity`]); the conjugate gradients are projected onto these conditions. Forces and active contacts are
+//! found once more at the end, without moving the body. Active contacts have columns of Z, up to
+//! [`MOST_COLUMNS`]; with more of them, each projection takes a solution by the factors instead, which costs as much as
 //! some ten columns.
 
 use nalgebra::Matrix3;
@@ -98,7 +98,7 @@ impl Constraints {
         self.tools.rows.len() + self.contacts.listed.len()
     }
 
-    /// Whether points of the boundary may bear in this step.
+    /// Whether points of the boundary may be in contact in this step.
     pub(super) fn has_contacts(&self) -> bool {
         !self.contacts.listed.is_empty()
     }
@@ -195,7 +195,7 @@ impl Constraints {
         }
         let count = self.count();
         self.problem
-            .solve_bearing(&self.violation, &mut self.t[..count]);
+            .solve_active(&self.violation, &mut self.t[..count]);
         self.t[..count].iter_mut().for_each(|t| *t = -*t);
         self.add_displacement(body, z);
     }
@@ -300,7 +300,7 @@ impl Constraints {
                 self.violation[row] = motion[axis];
             }
             self.problem
-                .solve_bearing(&self.violation, &mut self.t[..count]);
+                .solve_active(&self.violation, &mut self.t[..count]);
             for (row, motion) in rows.clone() {
                 for of in 0..3 {
                     sum[(of, axis)] += motion[of] * self.t[row];
@@ -310,7 +310,7 @@ impl Constraints {
         sum
     }
 
-    /// Finds the columns of Z of the contacts that bear, or did before, if these are few enough.
+    /// Finds the columns of Z of the contacts that are active, or were before, if these are few enough.
     #[inline(always)]
     fn find_columns(&mut self, body: Turned<'_>) {
         self.with_columns.clear();

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! The half-space stands still in the step, or goes with another place of the boundary ([`super::touching`]): then u is the
-//! displacement of the point less that of the place, which bears −λ.
+//! displacement of the point less that of the place, on which −λ acts.
 //!
 //! A point in contact that sticks keeps its anchor a, through the same compliance; an anchor on a tool moves with the tool.
 //! The force τ along the surface stays within the cone, and the anchor follows a point that slides:
@@ -38,7 +38,7 @@ const NEAR: f64 = 2.0 / 3.0;
 const FAR: f64 = 1.0 / 6.0;
 pub(super) const AT: [[f64; 3]; 3] = [[NEAR, FAR, FAR], [FAR, NEAR, FAR], [FAR, FAR, NEAR]];
 
-/// c times the area over 1/E, in lengths of an edge [-]: a point that bears a tenth of E is that part of a tenth of an edge deep.
+/// c times the area over 1/E, in lengths of an edge [-]: under a pressure of a tenth of E a point is that part of a tenth of an edge deep.
 const SOFTNESS: f64 = 0.005;
 
 /// Directions of a contact with friction.
@@ -49,10 +49,10 @@ pub(super) const NODES: usize = 6;
 const MOST_NODES: usize = 2 * NODES;
 const NOWHERE: u32 = u32::MAX;
 
-/// Points of a face that may bear on tools: a few, then more in their place where a tool is slender.
+/// Points of a face that may touch tools: a few, then more in their place where a tool is slender.
 pub const TOOL_POINTS: [usize; 2] = [4, 16];
 
-/// A point of the boundary that may bear on bodies.
+/// A point of the boundary that may touch bodies.
 #[derive(Debug, Clone)]
 pub struct BoundaryPoint {
     /// With their weights [-].
@@ -63,7 +63,7 @@ pub struct BoundaryPoint {
     pub(super) compliance: f64,
 }
 
-/// What a point of the boundary bears on.
+/// What a point of the boundary touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Against {
     /// What stands still.
@@ -75,7 +75,7 @@ pub enum Against {
         /// How far the place of the tool behind the half-space moves in the step [m].
         motion: Vec3,
     },
-    /// Another place of the boundary, which bears as much the other way: nodes with their weights [-].
+    /// Another place of the boundary, which takes the opposite force: nodes with their weights [-].
     Boundary([(u32, f64); NODES]),
 }
 
@@ -112,14 +112,14 @@ impl UnilateralContact {
 pub(super) struct Rubbed {
     /// Force along the surface, on the body [N].
     pub(super) force: Vec3,
-    /// The displacement of the point at which it would bear none [m]; against a place of the boundary, less the
+    /// The displacement of the point at which there would be none [m]; against a place of the boundary, less the
     /// displacement itself.
     pub(super) anchor: Vec3,
     pub(super) slides: bool,
 }
 
 impl BoundaryPoint {
-    /// Those of a quadrature, which may bear on what stands still and on the boundary itself.
+    /// Those of a quadrature, which may touch what stands still and the boundary itself.
     pub(super) fn of_quadrature(
         mesh: &TetrahedronMesh,
         moduli: &[Moduli<f64>],
@@ -128,7 +128,7 @@ impl BoundaryPoint {
         Self::all(mesh, moduli, edge, &[AT.to_vec()])
     }
 
-    /// Both [`TOOL_POINTS`] of each face, one face after the other, which may bear on tools.
+    /// Both [`TOOL_POINTS`] of each face, one face after the other, which may touch tools.
     pub(super) fn for_tools(
         mesh: &TetrahedronMesh,
         moduli: &[Moduli<f64>],
@@ -278,7 +278,7 @@ impl Contact {
         mean(self.nodes(), displacements)
     }
 
-    /// The displacement at which the point would bear no friction [m].
+    /// The displacement without friction at the point [m].
     pub(super) fn anchor(&self, state: &NonlinearState) -> Vec3 {
         let known = state.rubbed_at(self.slot).anchor;
         match self.is_between {
@@ -337,8 +337,8 @@ impl Contacts {
         self.listed.extend(listed);
         for (normal, contact) in contacts.iter().enumerate() {
             let own = self.listed[normal];
-            let bears = state.pressed_at(own.slot) > 0.0;
-            if bears && contact.friction > 0.0 {
+            let is_active = state.pressed_at(own.slot) > 0.0;
+            if is_active && contact.friction > 0.0 {
                 let along = self.listed.len();
                 let anchor = own.anchor(state);
                 let [first, second] = tangents(&contact.normal);

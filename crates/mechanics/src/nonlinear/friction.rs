@@ -53,7 +53,7 @@ impl Constraints {
             };
         }
         for row in tools..tools + self.contacts.normals() {
-            self.problem.bears[row] = self.force[row] > 0.0;
+            self.problem.active[row] = self.force[row] > 0.0;
         }
         for _ in 0..MOST_TRIALS {
             for row in 0..count {

@@ -172,12 +172,12 @@ impl NonlinearModel {
         &self.boundary
     }
 
-    /// The points of its boundary that may bear on what stands still and on the boundary itself.
+    /// The points of its boundary that may touch what stands still and the boundary itself.
     pub fn boundary_points(&self) -> &[BoundaryPoint] {
         &self.points
     }
 
-    /// The points of its boundary that may bear on tools: of each face both [`super::TOOL_POINTS`], one face after the other.
+    /// The points of its boundary that may touch tools: of each face both [`super::TOOL_POINTS`], one face after the other.
     pub fn tool_points(&self) -> &[BoundaryPoint] {
         &self.tool_points
     }

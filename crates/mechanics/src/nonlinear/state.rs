@@ -198,7 +198,7 @@ impl NonlinearState {
     }
 
     /// Whether friction holds a point of the boundary.
-    pub fn bears_friction(&self) -> bool {
+    pub fn has_friction(&self) -> bool {
         self.rubbed
             .iter()
             .any(|rubbed| rubbed.force != Vec3::zeros())
@@ -217,7 +217,7 @@ impl NonlinearState {
         self.pressed[point as usize]
     }
 
-    /// The same with another place of the boundary, which bears as much the other way.
+    /// The same with another place of the boundary, which takes the opposite force.
     ///
     /// # Panics
     /// When there is no such point.
@@ -282,7 +282,7 @@ impl NonlinearState {
         *known.find(|own| own.slot == slot).unwrap_or(&none)
     }
 
-    /// Whether any place of the boundary bears on another.
+    /// Whether any place of the boundary is in contact with another.
     pub fn touches_itself(&self) -> bool {
         self.pressed[self.pressed.len() / 2..]
             .iter()

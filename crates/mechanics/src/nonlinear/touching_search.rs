@@ -12,7 +12,7 @@ use super::touching::{
 };
 use crate::Vec3;
 
-/// In mean edges [-]: nearer than this a point may bear in the step; so deep it is not taken as in contact any more; and so far
+/// In mean edges [-]: nearer than this a point may touch in the step; so deep it is not taken as in contact any more; and so far
 /// others are sought.
 const NEAR: f64 = 0.3;
 const DEEPEST: f64 = 0.5;
@@ -84,7 +84,7 @@ impl TouchingSearch {
         }
     }
 
-    /// Visits the contacts of the body in `state` with itself that may bear in a step, each with its gap [m]. Returns how deep
+    /// Visits the contacts of the body in `state` with itself that may be active in a step, each with its gap [m]. Returns how deep
     /// a point lies at most that is too deep to be one [m]: nothing pushes it out.
     ///
     /// # Panics

@@ -280,7 +280,7 @@ impl NonlinearOrgan {
         }
     }
 
-    /// Radius of the load of a tool's tip [m] that bears so much force [N] on tissue of `law`.
+    /// Radius of the load of a tool's tip [m] under so much force [N] on tissue of `law`.
     fn reach(tool: &Tool, law: &LinearElastic, force: f64) -> f64 {
         let touching = match tool.tip {
             Tip::Flat { radius } => radius,

@@ -90,7 +90,7 @@ struct Known {
     nearest: Option<TriangleId>,
 }
 
-/// The points that may bear in a step. Scratch.
+/// The contacts that may be active in a step. Scratch.
 #[derive(Debug)]
 pub(super) struct Candidates {
     known: Vec<Known>,
@@ -148,9 +148,9 @@ impl Candidates {
                 let moved = point.displacement(&state.displacements);
                 let place = skin.places[number] + moved;
                 let allowed = overlap[number];
-                let bears = state.contact_force(number as u32) > 0.0;
+                let is_active = state.contact_force(number as u32) > 0.0;
                 let least = known.distance - (place - known.place).norm();
-                if least - allowed > near && !bears {
+                if least - allowed > near && !is_active {
                     continue;
                 }
                 let nearest = neighbour.nearest(&place, known.nearest);
@@ -190,14 +190,14 @@ impl Candidates {
             .extend(self.found.iter().map(|(_, contact)| *contact));
     }
 
-    /// Whether places of the body may bear on one another in the step.
+    /// Whether places of the body may touch one another in the step.
     pub(super) fn touches_itself(&self) -> bool {
         self.contacts
             .iter()
             .any(|own| matches!(own.against, Against::Boundary(_)))
     }
 
-    /// Whether places of the body may bear on shafts in the step.
+    /// Whether places of the body may touch shafts in the step.
     pub(super) fn touches_shafts(&self) -> bool {
         let mut contacts = self.contacts.iter();
         contacts.any(|own| matches!(own.against, Against::Tool { .. }))

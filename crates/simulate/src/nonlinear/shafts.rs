@@ -30,7 +30,7 @@ use crate::shaft::Shaft;
 use crate::state::ToolState;
 use crate::tool::Tool;
 
-/// Points that are nearer than this may bear in the step [m].
+/// Points that are nearer than this may touch in the step [m].
 const NEAR: f64 = 2e-3;
 
 /// How far a shaft moves in a part of a step, in its radii [-]: a place that it meets stays on the side where it was met.
@@ -48,7 +48,7 @@ const TOLD_LAG: f64 = 1e-4;
 /// face is turned to the shaft [-]: others are the far side of a wall.
 const FACES: f64 = -0.2;
 
-/// Points that bear on a shaft are at most so far apart [radii], if more of them make that possible.
+/// Points that touch a shaft are at most so far apart [radii], if more of them make that possible.
 const APART: f64 = 0.6;
 
 /// All points of a face.
@@ -225,7 +225,7 @@ impl NonlinearOrgan {
         motion.begins[usize::from(!is_dimple)]
     }
 
-    /// Whether a shaft may bear on the body in `state` where it is after a step; how far it is from that [m] into `clear`.
+    /// Whether a shaft may touch the body in `state` where it is after a step; how far it is from that [m] into `clear`.
     fn is_near(&self, (motion, clear): (&ShaftMotion, &mut f64), state: &NonlinearState) -> bool {
         let way = (motion.now.tip - motion.before.tip).norm();
         let turned = (motion.now.along - motion.before.along).norm();
@@ -290,7 +290,7 @@ impl NonlinearOrgan {
         motion.pierced = body.pierced[motion.tool];
     }
 
-    /// Which of the `motions` may bear on the body; the others are none afterwards.
+    /// Which of the `motions` may touch the body; the others are none afterwards.
     pub(super) fn keep_near_shafts(
         &self,
         motions: &mut [Option<ShaftMotion>],
@@ -311,7 +311,7 @@ impl NonlinearOrgan {
         motions.iter().any(Option::is_some)
     }
 
-    /// Visits the contacts of the body in `state` with a shaft that may bear, each with its gap [m], which goes `from` this part of
+    /// Visits the contacts of the body in `state` with a shaft that may be active, each with its gap [m], which goes `from` this part of
     /// its way to that [-].
     pub(super) fn meet_shaft(
         &self,
@@ -339,9 +339,9 @@ impl NonlinearOrgan {
                 let moved = points[point].displacement(&state.displacements);
                 let (distance, normal) = from_axis(&axis, &(rest + moved));
                 let gap = distance - shaft.radius;
-                let bears = gap < NEAR && normal.dot(&outward) < FACES;
+                let is_active = gap < NEAR && normal.dot(&outward) < FACES;
                 let is_wrapped = self.pieces[face.piece].bends_around[motion.tool];
-                if bears && (is_wrapped || !motion.is_left_out(face.piece, rest)) {
+                if is_active && (is_wrapped || !motion.is_left_out(face.piece, rest)) {
                     let at = shaft.at(&(rest + moved));
                     let moves = shaft.tip - was.tip + (shaft.along - was.along) * at;
                     visit(
@@ -453,7 +453,7 @@ fn is_of(contact: &UnilateralContact, tool: usize) -> bool {
 }
 
 impl SkinFace {
-    /// Which of its points bear on a shaft of this radius [m].
+    /// Which of its points touch a shaft of this radius [m].
     fn points(&self, radius: f64) -> Range<usize> {
         let [few, _] = TOOL_POINTS;
         match self.area < few as f64 * (APART * radius).powi(2) {
@@ -476,7 +476,7 @@ fn outward(set: Range<usize>, place: impl Fn(usize) -> Vec3) -> Vec3 {
 }
 
 impl ToolState {
-    /// Whether tissue bears on its shaft.
+    /// Whether tissue touches its shaft.
     pub(crate) fn is_pushed(&self) -> bool {
         self.pushed != Pushed::default()
     }

@@ -179,7 +179,7 @@ impl NonlinearOrgan {
         // relaxes takes its time.
         let is_late = body.state.largest(&self.model) > SLOWEST_RETURN * before;
         let state = &body.state;
-        let is_held = state.bears_friction() || state.touches_itself() || state.touches_tools();
+        let is_held = state.has_friction() || state.touches_itself() || state.touches_tools();
         if is_free && is_late && !is_held && (ended.is_inverted || !self.model.relaxes()) {
             body.state.shrink(&self.model, SLOWEST_RETURN);
         }
@@ -197,7 +197,7 @@ impl NonlinearOrgan {
         }
     }
 
-    /// Whether a tool bears on the organ with more than any tissue withstands: the step had no answer.
+    /// Whether the force of a tool is more than any tissue withstands: the step had no answer.
     fn is_unsound(&self, body: &Body) -> bool {
         body.loads.iter().enumerate().any(|(number, load)| {
             let law = self.pieces[body.on[number]].law();
@@ -365,7 +365,7 @@ impl NonlinearOrgan {
         boundary.spread(&place.point, &contact.rest_normal(), reach, load);
         let mut now = Now::of(self, body, number);
         if is_wrapped {
-            // Its points bear on the tip as on a shaft.
+            // Its points touch the tip as a shaft.
             now.force = -own.pushed.force;
         }
         own.moved = Moved {
@@ -437,7 +437,7 @@ impl NonlinearOrgan {
         })
     }
 
-    /// What is left of a tool that has let go: its place goes back to where it bears no force, no farther in a step than a
+    /// What is left of a tool that has let go: its place goes back to where there is no force, no farther in a step than a
     /// step follows well. None once the rest is a small way.
     fn let_go(&self, number: usize, body: &Body) -> Option<Target> {
         let now = Now::of(self, body, number);
