@@ -7,6 +7,7 @@ use palpate_geometry::{AabbTree, Vec3};
 
 use crate::grip::{Hands, grasping, pose};
 use crate::layers;
+use crate::nonlinear_shafts::with_friction;
 use crate::scenes::{Hand, Setting, nearest};
 
 #[global_allocator]
@@ -79,22 +80,24 @@ fn a_sliding_step_allocates_nothing() {
     }
 }
 
-/// A shaft that is laid across a cube, pressed and lifted again.
+/// A shaft that is laid across a cube, pressed and lifted again, and drawn along its axis with friction.
 #[test]
 fn a_step_with_a_shaft_allocates_nothing() {
-    let simulation = Setting {
+    let setting = Setting {
         organ: "builtin = \"cube\"",
         kind: "nonlinear",
         model: "nodes = 400",
+        shape: "sphere",
         radius: 4e-3,
         ..Setting::default()
-    }
-    .simulation();
+    };
+    let simulation = with_friction(&setting, 0.3);
     let (_, high) = simulation.surface().mesh().bounds();
     let across = nalgebra::UnitQuaternion::rotation_between(&Vec3::z(), &Vec3::x());
     let at = |step: u32| {
         let depth = 1e-4 * f64::from(100 - step.abs_diff(100)) - 5e-3;
-        let tip = Vec3::new(-0.07, 0.0, high.z + 4e-3 - depth);
+        let along = 1e-4 * f64::from(step);
+        let tip = Vec3::new(-0.07 + along, 0.0, high.z + 4e-3 - depth);
         pose(&tip, &across.unwrap_or_default(), 0.0)
     };
     let mut hands = Hands::new(&simulation);
