@@ -13,10 +13,11 @@ use std::process::Command;
 use serde_json::Value;
 
 /// Crates that the table does not list: they are everywhere, or are named for their features alone.
-const EVERYWHERE: [&str; 6] = [
+const EVERYWHERE: [&str; 7] = [
     "nalgebra",
     "thiserror",
     "arrayvec",
+    "indexmap",
     "matrixmultiply",
     "num-complex",
     "num-integer",
