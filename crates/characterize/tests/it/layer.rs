@@ -253,7 +253,7 @@ const OF_FELUPE: [f64; 16] = [
     0.042479, 0.048068, 0.053814, 0.059631, 0.065742, 0.071912, 0.078128,
 ];
 
-/// Ten presses with noise of half a percent, of which another program wrote depth from anywhere: the contact is within its
+/// Twenty presses with noise of half a percent, of which another program wrote depth from anywhere: the contact is within its
 /// 95 % interval in nine of ten, though the force is no power of the depth; and so is the modulus of the first.
 #[test]
 fn contacts_of_a_sphere_on_a_layer_are_within_their_intervals() {
@@ -284,8 +284,8 @@ fn contacts_of_a_sphere_on_a_layer_are_within_their_intervals() {
         println!("{:.1} ± {:.1} µm", 1e6 * contact.depth_m, 1e6 * error);
         contact.depth_m.abs() <= 1.96 * error
     };
-    let held = (0..10).filter(within).count();
-    assert!(held >= 9, "{held}");
+    let held = (0..20).filter(within).count();
+    assert!(held >= 18, "{held}");
     let all = characterize(&[cleaned(0)], &settings(), &mut |_| ());
     let law = all.laws[0].1.clone().unwrap();
     let own = law.parameters[0].1;

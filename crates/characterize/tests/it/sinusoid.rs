@@ -274,6 +274,19 @@ fn intervals_hold_the_truth_in_correlated_noise() {
     }
 }
 
+/// The same 150 times: 92 to 98 % by chance.
+#[test]
+#[ignore = "slow: a minute"]
+fn more_intervals_hold_the_truth_in_correlated_noise() {
+    for noise in [Correlated::FirstOrder(0.1), Correlated::OneOverF] {
+        let [stiffness, phase] = held(noise, (100.0, 1.0, 14.0), 150);
+        println!("{noise:?}: stiffness {stiffness:.3}, phase {phase:.3}");
+        for part in [stiffness, phase] {
+            assert!((0.90..=0.99).contains(&part), "{noise:?}: {part}");
+        }
+    }
+}
+
 /// The same at other rates, frequencies and lengths.
 #[test]
 #[ignore = "slow: minutes, for thousands of recordings"]

@@ -7,7 +7,7 @@ use palpate_geometry::{
     read_label_map,
 };
 
-use crate::shapes::{Random, tries};
+use crate::shapes::Random;
 
 const KINDS: [&str; 3] = ["bits.dcm", "parts.dcm", "labels.dcm"];
 
@@ -116,10 +116,9 @@ fn damaged_segmentations_never_panic() {
     let path = folder.path().join("damaged.dcm");
     let mut random = Random(5);
     let mut refused = 0;
-    let rounds = tries(500);
     for kind in KINDS {
         let whole = std::fs::read(file(kind)).unwrap();
-        for round in 0..rounds {
+        for round in 0..200 {
             let mut bytes = whole.clone();
             if round % 2 == 0 {
                 bytes.truncate(random.below(bytes.len()));
@@ -136,7 +135,6 @@ fn damaged_segmentations_never_panic() {
             }
         }
     }
-    // Cut files, but for the few that lost only what is not read.
-    let cut = KINDS.len() * rounds / 2;
-    assert!(refused as f64 > 0.95 * cut as f64, "{refused} of {cut}");
+    // Cut files at least.
+    assert!(refused > 290, "{refused}");
 }

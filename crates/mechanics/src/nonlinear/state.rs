@@ -46,11 +46,20 @@ pub(super) struct ContactMemory {
     pub(super) rubbed: Rubbed,
 }
 
+/// The slot of no contact.
+const NO_SLOT: usize = usize::MAX;
+
+impl ContactMemory {
+    fn is_none(&self) -> bool {
+        self.slot == NO_SLOT
+    }
+}
+
 impl Default for ContactMemory {
     /// None.
     fn default() -> Self {
         Self {
-            slot: usize::MAX,
+            slot: NO_SLOT,
             force: 0.0,
             rubbed: Rubbed::default(),
         }
@@ -257,9 +266,9 @@ impl NonlinearState {
         self.rubbed_at(contact.slot(model)).force
     }
 
-    /// Whether any place of the boundary is in contact with a tool beside its tip.
+    /// Whether any place of the boundary is a contact of its own with a tool: with a shaft, or a tip that a wall wraps.
     pub fn touches_tools(&self) -> bool {
-        self.on_tools[0] != ContactMemory::default()
+        !self.on_tools[0].is_none()
     }
 
     pub(super) fn pressed_at(&self, slot: usize) -> f64 {
@@ -277,9 +286,9 @@ impl NonlinearState {
     }
 
     fn on_tool(&self, slot: usize) -> ContactMemory {
-        let none = ContactMemory::default();
-        let mut known = self.on_tools.iter().take_while(|own| **own != none);
-        *known.find(|own| own.slot == slot).unwrap_or(&none)
+        let mut known = self.on_tools.iter().take_while(|own| !own.is_none());
+        let own = known.find(|own| own.slot == slot);
+        own.copied().unwrap_or_default()
     }
 
     /// Whether any place of the boundary is in contact with another.

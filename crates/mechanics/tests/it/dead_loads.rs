@@ -157,7 +157,6 @@ fn a_force_on_an_edge_bends_as_one_on_the_face() {
 
 /// Judge: the finest mesh, and what the estimate says of the others.
 #[test]
-#[ignore = "slow: a minute"]
 fn the_displacement_of_a_beam_converges() {
     let law = Arc::new(NeoHookean::incompressible(4e4).unwrap());
     let mut problem = beam([6, 1, 1], law);

@@ -26,8 +26,8 @@ struct Block {
     /// The nodes at half the height, which a tool drags.
     dragged: Vec<(u32, f64)>,
     friction: f64,
-    /// Where the plane has gone to [m] as a tool; none of one that stands still.
-    plane: Option<Vec3>,
+    /// Whether the plane is a tool, rather than at rest.
+    is_tool: bool,
 }
 
 /// All forces of contacts [N]: along the normal, along the surface, and the largest |τ| − μ λ.
@@ -57,35 +57,35 @@ impl Block {
             dragged: dragged.into_iter().map(|node| (node, weight)).collect(),
             model,
             friction,
-            plane: None,
+            is_tool: false,
         }
     }
 
     /// Under a plane that is a tool.
     fn under_tool(friction: f64) -> Self {
         Self {
-            plane: Some(Vec3::zeros()),
+            is_tool: true,
             ..Self::new(friction)
         }
     }
 
     /// The points that the plane may touch: of a tool the first four of each face's twenty.
     fn points(&self) -> Vec<&BoundaryPoint> {
-        match self.plane {
-            None => self.model.boundary_points().iter().collect(),
-            Some(_) => self.model.tool_points().iter().collect(),
+        match self.is_tool {
+            false => self.model.boundary_points().iter().collect(),
+            true => self.model.tool_points().iter().collect(),
         }
     }
 
-    /// Those with the plane, which goes by `motion` [m] in the step.
+    /// Those with the plane, which moves by `motion` [m] in the step.
     fn contacts(&self, depth: f64, motion: Vec3) -> Vec<UnilateralContact> {
         let number = 0;
-        let against = match self.plane {
-            None => Against::Still,
-            Some(_) => Against::Tool { number, motion },
+        let against = match self.is_tool {
+            false => Against::Still,
+            true => Against::Tool { number, motion },
         };
         let [few, more] = TOOL_POINTS;
-        let is_used = |number: usize| self.plane.is_none() || number % (few + more) < few;
+        let is_used = |number: usize| !self.is_tool || number % (few + more) < few;
         let points = self.points().into_iter().enumerate();
         points
             .filter(|(number, point)| point.place.z > HEIGHT - 1e-9 && is_used(*number))
@@ -104,7 +104,7 @@ impl Block {
         self.step_plane(depth, to, Vec3::zeros());
     }
 
-    /// The same while the plane goes by `motion` [m].
+    /// The same while the plane moves by `motion` [m].
     fn step_plane(&mut self, depth: f64, to: Option<Vec3>, motion: Vec3) {
         let contacts = self.contacts(depth, motion);
         let coupling = to.map(|to| Coupling {

@@ -234,7 +234,9 @@ fn pressures_change_nothing_where_nothing_locks() {
 /// Quick form of the two tests below, at a tenth of the patch's radius. Judges and tolerances: the same.
 #[test]
 fn a_hyperelastic_solid_begins_with_the_slope_of_its_energy() {
-    hyperelastic(cube(0.02, 0.49, Friction::Frictionless), 0.002);
+    for grip in [Friction::Bonded, Friction::Frictionless] {
+        hyperelastic(cube(0.02, 0.49, grip), 0.002);
+    }
 }
 
 /// Judges: the linear law at a small displacement, and the force as the slope of the energy at a large

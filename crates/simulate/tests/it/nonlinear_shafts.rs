@@ -90,7 +90,7 @@ fn a_shaft_across_a_cube_is_pushed_at_its_middle() {
     assert_eq!(tool(&leant).torque, Vec3::zeros());
 }
 
-/// Judge: Coulomb's law. A shaft on a cube that is drawn along itself is held back by less than μ N, then by μ N, but for 3 %: the
+/// Judge: Coulomb's law. A shaft on a cube that is drawn along its axis meets less friction than μ N, then μ N, but for 3 %: the
 /// cube bulges. It is so the other way too, and the hand's work on the way there and back is what friction takes.
 #[test]
 fn a_shaft_drawn_along_itself_slides_at_coulombs_force() {

@@ -70,7 +70,7 @@ fn ball<'a>((organ, model): &'a (String, String)) -> Setting<'a> {
 }
 
 /// Judges: Coulomb's law of the points of the wall that touch the ball, whose normals are up to 50° off the vertical: a ball that is
-/// dragged along is held back by no more than μ N and a quarter, and by μ N on the way as a whole, but for 15 %: points that come into
+/// dragged along meets no more friction than 1.25 μ N, and μ N on average, but for 15 %: points that come into
 /// contact first have to shear the wall. Symmetry: it is not pushed aside by more than a tenth. Little friction is none.
 #[test]
 fn a_ball_dragged_along_a_thin_tube_slides_at_coulombs_force() {
@@ -91,8 +91,8 @@ fn a_ball_dragged_along_a_thin_tube_slides_at_coulombs_force() {
         let along = (0..=100).map(|step| at(-5e-3 + 1e-4 * f64::from(step), 0.0));
         let forces: Vec<Vec3> = along.skip(20).collect();
         let mean = forces.iter().sum::<Vec3>() / forces.len() as f64;
-        let held_back = forces.iter().map(|force| -force.x / force.z);
-        (mean, held_back.fold(0.0, f64::max))
+        let ratios = forces.iter().map(|force| -force.x / force.z);
+        (mean, ratios.fold(0.0, f64::max))
     };
     let [none, little, some] = [None, Some(1e-6), Some(0.3)].map(dragged);
     println!("{none:?} {little:?} {some:?}");
