@@ -23,6 +23,7 @@ class Tetrahedra:
         held = scene.fixed(self.nodes[top])
         self.fixed = top[held]
         self.gripped = top[np.linalg.norm(self.nodes[top], axis=1) <= scene.radius] if scene.gripped else top[:0]
+        self.slit = _sides(self.nodes, self.faces, scene.slit) if scene.slit else None
         probe = _probe(scene)
         self.probe = None if probe is None else int(np.argmin(np.linalg.norm(self.nodes - probe, axis=1)))
 
@@ -174,6 +175,21 @@ def _surface(elements):
     faces = np.concatenate([elements[:, side[:nodes]] for side in sides])
     _, first, count = np.unique(np.sort(faces[:, :3], axis=1), axis=0, return_index=True, return_counts=True)
     return faces[first[count == 1]]
+
+
+def _sides(nodes, faces, slit):
+    """Triangles of the near and of the far side of a slit, whose nodes lie at the same places in the same order."""
+    inside = (np.abs(nodes[faces, 0] - slit["aside_m"]) < 1e-9).all(axis=1)
+    normal = np.cross(nodes[faces[:, 1]] - nodes[faces[:, 0]], nodes[faces[:, 2]] - nodes[faces[:, 0]])
+    near, far = [faces[inside & (side * normal[:, 0] > 0)] for side in (1, -1)]
+    place = lambda triangles: np.round(nodes[triangles] / 1e-9).astype(int)
+    keys = [[tuple(sorted(map(tuple, corners))) for corners in place(side)] for side in (near, far)]
+    other = {key: face for key, face in zip(keys[1], far)}
+    paired = []
+    for key, face in zip(keys[0], near):
+        at = {corner: node for corner, node in zip(map(tuple, place(other[key])), other[key])}
+        paired.append([at[corner] for corner in map(tuple, place(face))])
+    return near, np.array(paired)
 
 
 def legacy_vtk(nodes, elements):

@@ -63,6 +63,7 @@ class Sphere:
         normals = np.cross(tangents[:, :, 0], tangents[:, :, 1])
         self.areas = 0.5 * _WEIGHTS * np.linalg.norm(normals, axis=2)
         self.multiplier = np.zeros_like(self.areas)  # pressure [Pa]
+        self.rest = mesh.nodes
 
     def _contact(self, places, depth):
         """Distance from the middle [m], normal and pressure [Pa] at each point."""
@@ -71,12 +72,13 @@ class Sphere:
         pressure = np.maximum(self.multiplier + self.stiffness * (self.radius - distance), 0.0)
         return distance, away / distance[..., None], pressure
 
-    def augment(self, places, depth):
+    def augment(self, moved, depth):
         """The pressure becomes the multiplier."""
-        self.multiplier = self._contact(places, depth)[2]
+        self.multiplier = self._contact(self.rest + moved, depth)[2]
 
-    def pressed(self, places, depth):
-        """Forces on the nodes, and the stiffness."""
+    def pressed(self, moved, depth):
+        """Forces on the nodes that moved [m], and the stiffness."""
+        places = self.rest + moved
         distance, normal, pressure = self._contact(places, depth)
         pressure = pressure * self.areas
         forces = np.zeros_like(places)
@@ -92,6 +94,46 @@ class Sphere:
         return forces, stiffness.tocsr()
 
 
+class Slit:
+    """The sides of a slit, which slide on one another without friction and do not overlap, by an augmented Lagrangian.
+    Points that lay on one another remain a pair: they slide by less than the length of an edge."""
+
+    def __init__(self, scene, mesh):
+        self.stiffness = PENALTY * scene.tissue["youngs_modulus_pa"] / scene.radius
+        near, far = mesh.slit
+        corners = mesh.nodes[near[:, :3]]
+        areas = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        self.weights = np.outer(areas, _WEIGHTS).ravel()
+        values = np.array([_shapes(point)[0] for point in _POINTS])
+        rows = np.arange(self.weights.size).reshape(len(near), -1, 1) + np.zeros((1, 1, 6), dtype=int)
+        overlap = [
+            scipy.sparse.coo_matrix(
+                (
+                    np.broadcast_to(sign * values, rows.shape).ravel(),
+                    (rows.ravel(), np.broadcast_to(3 * side[:, None], rows.shape).ravel()),
+                ),
+                shape=(self.weights.size, mesh.nodes.size),
+            )
+            for sign, side in ((1, near), (-1, far))
+        ]
+        self.overlap = (overlap[0] + overlap[1]).tocsr()  # along x [m], of the moved nodes
+        self.multiplier = np.zeros_like(self.weights)  # pressure [Pa]
+
+    def _pressure(self, moved):
+        return np.maximum(self.multiplier + self.stiffness * (self.overlap @ moved.ravel()), 0.0)
+
+    def augment(self, moved, _depth):
+        """The pressure becomes the multiplier."""
+        self.multiplier = self._pressure(moved)
+
+    def pressed(self, moved, _depth):
+        """Forces on the nodes that moved [m], and the stiffness."""
+        pressure = self._pressure(moved)
+        closed = scipy.sparse.diags(self.stiffness * self.weights * (pressure > 0))
+        forces = -(self.overlap.T @ (self.weights * pressure)).reshape(moved.shape)
+        return forces, (self.overlap.T @ closed @ self.overlap).tocsr()
+
+
 def solid_of(scene, law, mesh):
     body = felupe.Mesh(mesh.nodes, mesh.elements, "tetra10")
     region = felupe.RegionQuadraticTetra(body)
@@ -105,7 +147,8 @@ def pressed(scene, law, fineness, depths):
     mesh = Tetrahedra(scene, fineness, order=2)
     field, solid = solid_of(scene, law, mesh)
     moved = field[0].values
-    sphere = None if scene.gripped else Sphere(scene, mesh)
+    contacts = [] if scene.gripped else [Sphere(scene, mesh)]
+    contacts += [Slit(scene, mesh)] if scene.slit else []
     free = np.ones(moved.shape, dtype=bool)
     free[mesh.fixed] = free[mesh.gripped] = False
     solve = solver()
@@ -117,10 +160,11 @@ def pressed(scene, law, fineness, depths):
         moved += increment * ((depth - last) / length)
         wanted = np.zeros_like(moved)
         wanted[mesh.gripped, 2] = scene.along * depth - moved[mesh.gripped, 2]
-        contact = (sphere, depth, mesh.nodes)
+        contact = (contacts, depth)
         solved = equilibrium(solid, field, contact, (free, wanted), solve)
-        for _ in range(AUGMENTED if sphere else 0):
-            sphere.augment(mesh.nodes + moved, depth)
+        for _ in range(AUGMENTED if contacts else 0):
+            for one in contacts:
+                one.augment(moved, depth)
             solved = solved and equilibrium(solid, field, contact, (free, np.zeros_like(wanted)), solve)
         if not solved:
             moved[:] = before
@@ -136,7 +180,7 @@ def pressed(scene, law, fineness, depths):
 
 def equilibrium(solid, field, contact, conditions, solve):
     """Newton's method; whether it converged. The step that is wanted of held nodes is taken in its first iteration."""
-    sphere, depth, nodes = contact
+    contacts, depth = contact
     free, wanted = conditions
     open_ = free.ravel()
     moved = field[0].values
@@ -144,8 +188,8 @@ def equilibrium(solid, field, contact, conditions, solve):
         for _ in range(25):
             force = np.asarray(solid.assemble.vector(field).todense()).ravel()
             stiffness = solid.assemble.matrix(field).tocsr()
-            if sphere:
-                pushed, stiff = sphere.pressed(nodes + moved, depth)
+            for one in contacts:
+                pushed, stiff = one.pressed(moved, depth)
                 force = force - pushed.ravel()
                 stiffness = stiffness + stiff
             step = wanted.ravel().copy()
