@@ -1,3 +1,4 @@
+use std::f64::consts::SQRT_2;
 use std::fmt;
 
 use palpate_files::Estimate;
@@ -8,7 +9,7 @@ use super::OnlineEstimator;
 use super::record::Samples;
 use crate::fit::Effort;
 use crate::inverse::{Curves, Indentation, LawDescription, law_fit};
-use crate::viscoelastic::{PressedRelaxation, RelaxationRecord};
+use crate::viscoelastic::{PressedRelaxation, Relaxation, RelaxationRecord};
 
 /// Terms of the relaxation.
 const TERMS: usize = 2;
@@ -114,6 +115,8 @@ pub(super) struct Fitted {
     law: LawDescription,
     /// Standard error of the modulus because one term is fitted where there may be two [Pa].
     by_second_term: f64,
+    /// What the modulus may be off because the tissue moves by itself [-].
+    by_motion: f64,
     /// Length of the record that was searched from everywhere last [s].
     searched: f64,
 }
@@ -156,10 +159,12 @@ impl Fitted {
             };
             by_second_term = missing_term(&own, &other)?;
         }
+        let by_motion = motion(&pressed.relaxation, force);
         Some(Self {
             pressed,
             law,
             by_second_term,
+            by_motion,
             searched: match (afresh, before) {
                 (false, Some(own)) => own.searched,
                 _ => length,
@@ -173,23 +178,25 @@ impl Fitted {
             let error = own
                 .standard_error
                 .map(|error| error.hypot(self.by_second_term));
-            (own.value, quantile.zip(error))
+            let half = quantile.zip(error);
+            let half = half.map(|(t, error)| (t * error).hypot(self.by_motion * own.value));
+            (own.value, half)
         });
         let relaxation = &self.pressed.relaxation;
         let terms = relaxation.terms.iter().zip(&relaxation.quantiles);
         let of_terms = terms.flat_map(|(term, quantiles)| {
             [0, 1].map(|place| {
                 let own = term[place];
-                (own.value, Some(quantiles[place]).zip(own.standard_error))
+                let half = own.standard_error.map(|error| quantiles[place] * error);
+                (own.value, half)
             })
         });
         // One term alone is a mixture of both.
         let of_terms = of_terms.filter(|_| relaxation.terms.len() == TERMS);
         let mut all = modulus.into_iter().chain(of_terms);
         let mut found = NAMES.map(|name| {
-            let (value, known) = all.next().unwrap_or((f64::NAN, None));
+            let (value, half) = all.next().unwrap_or((f64::NAN, None));
             let value = Some(value).filter(|value| value.is_finite());
-            let half = known.map(|(quantile, error)| quantile * error);
             let is_telling =
                 |half: &f64| value.is_some_and(|value| (0.0..value.abs()).contains(half));
             let half = half.filter(is_telling);
@@ -209,6 +216,17 @@ impl Fitted {
         }
         found
     }
+}
+
+/// By how much the elastic force at the largest depth may be off [-] because tissue moves by itself, as over a heart: it is
+/// touched at any phase of its motion, so that depths count from anywhere within the amplitude. What the relaxation leaves of
+/// the `force` [N] is that motion times the slope of the force; of a sine the amplitude is √2 root mean squares. A sensor's noise
+/// is in it, but small beside it.
+fn motion(relaxation: &Relaxation, force: &[f64]) -> f64 {
+    let count = force.len() as f64;
+    let largest = force.iter().copied().fold(0.0, f64::max);
+    let left = largest * (relaxation.sum_of_squares / count).sqrt();
+    SQRT_2 * left / (force.iter().sum::<f64>() / count)
 }
 
 /// Standard error of a modulus that was found with one term because there may be two [Pa], from both moduli: how far they are
