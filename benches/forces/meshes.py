@@ -178,17 +178,13 @@ def _surface(elements):
 
 
 def _sides(nodes, faces, slit):
-    """Triangles of the near and of the far side of a slit, whose nodes lie at the same places in the same order."""
+    """Triangles of the near and of the far side of a slit, which coincide at rest node by node."""
     inside = (np.abs(nodes[faces, 0] - slit["aside_m"]) < 1e-9).all(axis=1)
     normal = np.cross(nodes[faces[:, 1]] - nodes[faces[:, 0]], nodes[faces[:, 2]] - nodes[faces[:, 0]])
     near, far = [faces[inside & (side * normal[:, 0] > 0)] for side in (1, -1)]
-    place = lambda triangles: np.round(nodes[triangles] / 1e-9).astype(int)
-    keys = [[tuple(sorted(map(tuple, corners))) for corners in place(side)] for side in (near, far)]
-    other = {key: face for key, face in zip(keys[1], far)}
-    paired = []
-    for key, face in zip(keys[0], near):
-        at = {corner: node for corner, node in zip(map(tuple, place(other[key])), other[key])}
-        paired.append([at[corner] for corner in map(tuple, place(face))])
+    place = lambda triangle: list(map(tuple, np.round(nodes[triangle] / 1e-9).astype(int)))
+    opposite = {frozenset(place(triangle)): dict(zip(place(triangle), triangle)) for triangle in far}
+    paired = [[opposite[frozenset(place(triangle))][at] for at in place(triangle)] for triangle in near]
     return near, np.array(paired)
 
 

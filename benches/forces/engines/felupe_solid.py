@@ -77,7 +77,7 @@ class Sphere:
         self.multiplier = self._contact(self.rest + moved, depth)[2]
 
     def pressed(self, moved, depth):
-        """Forces on the nodes that moved [m], and the stiffness."""
+        """Forces on the nodes at these displacements [m], and the stiffness."""
         places = self.rest + moved
         distance, normal, pressure = self._contact(places, depth)
         pressure = pressure * self.areas
@@ -95,8 +95,8 @@ class Sphere:
 
 
 class Slit:
-    """The sides of a slit, which slide on one another without friction and do not overlap, by an augmented Lagrangian.
-    Points that lay on one another remain a pair: they slide by less than the length of an edge."""
+    """Contact of the two sides of a slit without friction, by an augmented Lagrangian. Points that coincide at rest remain a
+    pair, which is right while the sides slide by less than the length of an edge."""
 
     def __init__(self, scene, mesh):
         self.stiffness = PENALTY * scene.tissue["youngs_modulus_pa"] / scene.radius
@@ -104,19 +104,13 @@ class Slit:
         corners = mesh.nodes[near[:, :3]]
         areas = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
         self.weights = np.outer(areas, _WEIGHTS).ravel()
+        # Rows are points, columns the displacements of nodes along x: those of the near side less those of the far side.
         values = np.array([_shapes(point)[0] for point in _POINTS])
-        rows = np.arange(self.weights.size).reshape(len(near), -1, 1) + np.zeros((1, 1, 6), dtype=int)
-        overlap = [
-            scipy.sparse.coo_matrix(
-                (
-                    np.broadcast_to(sign * values, rows.shape).ravel(),
-                    (rows.ravel(), np.broadcast_to(3 * side[:, None], rows.shape).ravel()),
-                ),
-                shape=(self.weights.size, mesh.nodes.size),
-            )
-            for sign, side in ((1, near), (-1, far))
-        ]
-        self.overlap = (overlap[0] + overlap[1]).tocsr()  # along x [m], of the moved nodes
+        values = np.concatenate([values, -values], axis=1) + np.zeros((len(near), 1, 1))
+        columns = np.concatenate([near, far], axis=1)[:, None] * 3 + np.zeros(values.shape, dtype=int)
+        rows = np.arange(self.weights.size).reshape(len(near), -1, 1) + np.zeros(values.shape, dtype=int)
+        entries = (values.ravel(), (rows.ravel(), columns.ravel()))
+        self.overlap = scipy.sparse.csr_matrix(entries, shape=(self.weights.size, mesh.nodes.size))
         self.multiplier = np.zeros_like(self.weights)  # pressure [Pa]
 
     def _pressure(self, moved):
@@ -127,7 +121,7 @@ class Slit:
         self.multiplier = self._pressure(moved)
 
     def pressed(self, moved, _depth):
-        """Forces on the nodes that moved [m], and the stiffness."""
+        """Forces on the nodes at these displacements [m], and the stiffness."""
         pressure = self._pressure(moved)
         closed = scipy.sparse.diags(self.stiffness * self.weights * (pressure > 0))
         forces = -(self.overlap.T @ (self.weights * pressure)).reshape(moved.shape)

@@ -115,7 +115,7 @@ pub(super) struct Fitted {
     law: LawDescription,
     /// Standard error of the modulus because one term is fitted where there may be two [Pa].
     by_second_term: f64,
-    /// What the modulus may be off because the tissue moves by itself [-].
+    /// Relative error of the modulus, at most, because the tissue moves by itself [-].
     by_motion: f64,
     /// Length of the record that was searched from everywhere last [s].
     searched: f64,
@@ -159,12 +159,11 @@ impl Fitted {
             };
             by_second_term = missing_term(&own, &other)?;
         }
-        let by_motion = motion(&pressed.relaxation, force);
         Some(Self {
+            by_motion: motion(&pressed.relaxation, &record),
             pressed,
             law,
             by_second_term,
-            by_motion,
             searched: match (afresh, before) {
                 (false, Some(own)) => own.searched,
                 _ => length,
@@ -218,15 +217,15 @@ impl Fitted {
     }
 }
 
-/// By how much the elastic force at the largest depth may be off [-] because tissue moves by itself, as over a heart: it is
-/// touched at any phase of its motion, so that depths count from anywhere within the amplitude. What the relaxation leaves of
-/// the `force` [N] is that motion times the slope of the force; of a sine the amplitude is √2 root mean squares. A sensor's noise
-/// is in it, but small beside it.
-fn motion(relaxation: &Relaxation, force: &[f64]) -> f64 {
-    let count = force.len() as f64;
-    let largest = force.iter().copied().fold(0.0, f64::max);
-    let left = largest * (relaxation.sum_of_squares / count).sqrt();
-    SQRT_2 * left / (force.iter().sum::<f64>() / count)
+/// Relative error of the modulus, at most, because the tissue moves by itself [-], as a heart moves it. The indenter touches it at
+/// any phase of that motion, so that the zero of the depth is off by up to the amplitude. The residual of the relaxation is
+/// the motion times the slope of the force; the amplitude of a sine is √2 times its root mean square. The residual also
+/// contains the noise of the sensor, which makes this larger than it needs to be.
+fn motion(relaxation: &Relaxation, record: &RelaxationRecord) -> f64 {
+    let count = record.force.len() as f64;
+    let residual = (relaxation.sum_of_squares / count).sqrt();
+    let mean = record.force.iter().sum::<f64>() / count;
+    SQRT_2 * residual / mean
 }
 
 /// Standard error of a modulus that was found with one term because there may be two [Pa], from both moduli: how far they are

@@ -105,8 +105,8 @@ fn a_ball_dragged_along_a_thin_tube_slides_at_coulombs_force() {
 }
 
 /// Judge: tetrahedra of ten nodes by another code (FElupe, `benches/forces`), 4.75 mN at 2 mm and 10.15 mN at 5 mm. Tolerance: the model
-/// has one straight element across the wall, whose thickness varies by a fifth between its nodes; +11 and +8 % were found on
-/// 1,500 nodes, −17 and −20 % on 3,000 and 5,000. The force neither leaps from step to step nor goes away: a step of 50 µm adds
+/// has one element across the wall, and the anchor misses most nodes of the ends (Limits in `docs/theory/large_deformation.md`);
+/// +11 and +8 % were found on 1,500 nodes, −17 and −20 % on 3,000 and 5,000. The force neither leaps from step to step nor goes away: a step of 50 µm adds
 /// 1.5 % of it.
 #[test]
 fn a_ball_on_a_thin_tube_is_felt_smoothly() {
