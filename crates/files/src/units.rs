@@ -77,6 +77,8 @@ pub const UNITS: &[Unit] = &[
     unit("g_cm3", "g/cm^3", "kg_m3", 1e3, 1.0),
     unit("kg_per_m3", "kg/m^3", "kg_m3", 1.0, 1.0),
     unit("g_per_cm3", "g/cm^3", "kg_m3", 1e3, 1.0),
+    unit("one", "-", "one", 1.0, 1.0),
+    unit("percent", "%", "one", 1.0, 100.0),
     unit("rad", "rad", "rad", 1.0, 1.0),
     unit("deg", "deg", "rad", std::f64::consts::PI, 180.0),
     unit("n_per_m", "N/m", "n_per_m", 1.0, 1.0),

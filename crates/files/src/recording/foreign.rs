@@ -62,7 +62,7 @@ impl Recording {
     /// Fields are separated by commas, semicolons or tabs; with the latter two a decimal comma is
     /// understood. Lines above the names of the columns are passed over, but for comments
     /// `# key = value` with the keys of a recording. A row that repeats the one above it in every
-    /// field is left out. A table of stretches and stresses without times is read as the recording of
+    /// field is left out. A table of stretches or strains with stresses is read as the recording of
     /// a cube of one metre; one of distances and forces without times has those of the speed that a line above it states. A
     /// force in g or kg is the weight of that mass. What was taken for what is told by [`Recording::remarks`].
     ///

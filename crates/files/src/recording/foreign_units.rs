@@ -44,46 +44,60 @@ pub(super) fn columns(
     Ok(([column(0)?, column(1)?, column(2)?], row_units.is_some()))
 }
 
-/// The unit of the column of a stress, by its name or as it is stated for forces.
-pub(super) fn stress(
-    table: &TableText<'_>,
-    name: &str,
-    wanted: &ForeignColumns,
-) -> Result<&'static Unit, Error> {
-    let quantity = Quantity {
-        name,
-        stated: wanted.force_unit.as_deref(),
-        si: "pa",
-    };
-    quantity.unit(table, None)
-}
-
 /// The units of the columns of a displacement and a force, by their names, by a row of units below or as they are stated;
 /// and whether there is such a row.
-pub(super) fn sheet(
+pub(super) fn displacement_and_force(
     table: &TableText<'_>,
     [depth, force]: [&str; 2],
     wanted: &ForeignColumns,
 ) -> Result<([&'static Unit; 2], bool), Error> {
-    let plain = [(depth, "m"), (force, "n")].map(|(name, si)| {
-        let unit = Unit::named(si).expect("SI units are in the table");
-        table.foreign_column(name, unit, unit)
+    let depth = Quantity {
+        name: depth,
+        stated: wanted.depth_unit.as_deref(),
+        si: "m",
+    };
+    let force = Quantity {
+        name: force,
+        stated: wanted.force_unit.as_deref(),
+        si: "n",
+    };
+    pair(table, [depth, force])
+}
+
+/// The same of a stretch or a strain, and a stress, whose unit is stated as that of forces.
+pub(super) fn stretch_and_stress(
+    table: &TableText<'_>,
+    [stretch, stress]: [&str; 2],
+    wanted: &ForeignColumns,
+) -> Result<([&'static Unit; 2], bool), Error> {
+    let stretch = Quantity {
+        name: stretch,
+        stated: None,
+        si: "one",
+    };
+    let stress = Quantity {
+        name: stress,
+        stated: wanted.force_unit.as_deref(),
+        si: "pa",
+    };
+    pair(table, [stretch, stress])
+}
+
+fn pair(
+    table: &TableText<'_>,
+    quantities: [Quantity<'_>; 2],
+) -> Result<([&'static Unit; 2], bool), Error> {
+    let [first, second] = quantities.each_ref().map(|quantity| {
+        let unit = Unit::named(quantity.si).expect("SI units are in the table");
+        table.foreign_column(quantity.name, unit, unit)
     });
-    let [first, second] = plain;
     let plain = [first?, second?];
     let below = match table.rows().next()? {
         Some(row) => of_row(&row, &plain),
         None => None,
     };
-    let of = |name, stated, si, place: usize| {
-        let quantity = Quantity { name, stated, si };
-        quantity.unit(table, below.map(|units| units[place]))
-    };
-    let units = [
-        of(depth, wanted.depth_unit.as_deref(), "m", 0)?,
-        of(force, wanted.force_unit.as_deref(), "n", 1)?,
-    ];
-    Ok((units, below.is_some()))
+    let of = |place: usize| quantities[place].unit(table, below.map(|units| units[place]));
+    Ok(([of(0)?, of(1)?], below.is_some()))
 }
 
 /// The units in a row that holds units in place of numbers.
@@ -143,8 +157,10 @@ impl Quantity<'_> {
         };
         match unit {
             Some(unit) if unit.si == self.si => Ok(unit),
-            // Programs seldom say that they count seconds.
-            None if self.si == "s" => Ok(Unit::named("s").expect("SI units are in the table")),
+            // Programs seldom say that they count seconds, or that a ratio has no unit.
+            None if ["s", "one"].contains(&self.si) => {
+                Ok(Unit::named(self.si).expect("SI units are in the table"))
+            }
             _ => Err(self.unknown(table, self.name)),
         }
     }

@@ -28,7 +28,7 @@ pub(super) fn parse(
     let keys = table.header.keys(path, RecordingHeader::KEYS);
     let header = RecordingHeader::from_keys(&keys)?;
     let names = [depth.choose(&table)?, force.choose(&table)?];
-    let (units, has_unit_row) = foreign_units::sheet(&table, names, columns)?;
+    let (units, has_unit_row) = foreign_units::displacement_and_force(&table, names, columns)?;
     let (samples, still) = samples(&table, (names, units, has_unit_row), speed)?;
     let mut remarks = vec![format!(
         "the time is the way over the stated speed of {} mm/s; the depth was taken from `{}` in {}, the force from `{}` in {}; \

@@ -4,29 +4,59 @@ use std::path::Path;
 use super::foreign_names::Wanted;
 use super::{ForeignColumns, Origin, Recording, RecordingHeader, Samples, StimulusKind};
 use super::{foreign_table, foreign_units};
-use crate::table::TableText;
+use crate::table::{Column, TableText};
 use crate::units::Unit;
 use crate::{Domain, Error};
 
 const STRETCH: &[&str] = &["stretch", "lambda"];
-const STRESS: &[&str] = &["stress"];
+const STRAIN: &[&str] = &["strain", "dehnung"];
+const STRESS: &[&str] = &["stress", "spannung"];
+/// Words of columns that are neither nominal nor of the piece's axis.
+const OTHERS: &[&str] = &["true", "cauchy", "transverse", "lateral", "shear"];
 
-/// A table without times of a piece that is deformed: of stretches and nominal stresses, as a recording of a cube of one
-/// metre that is pulled in a step a second, or of displacements and forces of a piece between clamps; none when `text` holds
-/// no such table.
+/// A table without times of a piece that is deformed: of stretches or nominal strains and nominal stresses, as a recording
+/// of a cube of one metre that is pulled in a step a second, or of displacements and forces of a piece between clamps; none
+/// when `text` holds no such table.
 pub(super) fn parse(
     text: &str,
     path: &Path,
     columns: &ForeignColumns,
 ) -> Result<Option<Recording>, Error> {
-    let wanted = [
-        Wanted::new("stretch", None, STRETCH),
-        Wanted::new("stress", None, STRESS),
-    ];
-    let (table, has_all) = foreign_table::find(text, path, &wanted)?;
-    if !has_all {
-        return clamped(text, path, columns);
+    let stress = Wanted::new("stress", None, STRESS).but(OTHERS);
+    let stretch = Wanted::new("stretch", None, STRETCH).but(OTHERS);
+    let strain = Wanted::new("strain", None, STRAIN).but(OTHERS);
+    let of_strain = Axial {
+        domain: STRAIN_DOMAIN,
+        depth: |strain| -strain,
+    };
+    let of_stretch = Axial {
+        domain: STRETCH_DOMAIN,
+        depth: |stretch| 1.0 - stretch,
+    };
+    for (axial, length) in [(of_stretch, stretch), (of_strain, strain)] {
+        let wanted = [length, stress];
+        let (table, has_all) = foreign_table::find(text, path, &wanted)?;
+        if has_all {
+            return stressed(&table, (path, columns), wanted, &axial).map(Some);
+        }
     }
+    clamped(text, path, columns)
+}
+
+/// How the depth of the cube follows from the number in a column.
+struct Axial {
+    domain: Domain,
+    /// The depth [m].
+    depth: fn(f64) -> f64,
+}
+
+/// The recording of a cube of one metre.
+fn stressed(
+    table: &TableText<'_>,
+    (path, columns): (&Path, &ForeignColumns),
+    wanted: [Wanted<'_>; 2],
+    axial: &Axial,
+) -> Result<Recording, Error> {
     let keys = table.header.keys(path, RecordingHeader::KEYS);
     let mut header = RecordingHeader::from_keys(&keys)?;
     match header.stimulus {
@@ -40,24 +70,40 @@ pub(super) fn parse(
     }
     header.area_m2 = Some(1.0);
     header.height_m = Some(1.0);
-    let [stretch, stress] = [wanted[0].choose(&table)?, wanted[1].choose(&table)?];
-    let unit = foreign_units::stress(&table, stress, columns)?;
+    let [length, stress] = [wanted[0].choose(table)?, wanted[1].choose(table)?];
+    let (units, has_units) = foreign_units::stretch_and_stress(table, [length, stress], columns)?;
+    let in_units = units.map(|unit| match unit.spelling {
+        "-" => String::new(),
+        spelling => format!(" in {spelling}"),
+    });
     let remark = format!(
-        "`{stretch}` and `{stress}` in {} were read as the stretching of a cube of one metre, a row a second",
-        unit.spelling
+        "`{length}`{} and `{stress}`{} were read as the stretching of a cube of one metre, a row a second; positive ones are \
+         tension",
+        in_units[0], in_units[1]
     );
     let pulls = Pulls {
-        length: (stretch, named("m"), HEIGHT),
-        load: (stress, unit, named("Pa")),
-        depth: |height| 1.0 - height,
+        columns: [
+            table.foreign_column(length, units[0], named("one"))?,
+            table.foreign_column(stress, units[1], named("pa"))?,
+        ],
+        has_units,
+        domain: axial.domain,
+        depth: axial.depth,
     };
-    let samples = samples(&table, &pulls)?;
-    let recording = Recording::read_as(Origin::Project, header, samples, vec![remark]);
-    Ok(Some(recording))
+    let samples = pulls.samples(table)?;
+    Ok(Recording::read_as(
+        Origin::Project,
+        header,
+        samples,
+        vec![remark],
+    ))
 }
 
 /// A height over that at rest [-].
-const HEIGHT: Domain = Domain::number("a stretch", [Excluded(0.0), Included(1e3)]);
+const STRETCH_DOMAIN: Domain = Domain::number("a stretch", [Excluded(0.0), Included(1e3)]);
+
+/// A change of height over the height at rest [-].
+const STRAIN_DOMAIN: Domain = Domain::number("a nominal strain", [Excluded(-1.0), Included(1e3)]);
 
 /// A displacement of a clamp [m].
 const DISPLACEMENT: Domain =
@@ -79,17 +125,22 @@ fn clamped(text: &str, path: &Path, columns: &ForeignColumns) -> Result<Option<R
         _ => return Ok(None),
     };
     let [depth, force] = [depth.choose(&table)?, force.choose(&table)?];
-    let ([length, load], _) = foreign_units::sheet(&table, [depth, force], columns)?;
+    let ([length, load], has_units) =
+        foreign_units::displacement_and_force(&table, [depth, force], columns)?;
     let remark = format!(
         "`{depth}` in {} and `{force}` in {} were read as the {deformed}, a row a second",
         length.spelling, load.spelling
     );
     let pulls = Pulls {
-        length: (depth, length, DISPLACEMENT),
-        load: (force, load, named("N")),
-        depth: |way| -way,
+        columns: [
+            table.foreign_column(depth, length, named("m"))?,
+            table.foreign_column(force, load, named("n"))?,
+        ],
+        has_units,
+        domain: DISPLACEMENT,
+        depth: |displacement| -displacement,
     };
-    let samples = samples(&table, &pulls)?;
+    let samples = pulls.samples(&table)?;
     let recording = Recording::read_as(Origin::Project, header, samples, vec![remark]);
     Ok(Some(recording))
 }
@@ -99,31 +150,35 @@ fn named(name: &str) -> &'static Unit {
 }
 
 /// The columns of a pulled piece.
-struct Pulls<'c> {
-    /// Name, unit and domain in SI units.
-    length: (&'c str, &'static Unit, Domain),
-    /// Name, unit and the SI unit of it.
-    load: (&'c str, &'static Unit, &'static Unit),
+struct Pulls {
+    /// Of the length and the load.
+    columns: [Column; 2],
+    /// Whether a row below the names holds the units.
+    has_units: bool,
+    /// Of the length.
+    domain: Domain,
     /// The depth [m] of a length.
     depth: fn(f64) -> f64,
 }
 
-fn samples(table: &TableText<'_>, pulls: &Pulls<'_>) -> Result<Samples, Error> {
-    let (length, unit, domain) = pulls.length;
-    let length = table.foreign_column(length, unit, named("m"))?;
-    let (load, unit, si) = pulls.load;
-    let load = table.foreign_column(load, unit, si)?;
-    let mut samples = Samples::default();
-    let mut rows = table.rows();
-    while let Some(row) = rows.next()? {
-        samples.time_s.push(samples.time_s.len() as f64);
-        let length = row.number(&length, domain)?;
-        samples.depth_m.push((pulls.depth)(length));
-        samples.force_n.push(-row.number(&load, Domain::ANY_FORCE)?);
+impl Pulls {
+    fn samples(&self, table: &TableText<'_>) -> Result<Samples, Error> {
+        let [length, load] = &self.columns;
+        let mut samples = Samples::default();
+        let mut rows = table.rows();
+        if self.has_units {
+            rows.next()?;
+        }
+        while let Some(row) = rows.next()? {
+            samples.time_s.push(samples.time_s.len() as f64);
+            let length = row.number(length, self.domain)?;
+            samples.depth_m.push((self.depth)(length));
+            samples.force_n.push(-row.number(load, Domain::ANY_FORCE)?);
+        }
+        if samples.time_s.is_empty() {
+            let path = table.path.clone();
+            return Err(Error::NoRows { path });
+        }
+        Ok(samples)
     }
-    if samples.time_s.is_empty() {
-        let path = table.path.clone();
-        return Err(Error::NoRows { path });
-    }
-    Ok(samples)
 }

@@ -71,7 +71,8 @@ impl Organ {
         Key::table(
             "anchor",
             Region::KEYS,
-            "The fixed part: triangles whose centroid lies in one of these regions.",
+            "The fixed part: triangles whose centroid lies in one of these regions, and with the nonlinear model the nodes of its \
+             mesh that do, which lie up to half an edge behind the surface.",
         )
         .optional("", "the attachment of a built-in organ; none of a mesh, which only the local model allows"),
         Key::table("touchable", Region::KEYS, "Where tools may touch it; the hybrid model prepares no more than this.")

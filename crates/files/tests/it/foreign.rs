@@ -179,6 +179,30 @@ fn stretches_and_stresses_are_a_cube_of_one_metre() {
     assert_eq!(recording.force_n()[1], -0.25e6);
 }
 
+/// Judge: the numbers, converted by hand. The nominal strain and stress are taken, and not the true ones; with tables that have
+/// neither nothing is recognised.
+#[test]
+fn nominal_strains_and_stresses_are_a_cube_of_one_metre() {
+    let read = |text: &str| Recording::parse_foreign(text, "a.csv", &ForeignColumns::default());
+    let machine = "PARAMETER;INFO;URL;;\nSpeed (mm/min);450;;;\n;;;;\n\
+        Time (s);True Strain;True Stress (MPa);Engineering Strain;Engineering Stress (MPa)\n\
+        0.3;0.0487902;0.0015645;0.05;0.00149\n0.4;0.0953102;0.003773;0.1;0.00343\n";
+    let recording = read(machine).unwrap();
+    assert_eq!(recording.depth_m(), [-0.05, -0.1]);
+    assert_eq!(recording.force_n(), [-1490.0, -3430.0]);
+    let german = "Dehnung;Spannung\n%;kPa\n0,0;0,0\n12,5;4,5\n";
+    let recording = read(german).unwrap();
+    assert_eq!(recording.depth_m(), [0.0, -0.125]);
+    assert_eq!(recording.force_n(), [0.0, -4500.0]);
+    let percent = read("Strain (%),Stress (MPa)\n0,0\n50,0.25\n").unwrap();
+    assert_eq!(percent.depth_m(), [0.0, -0.5]);
+    assert!(read("True Strain,True Stress (MPa)\n0,0\n0.5,0.25\n").is_err());
+    let torn = read("Strain,Stress (MPa)\n0,0\n-1.5,0.25\n")
+        .unwrap_err()
+        .to_string();
+    assert!(torn.contains("a nominal strain"), "{torn}");
+}
+
 /// Tables as testing machines export them. Judge: their numbers, converted by hand; a gram weighs 9.80665 mN.
 #[test]
 fn tables_of_testing_machines_are_recognised() {
