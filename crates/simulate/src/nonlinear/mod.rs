@@ -27,6 +27,7 @@
 //! [`TipField`]: palpate_mechanics::surface_response::TipField
 
 mod hold;
+mod mesh_warnings;
 mod neighbours;
 mod regions;
 mod shafts;
@@ -35,6 +36,7 @@ mod soft;
 mod target;
 mod touch;
 
+use mesh_warnings::mesh_warnings;
 use neighbours::{Candidates, Skin};
 use regions::Elements;
 pub(crate) use regions::Regions;
@@ -49,8 +51,8 @@ use std::ops::ControlFlow;
 use nalgebra::Rotation3;
 use palpate_files::Scene;
 use palpate_geometry::{
-    AabbTree, Fidelity, FillSettings, NodeId, Surface, TetrahedronError, TetrahedronMesh,
-    TriangleMesh, Vec3, coarsen, fill, refine_to,
+    AabbTree, FillSettings, NodeId, Surface, TetrahedronError, TetrahedronMesh, TriangleMesh, Vec3,
+    coarsen, fill, refine_to,
 };
 use palpate_mechanics::contact::{Tip, hertz_force};
 use palpate_mechanics::nonlinear::{
@@ -176,10 +178,13 @@ impl NonlinearOrgan {
             .iter()
             .map(|body| tetrahedra(&body.surface, body.nodes, &body.regions));
         let filled = filled.collect::<Result<Vec<_>, _>>()?;
-        let bodies = soft.iter().zip(&filled);
-        let bodies = bodies.map(|(body, mesh)| missing(&body.surface, body.nodes, mesh));
-        let missing = std::iter::once(missing(surface, nodes, &organ)).chain(bodies);
-        let missing: Vec<_> = missing.flatten().collect();
+        let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
+        let is_held = |place: &Vec3| anchor.holds((*place).into());
+        let mut of_meshes = mesh_warnings(surface, nodes, &organ, is_held);
+        for (body, mesh) in soft.iter().zip(&filled) {
+            let is_held = |place: &Vec3| body.holds(place);
+            of_meshes.extend(mesh_warnings(&body.surface, body.nodes, mesh, is_held));
+        }
         let mut elements = own;
         for (body, mesh) in soft.iter().zip(&filled) {
             elements.extend(body.regions.of_elements(mesh), series.len());
@@ -192,19 +197,18 @@ impl NonlinearOrgan {
             densities,
             mut warnings,
         } = elements;
-        warnings.extend(missing);
+        warnings.extend(of_meshes);
         warnings.extend(regions.warnings.iter().cloned());
-        let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
-        let is_held = |tetrahedron: usize, place: &Vec3| {
+        let is_fixed = |tetrahedron: usize, place: &Vec3| {
             let number = merged.pieces[tetrahedron].checked_sub(1);
             match number {
-                None => anchor.holds((*place).into()),
+                None => is_held(place),
                 Some(number) => soft[number as usize].holds(place),
             }
         };
         let (work, part) = (Work::Factors, FILLED);
         tell(watch, Progress { work, part })?;
-        let mut model = NonlinearModel::on_boundary(&merged.mesh, &moduli, is_held)?
+        let mut model = NonlinearModel::on_boundary(&merged.mesh, &moduli, is_fixed)?
             .relaxing(&series, &numbers)?;
         if let Some(gravity) = scene.model.gravity_m_per_s2 {
             model = model.under_gravity(&densities, &gravity.into())?;
@@ -350,11 +354,4 @@ fn tetrahedra(
     let detail = |place: &Vec3| edge / longest(place);
     let mesh = filling.and_then(|fine| coarsen(&fine, nodes, volume, detail));
     mesh.map_err(|error| palpate_mechanics::Error::from(error).into())
-}
-
-/// A warning where the mesh of so many nodes lacks a part of the body within `surface`.
-fn missing(surface: &Surface, nodes: usize, mesh: &TetrahedronMesh) -> Option<String> {
-    let edge = FillSettings::with_about(surface, nodes).edge;
-    let warning = Fidelity::of(mesh, surface).warning(edge)?;
-    Some(format!("{warning}; more `nodes` follow it closer"))
 }

@@ -45,11 +45,14 @@ fn tube() -> String {
     text
 }
 
-/// The tube, held at its ends, under the ball.
-fn under_ball(folder: &Path, nodes: usize) -> (String, String) {
+/// How far the anchor reaches into the ends of the tube [m].
+const REACH: f64 = 1e-4;
+
+/// The tube, held to `reach` at its ends, under the ball.
+fn under_ball(folder: &Path, nodes: usize, reach: f64) -> (String, String) {
     let path = folder.join("tube.ply");
     fs::write(&path, tube()).unwrap();
-    let end = 0.5 * LENGTH - 1e-4;
+    let end = 0.5 * LENGTH - reach;
     let organ = format!(
         "mesh = {:?}\nanchor = {{ planes = [{{ point_m = [{end}, 0.0, 0.0], normal = [-1.0, 0.0, 0.0] }}, \
          {{ point_m = [-{end}, 0.0, 0.0], normal = [1.0, 0.0, 0.0] }}] }}",
@@ -75,7 +78,7 @@ fn ball<'a>((organ, model): &'a (String, String)) -> Setting<'a> {
 #[test]
 fn a_ball_dragged_along_a_thin_tube_slides_at_coulombs_force() {
     let folder = tempfile::tempdir().unwrap();
-    let lines = under_ball(folder.path(), 1500);
+    let lines = under_ball(folder.path(), 1500, REACH);
     let dragged = |friction: Option<f64>| {
         let setting = ball(&lines);
         let simulation = match friction {
@@ -112,7 +115,7 @@ fn a_ball_dragged_along_a_thin_tube_slides_at_coulombs_force() {
 fn a_ball_on_a_thin_tube_is_felt_smoothly() {
     let folder = tempfile::tempdir().unwrap();
     for nodes in [1500, 3000] {
-        let lines = under_ball(folder.path(), nodes);
+        let lines = under_ball(folder.path(), nodes, REACH);
         let simulation = ball(&lines).simulation();
         let mut hand = Hand::new(&simulation);
         let mut at = |depth: f64| hand.at(&Vec3::new(0.0, 0.0, RADIUS - depth)).z;
@@ -126,5 +129,19 @@ fn a_ball_on_a_thin_tube_is_felt_smoothly() {
         for pair in all.windows(2) {
             assert!((pair[1] - pair[0]).abs() < 0.05 * deepest, "{pair:?}");
         }
+    }
+}
+
+/// Judge: 11 of the 46 nodes of the ends lie within 0.1 mm of them, all within an edge, 3 mm.
+#[test]
+fn an_anchor_that_misses_the_nodes_of_the_mesh_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    for (reach, is_loose) in [(REACH, true), (3e-3, false)] {
+        let lines = under_ball(folder.path(), 3000, reach);
+        let simulation = ball(&lines).simulation();
+        let mut said = simulation.warnings().iter();
+        let said = said.find(|warning| warning.contains("the anchor holds"));
+        assert_eq!(said.is_some(), is_loose, "{reach}: {said:?}");
+        println!("{reach}: {said:?}");
     }
 }
