@@ -193,7 +193,10 @@ fn sought(
         return Err(Error::TubeLaw { law: law.name() });
     }
     let indentations: Vec<Indentation<'_>> = pressed.iter().map(Pressed::indentation).collect();
-    let fit = law_fit(curves, &indentations, &relaxation.series)?;
+    let mut fit = law_fit(curves, &indentations, &relaxation.series)?;
+    if let Some(other) = &relaxation.two_terms {
+        fit = fit.that_may_relax_by(other, (&indentations, &relaxation.series));
+    }
     let mut description = LawDescription::of(fit, &indentations);
     description.repeated = draws.map(|draws| repeated(&description, curves, &indentations, draws));
     Ok(description)
@@ -258,15 +261,13 @@ impl Pressed {
         let samples = Self::samples(recording)?;
         let of = |values: &[f64]| values.get(samples.clone()).map(<[f64]>::to_vec);
         let largest = recording.filtered_force.get(samples.clone())?;
+        let force = recording.force_at_rest();
         Some(Self {
             time: of(&recording.time)?,
             depth: of(&recording.depth)?.iter().map(|d| d.max(0.0)).collect(),
-            force: of(&recording.force)?,
+            force: of(&force)?,
             largest: largest.iter().copied().fold(0.0, f64::max),
-            zeros: ZeroErrors {
-                depth: recording.handling.contact.depth_error_m.unwrap_or(0.0),
-                force: recording.handling.contact.offset_error_n.unwrap_or(0.0),
-            },
+            zeros: ZeroErrors::of(recording),
         })
     }
 

@@ -9,6 +9,9 @@ use palpate_files::{
     Document, Incomplete, MOST_OF_DOCUMENT, MOST_OF_TABLE, Motion, Protocol, Recording, Scene,
     Session, Tissue, read_bytes, read_text,
 };
+use palpate_geometry::{
+    Label, LengthUnit, Vec3, VolumeRegion, extent_warning, read_label_map, read_tetrahedra,
+};
 use serde::Serialize;
 
 use crate::Error;
@@ -50,6 +53,10 @@ pub enum Kind {
     Session,
     /// A surface.
     Mesh,
+    /// Tetrahedra.
+    VolumeMesh,
+    /// A segmented volume.
+    LabelMap,
 }
 
 impl Kind {
@@ -65,6 +72,8 @@ impl Kind {
             Self::Recording => "recording",
             Self::Session => "session",
             Self::Mesh => "mesh",
+            Self::VolumeMesh => "volume mesh",
+            Self::LabelMap => "label map",
         }
     }
 }
@@ -80,10 +89,12 @@ pub fn validate(path: &Path) -> Result<Validated, Error> {
         Some("csv" | "txt" | "tsv" | "part") => table(path),
         Some(end) if ENDINGS.contains(&end) => recording(path),
         Some("stl" | "obj" | "ply" | "gltf" | "glb") => mesh(path),
+        Some("msh" | "vtk" | "vtu") => volume_mesh(path),
+        Some("nii" | "gz" | "nrrd" | "dcm") => label_map(path),
         _ => Err(Error::input(format!(
             "{}: the end of its name says none of what is read here: .toml (scene, task, tissue, protocol, problem), \
              .csv, .tsv or .txt (motion, recording, session), .jpk-force, .jpk-force-map, .jpk-qi-data, .jpk-qi-series, .ibw or .nid (recordings), .stl, \
-             .obj, .ply, .gltf or .glb (mesh)",
+             .obj, .ply, .gltf or .glb (mesh), .msh, .vtk or .vtu (volume mesh), .nii, .nii.gz, .nrrd or .dcm (label map)",
             path.display()
         ))),
     };
@@ -333,6 +344,64 @@ fn mesh(path: &Path) -> Result<Validated, Error> {
             surface.mesh().triangles().len()
         ),
         warnings,
+    })
+}
+
+fn volume_mesh(path: &Path) -> Result<Validated, Error> {
+    // The file does not tell its unit; what names the file does.
+    let read = read_tetrahedra(path, Some(LengthUnit::Metre))?;
+    let named = |region: &VolumeRegion| match &region.name {
+        Some(name) => name.clone(),
+        None => region.number.to_string(),
+    };
+    let regions: Vec<String> = read.regions.iter().map(named).collect();
+    let of_regions = match regions.len() {
+        0 | 1 => String::new(),
+        _ => format!(", regions {}", regions.join(", ")),
+    };
+    let corners = read.mesh.vertices().iter();
+    let bounds = corners.fold(None, |bounds: Option<(Vec3, Vec3)>, corner| {
+        let (low, high) = bounds.unwrap_or((*corner, *corner));
+        Some((low.inf(corner), high.sup(corner)))
+    });
+    let extent = bounds.map_or_else(Vec3::zeros, |(low, high)| high - low);
+    let [x, y, z] = [0, 1, 2].map(|axis| plain_quantity("", extent[axis], None));
+    let of_unit = extent_warning(extent.max());
+    let mut warnings = read.warnings;
+    warnings.retain(|warning| Some(warning) != of_unit.as_ref());
+    if read.turned > 0 {
+        let turned = counted(read.turned, "tetrahedron was", "tetrahedra were");
+        warnings.push(format!("{turned} inverted, and turned"));
+    }
+    Ok(Validated {
+        file: path.to_owned(),
+        kind: Kind::VolumeMesh,
+        content: format!(
+            "{} and {}, {x} × {y} × {z} in the unit of the file{of_regions}",
+            counted(read.mesh.tetrahedra().len(), "tetrahedron", "tetrahedra"),
+            counted(read.mesh.vertices().len(), "vertex", "vertices")
+        ),
+        warnings,
+    })
+}
+
+fn label_map(path: &Path) -> Result<Validated, Error> {
+    let map = read_label_map(path)?;
+    let labels = map.labels();
+    let named = |label: &Label| match &label.name {
+        Some(name) => format!("{} ({name})", label.number),
+        None => label.number.to_string(),
+    };
+    let named: Vec<String> = labels.iter().map(named).collect();
+    let [x, y, z] = map.size();
+    Ok(Validated {
+        file: path.to_owned(),
+        kind: Kind::LabelMap,
+        content: format!(
+            "{x} × {y} × {z} voxels, labels {}; `palpate mesh isosurface` says more",
+            named.join(", ")
+        ),
+        warnings: map.warnings().to_vec(),
     })
 }
 

@@ -4,20 +4,21 @@
 //! Recording ─signs─▶ ─contact, offset─▶ ─segments─▶ ─ripple─▶ ─low-pass─▶ CleanRecording
 //! ```
 //!
-//! The force that is fitted is what was measured, less the sensor's zero; ripple and filter touch only
-//! the force that is drawn. What was done and warnings stand in [`CleanRecording::warnings`].
+//! The force that is fitted is what was measured, less the sensor's zero and, of tissue that moves by itself, the swing of its
+//! force (`motion`); the filter touches only the force that is drawn. What was done and warnings stand in [`CleanRecording::warnings`].
 
 mod contact;
 mod contact_search;
 mod drift;
 mod filter;
+mod motion;
 pub(crate) mod noise;
 mod oriented;
 mod plausible;
 pub(crate) mod regression;
 mod ripple;
 mod sampling;
-mod segments;
+pub(crate) mod segments;
 mod stimulus;
 pub(crate) mod swing;
 
@@ -28,6 +29,7 @@ pub use contact::Contact;
 pub(crate) use contact::rising_contact;
 pub(crate) use contact_search::Approach;
 pub use filter::LowPass;
+pub(crate) use motion::Moving;
 use oriented::Oriented;
 pub use ripple::Ripple;
 pub use sampling::Sampling;
@@ -64,7 +66,7 @@ pub struct CleanRecording {
     pub time: Vec<f64>,
     /// Depths [m], from the first contact, into the tissue.
     pub depth: Vec<f64>,
-    /// Forces on the tissue [N], less what the sensor showed before contact; not filtered. This is fitted.
+    /// Forces on the tissue [N], less what the sensor showed before contact; not filtered.
     pub force: Vec<f64>,
     /// The same forces [N] after the filter. This is drawn.
     pub filtered_force: Vec<f64>,
@@ -155,7 +157,7 @@ pub fn clean(recording: &Recording, settings: &CleanSettings) -> Result<CleanRec
     clean.segments = segments::find(&clean.time, &clean.depth, contact.sample);
     clean.handling.ripple = Ripple::find(&clean.time, &clean.force, &clean.segments);
     clean.smooth(settings)?;
-    clean.add_warnings(recording, settings);
+    clean.add_warnings(recording);
     Ok(clean)
 }
 
@@ -196,14 +198,7 @@ impl CleanRecording {
         if let Some(ripple) = &self.handling.ripple
             && settings.removes_ripple
         {
-            for (value, time) in force
-                .iter_mut()
-                .zip(&self.time)
-                .take(ripple.end)
-                .skip(ripple.first)
-            {
-                *value -= ripple.force(*time);
-            }
+            ripple.take_out(&self.time, &mut force);
         }
         let cutoff = settings.cutoff_hz.unwrap_or_else(|| self.usual_cutoff());
         self.filtered_force = self.handling.sampling.smooth(&self.time, &force, cutoff)?;
@@ -239,19 +234,42 @@ impl CleanRecording {
         self.time[segment.end.min(last)] - self.time[segment.first]
     }
 
-    fn add_warnings(&mut self, recording: &Recording, settings: &CleanSettings) {
+    /// The force [N] that is fitted: as if the tissue did not move by itself.
+    pub fn force_at_rest(&self) -> Vec<f64> {
+        let moving = self.moving();
+        moving.map_or_else(|| self.force.clone(), |moving| moving.force_at_rest())
+    }
+
+    /// The amplitude of the motion of the tissue by itself [m], as a heart moves it; none where its force does not swing.
+    pub fn motion(&self) -> Option<f64> {
+        self.moving()?.amplitude()
+    }
+
+    fn moving(&self) -> Option<Moving<'_>> {
+        Some(Moving {
+            time: &self.time,
+            depth: &self.depth,
+            force: &self.force,
+            segments: &self.segments,
+            ripple: self.handling.ripple.as_ref()?,
+            shape: self.header.indenter_shape,
+        })
+    }
+
+    fn add_warnings(&mut self, recording: &Recording) {
         let mut warnings = std::mem::take(&mut self.warnings);
         contact::add_warnings(&self.handling.contact, self, &mut warnings);
         stimulus::add_warnings(self, &mut warnings);
         plausible::add_warnings(self, recording, &mut warnings);
         if let Some(ripple) = &self.handling.ripple {
-            let done = if settings.removes_ripple {
-                "it was taken out of the filtered force"
-            } else {
-                "it was left in"
-            };
+            let motion = self.motion().map_or_else(String::new, |motion| {
+                format!(
+                    "; the tissue moves by about {motion:.1e} m, and the depth of the first contact may be off by as much"
+                )
+            });
             warnings.push(format!(
-                "the force of the hold swings by {:.2e} N at {:.2} Hz, as a heart does; {done}",
+                "the force of the hold swings by {:.2e} N at {:.2} Hz, as over a heart; this is taken out of the force that is \
+                 fitted{motion}",
                 ripple.amplitude_n, ripple.frequency_hz
             ));
         }

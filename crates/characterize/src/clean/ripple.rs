@@ -55,8 +55,16 @@ impl Ripple {
             .sum()
     }
 
+    /// Takes it out of the `force` [N] of its hold at these times [s].
+    pub(super) fn take_out(&self, time: &[f64], force: &mut [f64]) {
+        let hold = self.first..self.end;
+        for (value, time) in force[hold.clone()].iter_mut().zip(&time[hold]) {
+            *value -= self.force(*time);
+        }
+    }
+
     /// Looks for it in the longest hold.
-    pub(super) fn find(time: &[f64], force: &[f64], segments: &[Segment]) -> Option<Self> {
+    pub(crate) fn find(time: &[f64], force: &[f64], segments: &[Segment]) -> Option<Self> {
         let length = |own: &Segment| time[own.end - 1] - time[own.first];
         let hold = segments
             .iter()

@@ -24,7 +24,7 @@ const STEPS: f64 = 2.0;
 
 /// The segments of `depth` [m] at `time` [s] from the sample `from` on. A rest out of the tissue is
 /// none.
-pub(super) fn find(time: &[f64], depth: &[f64], from: usize) -> Vec<Segment> {
+pub(crate) fn find(time: &[f64], depth: &[f64], from: usize) -> Vec<Segment> {
     let low = depth[from..].iter().copied().fold(f64::INFINITY, f64::min);
     let high = depth[from..]
         .iter()

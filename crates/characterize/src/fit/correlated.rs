@@ -25,33 +25,12 @@ use nalgebra::{DMatrix, DVector};
 
 use super::Random;
 
-/// How much work the covariance of correlated noise is worth.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Effort {
-    /// Blocks of one recording, at most: many see the quick part of the noise, few the slow one, and what one number of
-    /// them makes too small by chance another does not.
-    blocks: &'static [usize],
-    /// The number of blocks for which noise is drawn, and draws from which it is seen how much too small an estimate comes
-    /// out.
-    drawn: usize,
-    draws: u64,
-}
-
-impl Effort {
-    /// For a fit that is made once.
-    pub(crate) const FULL: Self = Self {
-        blocks: &[800, 200, 50],
-        drawn: 200,
-        draws: 40,
-    };
-    /// For one that is made several times a second: a fifth of the time.
-    pub(crate) const QUICK: Self = Self {
-        blocks: &[200, 50],
-        drawn: 100,
-        draws: 30,
-    };
-}
-
+/// Blocks of one recording, at most: many see the quick part of the noise, few the slow one, and what one number of them makes
+/// too small by chance another does not.
+const BLOCKS: [usize; 3] = [800, 200, 50];
+/// The number of blocks for which noise is drawn, and draws from which it is seen how much too small an estimate comes out.
+const DRAWN: usize = 200;
+const DRAWS: u64 = 40;
 /// The order of the process, at most; less for few blocks.
 const LARGEST_ORDER: usize = 60;
 /// Autocovariances below this part of the first are none [-]: less than rounding leaves of their sums.
@@ -66,15 +45,16 @@ pub(super) fn score_covariance(
     directions: &DMatrix<f64>,
     residuals: &[f64],
     recordings: &[usize],
-    effort: Effort,
 ) -> (DMatrix<f64>, f64) {
     let of = |most: usize| Blocks::new(directions, residuals, recordings, most);
-    let (too_small, freedom) = of(effort.drawn).draws(effort.draws);
-    let covariances = effort.blocks.iter().map(|&most| {
+    let (too_small, freedom) = of(DRAWN).draws(DRAWS);
+    let covariances = BLOCKS.map(|most| {
         let blocks = of(most);
         blocks.between().1 * too_small + &blocks.within
     });
-    let largest = covariances.max_by(|a, b| a.trace().total_cmp(&b.trace()));
+    let largest = covariances
+        .into_iter()
+        .max_by(|a, b| a.trace().total_cmp(&b.trace()));
     (largest.expect("there is a number of blocks"), freedom)
 }
 

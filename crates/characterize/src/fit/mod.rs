@@ -38,7 +38,6 @@ mod warnings;
 
 use nalgebra::DMatrix;
 
-pub(crate) use correlated::Effort;
 pub use criterion::{WORTH, information_criterion, simplest};
 pub use derivatives::Differences;
 pub(crate) use expected::Expected;
@@ -52,7 +51,6 @@ pub use profile::{Profile, profile};
 pub use random::Random;
 pub use resample::{Draws, Spread, block_bootstrap, noise_study};
 pub(crate) use student::student_quantile;
-pub(crate) use uncertainty::uncertainty_by;
 pub use uncertainty::{Uncertainty, correlated_uncertainty, uncertainty, with_systematic};
 pub use verdict::{CORRELATED, HARDLY_KNOWN, Verdict, correlated_pairs, verdicts};
 pub use warnings::warnings;

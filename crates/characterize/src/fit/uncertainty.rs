@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVectorView};
 
 use super::Fit;
-use super::correlated::{Effort, score_covariance};
+use super::correlated::score_covariance;
 use super::student::student_quantile;
 use super::triangle::triangularize;
 
@@ -47,18 +47,12 @@ pub fn uncertainty(fit: &Fit) -> Uncertainty {
 /// Their correlation is taken from the residuals (`fit/correlated.rs`); the parameters
 /// are those of least squares all the same.
 pub fn correlated_uncertainty(fit: &Fit, recordings: &[usize]) -> Uncertainty {
-    uncertainty_by(fit, recordings, Effort::FULL)
-}
-
-/// The same with so much `effort`.
-pub(crate) fn uncertainty_by(fit: &Fit, recordings: &[usize], effort: Effort) -> Uncertainty {
     let independent = uncertainty(fit);
     let whitened = Whitened::new(fit);
     if whitened.chosen.is_empty() {
         return independent;
     }
-    let (middle, freedom) =
-        score_covariance(&whitened.directions, &fit.residuals, recordings, effort);
+    let (middle, freedom) = score_covariance(&whitened.directions, &fit.residuals, recordings);
     let covariance = &whitened.back * &middle * whitened.back.transpose();
     let samples = fit.residuals.len() as f64;
     let count = whitened.count() as f64;

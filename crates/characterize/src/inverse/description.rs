@@ -8,7 +8,7 @@ use super::law_fit::LawFit;
 use super::repeated::Repeated;
 use crate::Error;
 use crate::fit::{
-    Effort, Fit, Parameter, Uncertainty, misfit, missed, uncertainty_by, warnings, with_systematic,
+    Fit, Parameter, Uncertainty, correlated_uncertainty, misfit, missed, warnings, with_systematic,
 };
 
 /// A law that was found, in its own parameters, and how well they are known.
@@ -39,15 +39,10 @@ pub struct LawDescription {
 impl LawDescription {
     /// Of a fit to `indentations`.
     pub fn of(found: LawFit, indentations: &[Indentation<'_>]) -> Self {
-        Self::by(found, indentations, Effort::FULL)
-    }
-
-    /// The same with so much `effort` for the covariance of the noise.
-    pub(crate) fn by(found: LawFit, indentations: &[Indentation<'_>], effort: Effort) -> Self {
         let lengths: Vec<usize> = indentations.iter().map(|each| each.time.len()).collect();
         let own = in_its_parameters(&found);
         let free = own.unbounded();
-        let noise = uncertainty_by(&free, &lengths, effort);
+        let noise = correlated_uncertainty(&free, &lengths);
         let uncertainty = with_systematic(noise, &free, &found.systematic);
         let each = found.law.parameters(found.modulus(), found.shape());
         let known = |(place, parameter): (usize, &LawParameter)| {

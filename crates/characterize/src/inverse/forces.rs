@@ -1,7 +1,10 @@
+use std::f64::consts::FRAC_1_SQRT_2;
+
 use nalgebra::DMatrix;
 use palpate_mechanics::{IndentationCurve, PronySeries, branch};
 
 use super::curves::UnitCurve;
+use crate::CleanRecording;
 
 /// What was done to the tissue and felt in one recording.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,10 +22,30 @@ pub struct Indentation<'a> {
 /// How well the zeros of a recording are known: its first contact, and what the sensor shows without load.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ZeroErrors {
-    /// Standard error of the depth of the first contact [m].
+    /// Standard error of the depth of the first contact [m], of each recording by itself.
     pub depth: f64,
+    /// Standard deviation of that depth because the tissue moves by itself [m], the same in all recordings: an indenter that comes
+    /// down slowly touches moving tissue at the top of its motion.
+    pub motion: f64,
     /// Standard error of the force without load [N].
     pub force: f64,
+}
+
+impl ZeroErrors {
+    /// Of a recording.
+    pub fn of(recording: &CleanRecording) -> Self {
+        let contact = &recording.handling.contact;
+        Self {
+            depth: contact.depth_error_m.unwrap_or(0.0),
+            motion: Self::motion(recording.motion().unwrap_or(0.0)),
+            force: contact.offset_error_n.unwrap_or(0.0),
+        }
+    }
+
+    /// The standard deviation of a motion of this `amplitude` [m]: that of a sine [JCGM 101:2008, 6.4.6].
+    pub(crate) fn motion(amplitude: f64) -> f64 {
+        FRAC_1_SQRT_2 * amplitude
+    }
 }
 
 impl<'a> Indentation<'a> {
@@ -135,7 +158,7 @@ pub(super) fn systematic(
     bounds: Bounds,
 ) -> Vec<Vec<f64>> {
     let samples: usize = indentations.iter().map(|each| each.time.len()).sum();
-    let mut of_base = Vec::new();
+    let (mut of_base, mut of_motion) = (Vec::new(), Vec::new());
     let deepest = indentations.iter().flat_map(|each| each.depth);
     let deepest = deepest.copied().fold(f64::MIN_POSITIVE, f64::max);
     let even = 1.0 / 3.0_f64.sqrt();
@@ -154,12 +177,14 @@ pub(super) fn systematic(
             column[start..start + change.len()].copy_from_slice(&change);
             columns.push(column);
         };
+        let by_depth = |by: f64| {
+            let ends = of(by).into_iter().zip(of(-by));
+            ends.map(|(deeper, higher)| 0.5 * (deeper - higher))
+        };
         if each.zeros.depth > 0.0 {
-            let ends = of(each.zeros.depth).into_iter().zip(of(-each.zeros.depth));
-            own(ends
-                .map(|(deeper, higher)| 0.5 * (deeper - higher))
-                .collect());
+            own(by_depth(each.zeros.depth).collect());
         }
+        of_motion.extend(by_depth(each.zeros.motion));
         if each.zeros.force > 0.0 {
             own(vec![-each.zeros.force; force.len()]);
         }
@@ -179,9 +204,29 @@ pub(super) fn systematic(
         let more = kept_of_earlier(each, curve, (modulus, series));
         history.extend(more.iter().map(|more| even * bounds.earlier * more));
     }
-    columns.extend((!of_base.is_empty()).then_some(of_base));
+    let is_there = |column: &Vec<f64>| column.iter().any(|change| *change != 0.0);
+    columns.extend([of_motion, of_base].into_iter().filter(is_there));
     columns.extend(of_model);
     columns
+}
+
+/// By what the forces [N] in all `indentations` change, one recording after another, when the tissue relaxes by `other` in place
+/// of `series`.
+pub(super) fn by_series(
+    indentations: &[Indentation<'_>],
+    curve: &UnitCurve,
+    (modulus, series): (f64, &PronySeries),
+    other: &PronySeries,
+) -> Vec<f64> {
+    let change = |each: &Indentation<'_>| {
+        let of = |series: &PronySeries| {
+            let course = (each.time, each.depth.iter().copied());
+            relaxed(course, &curve.force, modulus, series)
+        };
+        let pairs = of(other).into_iter().zip(of(series));
+        pairs.map(|(other, own)| other - own).collect::<Vec<_>>()
+    };
+    indentations.iter().flat_map(change).collect()
 }
 
 /// By what the force is larger [N m] when stress of an earlier depth counts less by the length between the two:

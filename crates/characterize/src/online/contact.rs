@@ -43,6 +43,9 @@ pub(super) struct ContactWatch {
     oldest: usize,
     /// Of the means of windows without load: number, mean, sum of squared deviations.
     windows: (usize, f64, f64),
+    /// The largest of these means, and the least standard deviation that they had so far.
+    highest: f64,
+    quietest: f64,
     /// The sum of the current window and its samples.
     window: (f64, usize),
     /// Means of the last windows, the newest last.
@@ -66,6 +69,8 @@ impl ContactWatch {
             recent: Vec::with_capacity(RECENT),
             oldest: 0,
             windows: (0, 0.0, 0.0),
+            highest: f64::NEG_INFINITY,
+            quietest: f64::INFINITY,
             window: (0.0, 0),
             guard: [0.0; GUARD],
             guarded: 0,
@@ -153,6 +158,7 @@ impl ContactWatch {
             zeros: ZeroErrors {
                 depth: error_m,
                 force: error,
+                ..ZeroErrors::default()
             },
         }
     }
@@ -203,7 +209,10 @@ impl ContactWatch {
             let deviation = (squares / (count - 1) as f64).sqrt();
             // A sensor may show the same step for long.
             let least = 1e-9 * zero.abs();
-            let above = mean - zero > SEEN * deviation.max(least);
+            self.quietest = self.quietest.min(deviation.max(least));
+            // Tissue that a heart moves may touch the indenter before, which makes the deviation large.
+            let above = mean - zero > SEEN * deviation.max(least)
+                || mean - self.highest > SEEN * self.quietest;
             self.seen = if above && mean > zero {
                 self.seen + 1
             } else {
@@ -215,6 +224,7 @@ impl ContactWatch {
         }
         if self.guarded == GUARD {
             let old = self.guard[0];
+            self.highest = self.highest.max(old);
             let off = old - zero;
             let count = count + 1;
             let zero = zero + off / count as f64;

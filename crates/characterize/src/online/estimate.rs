@@ -7,14 +7,13 @@ use serde::Serialize;
 
 use super::OnlineEstimator;
 use super::record::Samples;
-use crate::fit::Effort;
 use crate::inverse::{Curves, Indentation, LawDescription, law_fit};
 use crate::viscoelastic::{PressedRelaxation, Relaxation, RelaxationRecord};
 
 /// Terms of the relaxation.
 const TERMS: usize = 2;
 /// Blocks that are fitted, at least.
-const FEWEST: usize = 64;
+pub(super) const FEWEST: usize = 64;
 /// A record so much longer than that of the last search from everywhere is searched from everywhere again [-].
 const LONGER: f64 = 1.25;
 
@@ -148,11 +147,11 @@ impl Fitted {
             zeros: samples.zeros,
         };
         let law = law_fit(curves, &[indentation], &pressed.relaxation.series).ok()?;
-        let law = LawDescription::by(law, &[indentation], Effort::QUICK);
+        let law = LawDescription::of(law, &[indentation]);
         let mut by_second_term = 0.0;
         if let Some(series) = &pressed.two_terms {
             let other = law_fit(curves, &[indentation], series).ok()?;
-            let other = LawDescription::by(other, &[indentation], Effort::QUICK);
+            let other = LawDescription::of(other, &[indentation]);
             let moduli = [&law, &other].map(|law| law.parameters.first().map(|own| own.1));
             let [Some(own), Some(other)] = moduli else {
                 return None;
@@ -199,12 +198,15 @@ impl Fitted {
             let is_telling =
                 |half: &f64| value.is_some_and(|value| (0.0..value.abs()).contains(half));
             let half = half.filter(is_telling);
+            let interval = |(value, half): (f64, f64)| match name.ends_with("_s") {
+                // The fit is in the logarithm of a time.
+                true => [-1.0, 1.0].map(|side| value * (side * half / value).exp()),
+                false => [value - half, value + half],
+            };
             OnlineParameter {
                 name,
                 value,
-                interval_95: value
-                    .zip(half)
-                    .map(|(value, half)| [value - half, value + half]),
+                interval_95: value.zip(half).map(interval),
             }
         });
         // Terms are told apart, or none of their numbers means what its name says.
@@ -217,10 +219,10 @@ impl Fitted {
     }
 }
 
-/// Relative error of the modulus, at most, because the tissue moves by itself [-], as a heart moves it. The indenter touches it at
-/// any phase of that motion, so that the zero of the depth is off by up to the amplitude. The residual of the relaxation is
-/// the motion times the slope of the force; the amplitude of a sine is √2 times its root mean square. The residual also
-/// contains the noise of the sensor, which makes this larger than it needs to be.
+/// Relative error of the modulus, at most, because the tissue moves by itself [-], before the swing of its force is seen and taken
+/// out. The indenter touches it at any phase of that motion, so that the zero of the depth is off by up to the amplitude. The
+/// residual of the relaxation is the motion times the slope of the force; the amplitude of a sine is √2 times its root mean
+/// square. The residual also contains the noise of the sensor, which makes this larger than it needs to be.
 fn motion(relaxation: &Relaxation, record: &RelaxationRecord) -> f64 {
     let count = record.force.len() as f64;
     let residual = (relaxation.sum_of_squares / count).sqrt();

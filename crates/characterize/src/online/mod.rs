@@ -182,7 +182,8 @@ impl OnlineEstimator {
 
     fn fitted(&mut self) -> Option<Fitted> {
         let contact = self.watch.contact()?;
-        let samples = self.pressed.since(&contact);
+        let shape = self.settings.header.indenter_shape;
+        let samples = self.pressed.since(&contact).at_rest(shape);
         Fitted::of(&samples, &mut self.curves, self.before.as_ref())
     }
 

@@ -1,4 +1,8 @@
+use palpate_files::recording::IndenterShape;
+
 use super::contact::Touched;
+use super::estimate::FEWEST;
+use crate::clean::{Moving, Ripple, segments};
 use crate::inverse::ZeroErrors;
 
 /// What is measured at one time.
@@ -124,4 +128,29 @@ pub(super) struct Samples {
     /// Forces without the sensor's zero [N].
     pub(super) force: Vec<f64>,
     pub(super) zeros: ZeroErrors,
+}
+
+impl Samples {
+    /// The same as if the tissue did not move by itself, where its force swings in the hold, under an indenter of this shape; its
+    /// motion is a part of the error of the first contact.
+    pub(super) fn at_rest(mut self, shape: Option<IndenterShape>) -> Self {
+        if self.time.len() < FEWEST {
+            return self;
+        }
+        let segments = segments::find(&self.time, &self.depth, 0);
+        let Some(ripple) = Ripple::find(&self.time, &self.force, &segments) else {
+            return self;
+        };
+        let moving = Moving {
+            time: &self.time,
+            depth: &self.depth,
+            force: &self.force,
+            segments: &segments,
+            ripple: &ripple,
+            shape,
+        };
+        self.zeros.motion = ZeroErrors::motion(moving.amplitude().unwrap_or(0.0));
+        self.force = moving.force_at_rest();
+        self
+    }
 }

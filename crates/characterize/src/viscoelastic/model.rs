@@ -16,6 +16,8 @@ pub struct RelaxationRecord {
     pub force: Vec<f64>,
     /// Change of the shape by one standard error of the first contact [-].
     pub by_contact: Vec<f64>,
+    /// The same by the motion of the tissue.
+    pub by_motion: Vec<f64>,
     /// Standard error of the force without load, relative to the largest force [-].
     pub zero_error: f64,
 }
@@ -49,6 +51,7 @@ impl RelaxationRecord {
                 .collect(),
             force: force.iter().map(|f| f / largest_force).collect(),
             by_contact: vec![0.0; time.len()],
+            by_motion: vec![0.0; time.len()],
             zero_error: 0.0,
         })
     }
@@ -62,11 +65,15 @@ impl RelaxationRecord {
         shape: impl Fn(f64) -> f64,
     ) -> Self {
         let most = shape(depth.iter().copied().fold(0.0, f64::max));
-        let change = |d: &f64| {
-            let ends = [d + zeros.depth, d - zeros.depth].map(|d| shape(d.max(0.0)));
-            0.5 * (ends[0] - ends[1]) / most
+        let change = |by: f64| {
+            let of = |d: &f64| {
+                let ends = [d + by, d - by].map(|d| shape(d.max(0.0)));
+                0.5 * (ends[0] - ends[1]) / most
+            };
+            depth.iter().map(of).collect()
         };
-        self.by_contact = depth.iter().map(change).collect();
+        self.by_contact = change(zeros.depth);
+        self.by_motion = change(zeros.motion);
         self.zero_error = zeros.force / largest_force;
         self
     }
@@ -89,6 +96,7 @@ impl RelaxationRecord {
             force: self.force[peak..].to_vec(),
             // A step has no ramp to be shifted on.
             by_contact: vec![0.0; self.time.len() - peak],
+            by_motion: vec![0.0; self.time.len() - peak],
             zero_error: self.zero_error,
         }
     }
@@ -115,6 +123,7 @@ impl RelaxationRecord {
             logarithm: of(&self.logarithm),
             force: of(&self.force),
             by_contact: of(&self.by_contact),
+            by_motion: of(&self.by_motion),
             zero_error: self.zero_error,
         }
     }
@@ -211,10 +220,12 @@ impl Model<'_> {
 }
 
 impl Model<'_> {
-    /// What the zeros of the courses do to the residuals [-], each column by one standard error of one of them.
+    /// What the zeros of the courses do to the residuals [-], each column by one standard error of one of them, and the motion of
+    /// the tissue to all of them.
     pub(super) fn systematic(&self, parameters: &[f64]) -> Vec<Vec<f64>> {
         let series = terms(parameters, self.terms);
         let (samples, mut start, mut columns) = (self.samples(), 0, Vec::new());
+        let mut of_motion = Vec::with_capacity(samples);
         for (number, course) in self.records.iter().enumerate() {
             let size = parameters[1 + 2 * self.terms + number];
             let rows = start..start + course.force.len();
@@ -223,20 +234,21 @@ impl Model<'_> {
                 column[rows.clone()].copy_from_slice(&change);
                 columns.push(column);
             };
+            let by_depth = |change: &[f64]| {
+                let (force, _) = relaxed(&course.time, change, change, &series);
+                force.into_iter().map(move |change| size * change)
+            };
             if course.by_contact.iter().any(|change| *change != 0.0) {
-                let (force, _) = relaxed(
-                    &course.time,
-                    &course.by_contact,
-                    &course.by_contact,
-                    &series,
-                );
-                own(force.iter().map(|change| size * change).collect());
+                own(by_depth(&course.by_contact).collect());
             }
+            of_motion.extend(by_depth(&course.by_motion));
             if course.zero_error > 0.0 {
                 own(vec![-course.zero_error; course.force.len()]);
             }
             start = rows.end;
         }
+        let moves = of_motion.iter().any(|change| *change != 0.0);
+        columns.extend(moves.then_some(of_motion));
         columns
     }
 }

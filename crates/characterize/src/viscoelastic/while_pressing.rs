@@ -3,7 +3,7 @@ use palpate_mechanics::PronySeries;
 use super::model::{Model, RelaxationRecord, terms};
 use super::relaxation::{Relaxation, described, fitted, starts, terms_of, values_of};
 use crate::Error;
-use crate::fit::{Effort, Fit, Parameter, simplest, uncertainty_by, with_systematic};
+use crate::fit::{Fit, Parameter, correlated_uncertainty, simplest, with_systematic};
 
 /// The relaxation of a press that goes on: of two terms where it tells them apart, else of one.
 #[derive(Debug, Clone)]
@@ -40,7 +40,7 @@ impl PressedRelaxation {
         // One on its bound does not make the others better known.
         let known = |fit: &Fit| {
             let free = fit.unbounded();
-            let noise = uncertainty_by(&free, &[record.time.len()], Effort::QUICK);
+            let noise = correlated_uncertainty(&free, &[record.time.len()]);
             let terms = terms_of(fit, records);
             let model = Model { records, terms };
             let samples = noise.effective_samples;

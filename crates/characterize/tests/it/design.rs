@@ -52,6 +52,7 @@ fn instrument() -> Instrument {
         zeros: ZeroErrors {
             depth: step(DEPTH_STEP),
             force: 0.0,
+            ..ZeroErrors::default()
         },
     }
 }
@@ -270,6 +271,7 @@ fn designed_times_are_near_the_bound_of_any_stimulus() {
         zeros: ZeroErrors {
             depth: 0.0,
             force: 0.0,
+            ..ZeroErrors::default()
         },
         ..instrument()
     };

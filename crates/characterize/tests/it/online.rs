@@ -209,8 +209,7 @@ fn intervals_hold_the_truth_while_tissue_is_pressed() {
     assert_held(&WHITE);
 }
 
-/// The same in slow noise over a beating heart, where one term takes the place of two nearly throughout and the interval of
-/// C₁₀ contains what the second may change.
+/// The same in slow noise over a beating heart.
 #[test]
 #[ignore = "slow: a hundred presses with a fit every second"]
 fn intervals_hold_the_truth_in_slow_noise_while_tissue_is_pressed() {

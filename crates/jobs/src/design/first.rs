@@ -90,14 +90,16 @@ fn presses(recordings: &[&CleanRecording]) -> Result<Presses, Error> {
 
 /// Noise from one sample to the next, and the zeros as far as they are known.
 fn instrument(recordings: &[&CleanRecording]) -> Instrument {
-    let (mut squares, mut count, mut depth, mut force) = (0.0, 0.0, 0.0_f64, 0.0_f64);
+    let (mut squares, mut count) = (0.0, 0.0);
+    let mut zeros = ZeroErrors::default();
     for recording in recordings {
         let steps = recording.force.windows(2).map(|pair| pair[1] - pair[0]);
         squares += steps.map(|step| 0.5 * step * step).sum::<f64>();
         count += recording.force.len() as f64;
-        let contact = &recording.handling.contact;
-        depth = depth.max(contact.depth_error_m.unwrap_or(0.0));
-        force = force.max(contact.offset_error_n.unwrap_or(0.0));
+        let own = ZeroErrors::of(recording);
+        zeros.depth = zeros.depth.max(own.depth);
+        zeros.motion = zeros.motion.max(own.motion);
+        zeros.force = zeros.force.max(own.force);
         let mut steps = recording
             .depth
             .windows(2)
@@ -109,13 +111,13 @@ fn instrument(recordings: &[&CleanRecording]) -> Instrument {
         let moves = recording.depth.windows(2).filter(|pair| pair[0] != pair[1]);
         // Of an encoder, whose value stays most of the time while the indenter moves.
         if least.is_finite() && 4 * moves.count() < recording.depth.len() {
-            depth = depth.hypot(least / 12.0_f64.sqrt());
+            zeros.depth = zeros.depth.hypot(least / 12.0_f64.sqrt());
         }
     }
     Instrument {
         noise: (squares / f64::max(count, 1.0)).sqrt(),
         rate: recordings[0].handling.sampling.rate_hz,
-        zeros: ZeroErrors { depth, force },
+        zeros,
     }
 }
 
@@ -132,6 +134,7 @@ fn noise_as_found(
         noise: factor * instrument.noise,
         zeros: ZeroErrors {
             depth: factor * instrument.zeros.depth,
+            motion: factor * instrument.zeros.motion,
             force: factor * instrument.zeros.force,
         },
         ..instrument

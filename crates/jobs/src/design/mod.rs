@@ -164,6 +164,7 @@ fn of_tissue(tissue: Tissue) -> Result<Start, Error> {
             zeros: ZeroErrors {
                 depth: DEPTH_STEP / 12.0_f64.sqrt(),
                 force: 0.0,
+                ..ZeroErrors::default()
             },
         },
     })

@@ -9,6 +9,8 @@
 mod cancelled;
 mod exit_status;
 mod fuzz;
+mod heart;
+
 mod online;
 mod readers;
 mod recordings;

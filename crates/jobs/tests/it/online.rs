@@ -7,19 +7,19 @@ use palpate_characterize::online::{
 use palpate_files::protocol::Stimulus;
 use palpate_files::{BuiltinTissue, Tissue};
 use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass};
-use palpate_measure::{DepthTrajectory, Ended, Rig, RigSettings, VirtualSpecimen};
+use palpate_measure::{BREATH_MOTION, DepthTrajectory, Ended, Rig, RigSettings, VirtualSpecimen};
 use palpate_mechanics::IndentationCurve;
 use palpate_servo::Clock;
 
 const RADIUS: f64 = 1e-3;
 const DEPTH: f64 = 4e-3;
 /// Parameters of the pig's liver: c10 [Pa], g₁, τ₁ [s], g₂, τ₂ [s].
-const LIVER: [f64; 5] = [452.92, 0.2866, 1.537, 0.2022, 6.090];
+pub(crate) const LIVER: [f64; 5] = [452.92, 0.2866, 1.537, 0.2022, 6.090];
 /// Times after first contact at which the intervals are judged [s].
 const TIMES: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
 
 /// Force over depth of the liver by finite elements, solved once.
-fn solved() -> (Tissue, IndentationCurve) {
+pub(crate) fn solved() -> (Tissue, IndentationCurve) {
     let tissue = Tissue::builtin(BuiltinTissue::PigLiver);
     let specimen =
         VirtualSpecimen::of_tissue(&tissue, RADIUS, DEPTH + 1.5e-3, &mut |_| ()).unwrap();
@@ -27,23 +27,46 @@ fn solved() -> (Tissue, IndentationCurve) {
     (tissue, curve)
 }
 
-/// Estimates at each of [`TIMES`] of a specimen as stiff as `factor` says, alive or not.
-fn estimates(
+/// The rig over a specimen as stiff as `factor` says, alive or not; it has found the tissue.
+pub(crate) fn rig(
     (tissue, curve): &(Tissue, IndentationCurve),
     (factor, alive): (f64, bool),
     seed: u64,
-) -> Vec<OnlineEstimate> {
+) -> Rig {
     let mut specimen = VirtualSpecimen::of_solved(tissue, RADIUS, curve.clone()).unwrap();
     specimen.factor = factor;
     if alive {
         specimen = specimen.alive(seed);
     }
     let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
-    let settings = RigSettings::default();
     let device = (machine, Imperfections::premium());
+    let settings = RigSettings {
+        breath_motion: if alive { BREATH_MOTION } else { 0.0 },
+        ..RigSettings::default()
+    };
     let mut rig = Rig::over(specimen, device, settings, (Clock::virtual_time(), seed)).unwrap();
     assert_eq!(rig.approach(&mut |_| true).unwrap(), Ended::Whole);
     rig.recover(&mut |_| true).unwrap();
+    rig
+}
+
+/// What it presses.
+pub(crate) fn trajectory() -> DepthTrajectory {
+    let stimulus = Stimulus::RampAndHold {
+        depth_m: DEPTH,
+        ramp_s: 0.5,
+        hold_s: 20.0,
+    };
+    DepthTrajectory::of(stimulus).unwrap()
+}
+
+/// Estimates at each of [`TIMES`] of a specimen as stiff as `factor` says, alive or not.
+fn estimates(
+    solved: &(Tissue, IndentationCurve),
+    (factor, alive): (f64, bool),
+    seed: u64,
+) -> Vec<OnlineEstimate> {
+    let mut rig = rig(solved, (factor, alive), seed);
     let mut online = OnlineEstimator::new(OnlineSettings {
         header: rig.header().clone(),
         contact: OnlineContact::Sought,
@@ -51,13 +74,8 @@ fn estimates(
     })
     .unwrap();
     let mut found: Vec<OnlineEstimate> = Vec::new();
-    let trajectory = DepthTrajectory::of(Stimulus::RampAndHold {
-        depth_m: DEPTH,
-        ramp_s: 0.5,
-        hold_s: 20.0,
-    });
     let (mut next, mut contact) = (0.0, None);
-    let pressed = rig.press(&trajectory.unwrap(), &mut |sample| {
+    let pressed = rig.press(&trajectory(), &mut |sample| {
         online.add(OnlineSample {
             time_s: sample.time,
             depth_m: sample.depth.unwrap(),
@@ -80,6 +98,7 @@ fn estimates(
         true
     });
     assert_eq!(pressed.unwrap(), Ended::Whole);
+    assert!(contact.is_some(), "{seed}: no contact was seen");
     found
 }
 

@@ -17,8 +17,9 @@ Examples:
   palpate validate tasks/*.toml --json
       one JSON object for a program
 
-Checks scenes, tasks, tissues, protocols and problems (.toml), motions, recordings and sessions (.csv), and meshes \
-(.stl, .obj, .ply, .gltf, .glb), with all files that they name, without computing. Exit status: 0 if all are valid, 2 \
+Checks scenes, tasks, tissues, protocols and problems (.toml), motions, recordings and sessions (.csv), meshes \
+(.stl, .obj, .ply, .gltf, .glb), volume meshes (.msh, .vtk, .vtu) and label maps (.nii, .nrrd, .dcm), with all files that \
+they name, without computing. Exit status: 0 if all are valid, 2 \
 otherwise.";
 
 #[derive(Debug, Args)]
