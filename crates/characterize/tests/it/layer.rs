@@ -138,7 +138,7 @@ fn forces_on_layers_are_those_of_another_code() {
 /// What is asked of the intervals of 95 %: 17 of 20, of which fewer are held once in sixty by chance; where the base hardly matters,
 /// or elements do most, they are wider, which their bounds are for.
 #[test]
-#[ignore = "by hand: twenty specimens of each of four bases, an hour; not run to its end yet"]
+#[ignore = "by hand: twenty specimens of each of four bases, 40 minutes"]
 fn intervals_of_layers_hold_the_truth() {
     let depths: Vec<f64> = (1..=16).map(|i| 0.125e-3 * f64::from(i)).collect();
     for (contrast, forces) in OF_RATIOS {
