@@ -37,13 +37,13 @@ impl ZeroErrors {
         let contact = &recording.handling.contact;
         Self {
             depth: contact.depth_error_m.unwrap_or(0.0),
-            motion: Self::motion(recording.motion().unwrap_or(0.0)),
+            motion: Self::of_motion(recording.motion().unwrap_or(0.0)),
             force: contact.offset_error_n.unwrap_or(0.0),
         }
     }
 
     /// The standard deviation of a motion of this `amplitude` [m]: that of a sine [JCGM 101:2008, 6.4.6].
-    pub(crate) fn motion(amplitude: f64) -> f64 {
+    pub(crate) fn of_motion(amplitude: f64) -> f64 {
         FRAC_1_SQRT_2 * amplitude
     }
 }

@@ -149,7 +149,7 @@ impl Samples {
             ripple: &ripple,
             shape,
         };
-        self.zeros.motion = ZeroErrors::motion(moving.amplitude().unwrap_or(0.0));
+        self.zeros.motion = ZeroErrors::of_motion(moving.amplitude().unwrap_or(0.0));
         self.force = moving.force_at_rest();
         self
     }

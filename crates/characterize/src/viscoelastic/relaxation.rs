@@ -187,7 +187,7 @@ pub fn relaxation(
     };
     let two_terms = match (chosen, fits.get(1)) {
         (0, Some(two)) if settings.terms.is_none() => {
-            Some(PronySeries::new(&terms(&values_of(two), 2))?)
+            PronySeries::new(&terms(&values_of(two), 2)).ok()
         }
         _ => None,
     };
