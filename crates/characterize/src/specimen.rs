@@ -193,10 +193,7 @@ fn sought(
         return Err(Error::TubeLaw { law: law.name() });
     }
     let indentations: Vec<Indentation<'_>> = pressed.iter().map(Pressed::indentation).collect();
-    let mut fit = law_fit(curves, &indentations, &relaxation.series)?;
-    if let Some(other) = &relaxation.two_terms {
-        fit = fit.that_may_relax_by(other, (&indentations, &relaxation.series));
-    }
+    let fit = law_fit(curves, &indentations, &relaxation.series)?;
     let mut description = LawDescription::of(fit, &indentations);
     description.repeated = draws.map(|draws| repeated(&description, curves, &indentations, draws));
     Ok(description)

@@ -210,25 +210,6 @@ pub(super) fn systematic(
     columns
 }
 
-/// By what the forces [N] in all `indentations` change, one recording after another, when the tissue relaxes by `other` in place
-/// of `series`.
-pub(super) fn by_series(
-    indentations: &[Indentation<'_>],
-    curve: &UnitCurve,
-    (modulus, series): (f64, &PronySeries),
-    other: &PronySeries,
-) -> Vec<f64> {
-    let change = |each: &Indentation<'_>| {
-        let of = |series: &PronySeries| {
-            let course = (each.time, each.depth.iter().copied());
-            relaxed(course, &curve.force, modulus, series)
-        };
-        let pairs = of(other).into_iter().zip(of(series));
-        pairs.map(|(other, own)| other - own).collect::<Vec<_>>()
-    };
-    indentations.iter().flat_map(change).collect()
-}
-
 /// By what the force is larger [N m] when stress of an earlier depth counts less by the length between the two:
 /// Σ gᵢ ∫ (d(t) − d(s)) Fₑ(d(s)) exp(−(t − s)/τᵢ) ds/τᵢ.
 fn kept_of_earlier(

@@ -30,8 +30,8 @@ pub struct LawFit {
     /// Part of the force that is off because it is taken for an elastic one times G(t), at any depth [-].
     pub product_error: f64,
     /// What changes the residuals and is no noise [N], each column by one standard deviation: the zeros of the
-    /// recordings, the elements, that force is taken for an elastic one times G(t), at any depth and at finite strain, and
-    /// that the tissue may relax by more terms than were found.
+    /// recordings, the motion of the tissue, the elements, and that force is taken for an elastic one times G(t), at any depth
+    /// and at finite strain.
     pub systematic: Vec<Vec<f64>>,
     /// The other minima that were found, the best first.
     pub others: Vec<OtherMinimum>,
@@ -49,19 +49,6 @@ pub struct OtherMinimum {
 }
 
 impl LawFit {
-    /// The same for tissue that may as well relax by `other` as by `series`, which it was found with: the difference of the
-    /// forces is one standard deviation.
-    pub(crate) fn that_may_relax_by(
-        mut self,
-        other: &PronySeries,
-        (indentations, series): (&[Indentation<'_>], &PronySeries),
-    ) -> Self {
-        let own = (self.modulus(), series);
-        let change = forces::by_series(indentations, &self.curve, own, other);
-        self.systematic.push(change);
-        self
-    }
-
     /// The modulus [Pa].
     pub fn modulus(&self) -> f64 {
         self.fit.parameters[0].value

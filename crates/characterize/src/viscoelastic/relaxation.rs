@@ -35,8 +35,6 @@ pub struct Relaxation {
     pub sizes: Vec<f64>,
     /// Σ ε² of the forces relative to the largest [-].
     pub sum_of_squares: f64,
-    /// Where one term was preferred to two, whose number was not given: the series of two.
-    pub two_terms: Option<PronySeries>,
     /// What each number of terms comes to: their number, Σ ε² and the information criterion [-].
     pub tried: Vec<(usize, f64, f64)>,
     /// The fit; its parameters are μ, the ratios and logarithms of times, the sizes.
@@ -107,13 +105,6 @@ impl Relaxation {
     /// Warnings about it, after recordings of `duration` [s].
     pub fn warnings(&self, duration: f64) -> Vec<String> {
         let mut said = Vec::new();
-        if self.two_terms.is_some() {
-            said.push(
-                "one term of the relaxation was found: the noise hides any other, and g_1 and tau_1 are a mixture of all that there \
-                 are; the errors of the laws contain this"
-                    .to_owned(),
-            );
-        }
         for (place, [g, tau]) in (1..).zip(&self.terms) {
             let unsure = |estimate: &Estimate| {
                 estimate
@@ -185,12 +176,6 @@ pub fn relaxation(
         true => of_richest,
         false => correlated_uncertainty(&fits[chosen], &lengths),
     };
-    let two_terms = match (chosen, fits.get(1)) {
-        (0, Some(two)) if settings.terms.is_none() => {
-            PronySeries::new(&terms(&values_of(two), 2)).ok()
-        }
-        _ => None,
-    };
     let fit = fits.swap_remove(chosen);
     let systematic = Model {
         records,
@@ -198,8 +183,7 @@ pub fn relaxation(
     };
     let systematic = systematic.systematic(&values_of(&fit));
     let uncertainty = with_systematic(uncertainty, &fit, &systematic);
-    let found = described(records, fit, uncertainty, tried)?;
-    Ok(Relaxation { two_terms, ..found })
+    described(records, fit, uncertainty, tried)
 }
 
 pub(super) fn values_of(fit: &Fit) -> Vec<f64> {
@@ -434,7 +418,6 @@ pub(super) fn described(
         exponent_quantile,
         sizes: values[1 + 2 * count..].to_vec(),
         sum_of_squares: fit.sum_of_squares(),
-        two_terms: None,
         tried,
         forces: forces.collect(),
         covariance,
