@@ -44,8 +44,8 @@ pub(super) struct Wanted<'c> {
     named: Option<&'c str>,
     /// Words by which it is recognised otherwise, the surest first.
     words: &'static [&'static str],
-    /// Words that name another quantity.
-    others: &'static [&'static str],
+    /// Words of other quantities.
+    excluded: &'static [&'static str],
 }
 
 impl ForeignColumns {
@@ -68,13 +68,13 @@ impl<'c> Wanted<'c> {
             quantity,
             named: named.map(str::trim),
             words,
-            others: &[],
+            excluded: &[],
         }
     }
 
-    /// The same, but no column whose name has one of these words.
-    pub(super) fn but(self, others: &'static [&'static str]) -> Self {
-        Self { others, ..self }
+    /// The same without columns whose names have one of these words.
+    pub(super) fn without(self, excluded: &'static [&'static str]) -> Self {
+        Self { excluded, ..self }
     }
 
     /// Whether `line` may hold the name of the column.
@@ -115,7 +115,7 @@ impl<'c> Wanted<'c> {
         }
         let base = base(own).to_lowercase();
         let parts: Vec<_> = words(&base).collect();
-        if parts.iter().any(|part| self.others.contains(part)) {
+        if parts.iter().any(|part| self.excluded.contains(part)) {
             return None;
         }
         let place = |part: &str| self.words.iter().position(|word| *word == part);

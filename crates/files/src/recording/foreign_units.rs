@@ -24,7 +24,7 @@ pub(super) fn columns(
         (depth?, wanted.depth_unit.as_deref(), "m"),
         (force?, wanted.force_unit.as_deref(), "n"),
     ]
-    .map(|(name, stated, si)| Quantity { name, stated, si });
+    .map(|(name, stated, si)| Quantity::new(name, stated, si));
     let [time, depth, force] = quantities.each_ref().map(|quantity| {
         let unit = Unit::named(quantity.si).expect("SI units are in the table");
         table.foreign_column(quantity.name, unit, unit)
@@ -51,16 +51,8 @@ pub(super) fn displacement_and_force(
     [depth, force]: [&str; 2],
     wanted: &ForeignColumns,
 ) -> Result<([&'static Unit; 2], bool), Error> {
-    let depth = Quantity {
-        name: depth,
-        stated: wanted.depth_unit.as_deref(),
-        si: "m",
-    };
-    let force = Quantity {
-        name: force,
-        stated: wanted.force_unit.as_deref(),
-        si: "n",
-    };
+    let depth = Quantity::new(depth, wanted.depth_unit.as_deref(), "m");
+    let force = Quantity::new(force, wanted.force_unit.as_deref(), "n");
     pair(table, [depth, force])
 }
 
@@ -70,16 +62,8 @@ pub(super) fn stretch_and_stress(
     [stretch, stress]: [&str; 2],
     wanted: &ForeignColumns,
 ) -> Result<([&'static Unit; 2], bool), Error> {
-    let stretch = Quantity {
-        name: stretch,
-        stated: None,
-        si: "one",
-    };
-    let stress = Quantity {
-        name: stress,
-        stated: wanted.force_unit.as_deref(),
-        si: "pa",
-    };
+    let stretch = Quantity::new(stretch, None, "one");
+    let stress = Quantity::new(stress, wanted.force_unit.as_deref(), "pa");
     pair(table, [stretch, stress])
 }
 
@@ -123,7 +107,11 @@ fn of_weight(unit: &'static Unit) -> &'static Unit {
     weight.unwrap_or(unit)
 }
 
-impl Quantity<'_> {
+impl<'c> Quantity<'c> {
+    fn new(name: &'c str, stated: Option<&'c str>, si: &'static str) -> Self {
+        Self { name, stated, si }
+    }
+
     fn unit(
         &self,
         table: &TableText<'_>,

@@ -11,8 +11,8 @@ use crate::{Domain, Error};
 const STRETCH: &[&str] = &["stretch", "lambda"];
 const STRAIN: &[&str] = &["strain", "dehnung"];
 const STRESS: &[&str] = &["stress", "spannung"];
-/// Words of columns that are neither nominal nor of the piece's axis.
-const OTHERS: &[&str] = &["true", "cauchy", "transverse", "lateral", "shear"];
+/// Words of columns that are not nominal, or not along the axis.
+const EXCLUDED: &[&str] = &["true", "cauchy", "transverse", "lateral", "shear"];
 
 /// A table without times of a piece that is deformed: of stretches or nominal strains and nominal stresses, as a recording
 /// of a cube of one metre that is pulled in a step a second, or of displacements and forces of a piece between clamps; none
@@ -22,9 +22,9 @@ pub(super) fn parse(
     path: &Path,
     columns: &ForeignColumns,
 ) -> Result<Option<Recording>, Error> {
-    let stress = Wanted::new("stress", None, STRESS).but(OTHERS);
-    let stretch = Wanted::new("stretch", None, STRETCH).but(OTHERS);
-    let strain = Wanted::new("strain", None, STRAIN).but(OTHERS);
+    let stress = Wanted::new("stress", None, STRESS).without(EXCLUDED);
+    let stretch = Wanted::new("stretch", None, STRETCH).without(EXCLUDED);
+    let strain = Wanted::new("strain", None, STRAIN).without(EXCLUDED);
     let of_strain = Axial {
         domain: STRAIN_DOMAIN,
         depth: |strain| -strain,

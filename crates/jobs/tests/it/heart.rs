@@ -79,7 +79,7 @@ fn intervals_of_recordings_over_a_heart_hold_the_truth() {
     }
 }
 
-/// The same of three specimens: fewer than half of the intervals missing the truth would be less than one chance in a hundred.
+/// The same of three specimens: at 95 %, two of three intervals miss the true value with a probability of 0.7 %.
 #[test]
 fn few_recordings_over_a_heart_are_fitted() {
     for [held, stated] in held_in_recordings(3, 1) {

@@ -45,10 +45,10 @@ fn tube() -> String {
     text
 }
 
-/// How far the anchor reaches into the ends of the tube [m].
+/// Depth of the anchor at the ends of the tube [m].
 const REACH: f64 = 1e-4;
 
-/// The tube, held to `reach` at its ends, under the ball.
+/// The tube, fixed to the depth `reach` [m] at its ends, under the ball.
 fn under_ball(folder: &Path, nodes: usize, reach: f64) -> (String, String) {
     let path = folder.join("tube.ply");
     fs::write(&path, tube()).unwrap();
@@ -136,12 +136,12 @@ fn a_ball_on_a_thin_tube_is_felt_smoothly() {
 #[test]
 fn an_anchor_that_misses_the_nodes_of_the_mesh_is_named() {
     let folder = tempfile::tempdir().unwrap();
-    for (reach, is_loose) in [(REACH, true), (3e-3, false)] {
+    for (reach, is_missed) in [(REACH, true), (3e-3, false)] {
         let lines = under_ball(folder.path(), 3000, reach);
         let simulation = ball(&lines).simulation();
         let mut said = simulation.warnings().iter();
-        let said = said.find(|warning| warning.contains("the anchor holds"));
-        assert_eq!(said.is_some(), is_loose, "{reach}: {said:?}");
+        let said = said.find(|warning| warning.contains("the anchor fixes"));
+        assert_eq!(said.is_some(), is_missed, "{reach}: {said:?}");
         println!("{reach}: {said:?}");
     }
 }
