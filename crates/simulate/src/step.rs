@@ -163,6 +163,8 @@ fn detect(
             events.insert(Event::Contact);
             state.history_frame = None;
             state.forget_elsewhere(tool, &contact.point());
+            // Where a tip begins to stick nothing is sheared yet, whatever it sheared before.
+            state.history.keep_along(&contact.normal());
         }
         (true, None) if !state.holds() => events.insert(Event::Release),
         _ => {}
