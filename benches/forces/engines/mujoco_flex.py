@@ -22,6 +22,8 @@ def unfit(scene):
         return "a flex has one material"
     if scene.gripped:
         return "no grip in this adapter"
+    if scene.slit:
+        return "no contact of a slit's sides in this adapter"
     return "no relaxation" if scene.prony else None
 
 

@@ -25,6 +25,8 @@ def version():
 def unfit(scene):
     if scene.gripped:
         return "its observables have no force on prescribed nodes"
+    if scene.slit:
+        return "no contact of a slit's sides in this adapter"
     return "no relaxation" if scene.prony else None
 
 

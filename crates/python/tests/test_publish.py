@@ -1,9 +1,9 @@
-"""`palpate simulate --publish`: a client of another language reads poses, forces and the organ as ROS has them."""
+"""`palpate simulate --publish`: the client library of ROS reads poses, forces and the organ."""
 
 from __future__ import annotations
 
-import json
 import os
+import queue
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-client = pytest.importorskip("websockets.sync.client")
+roslibpy = pytest.importorskip("roslibpy")
 
 SCENE = """\
 format = 1
@@ -38,34 +38,39 @@ def address(tmp_path: Path) -> Iterator[str]:
         running.terminate()
 
 
-def published(socket: Any, topic: str) -> dict[str, Any]:
-    socket.send(json.dumps({"op": "subscribe", "topic": topic}))
-    while True:
-        found = json.loads(socket.recv(timeout=20))
-        if found.get("topic") == topic:
-            socket.send(json.dumps({"op": "unsubscribe", "topic": topic}))
-            message: dict[str, Any] = found["msg"]
-            return message
+@pytest.fixture
+def ros(address: str) -> Iterator[Any]:
+    host, port = address.split(":")
+    assert host == "127.0.0.1"
+    connected = roslibpy.Ros(host=host, port=int(port))
+    connected.run(timeout=20)
+    yield connected
+    connected.terminate()
 
 
-def test_a_client_reads_the_simulation(address: str) -> None:
-    assert address.startswith("127.0.0.1:")
-    with client.connect(f"ws://{address}", max_size=None) as socket:
-        pose = published(socket, "/palpate/right/pose")["pose"]
-        assert np.isclose(np.linalg.norm(list(pose["orientation"].values())), 1.0)
-        mesh = published(socket, "/palpate/organ")
-        vertices = np.array([[vertex[axis] for axis in "xyz"] for vertex in mesh["vertices"]])
-        corners = np.array([triangle["vertex_indices"] for triangle in mesh["triangles"]])
-        assert len(corners) == 2000 and corners.max() == len(vertices) - 1
-        # Outward triangles: the volume is that of a liver [m3].
-        a, b, c = vertices[corners].swapaxes(0, 1)
-        volume = np.einsum("ni,ni->", a, np.cross(b, c)) / 6.0
-        assert 0.5e-3 < volume < 3e-3
-        # The tip presses the organ in the course of a second: the force points out of it.
-        socket.send(json.dumps({"op": "subscribe", "topic": "/palpate/right/wrench"}))
-        forces: list[list[float]] = []
-        while len(forces) < 150:
-            found = json.loads(socket.recv(timeout=20))
-            if found.get("topic") == "/palpate/right/wrench":
-                forces.append(list(found["msg"]["wrench"]["force"].values()))
-        assert np.linalg.norm(forces, axis=1).max() > 0.01
+def published(ros: Any, topic: str, count: int = 1) -> list[dict[str, Any]]:
+    """The first messages of a topic, whose type the server names."""
+    messages: queue.Queue[dict[str, Any]] = queue.Queue()
+    listener = roslibpy.Topic(ros, topic, ros.get_topic_type(topic))
+    listener.subscribe(messages.put)
+    found = [messages.get(timeout=20) for _ in range(count)]
+    listener.unsubscribe()
+    return found
+
+
+def test_a_client_reads_the_simulation(ros: Any) -> None:
+    assert set(ros.get_topics()) == {f"/palpate/{name}" for name in ["right/pose", "right/wrench", "organ", "status"]}
+    pose = published(ros, "/palpate/right/pose")[0]["pose"]
+    assert np.isclose(np.linalg.norm(list(pose["orientation"].values())), 1.0)
+    mesh = published(ros, "/palpate/organ")[0]
+    vertices = np.array([[vertex[axis] for axis in "xyz"] for vertex in mesh["vertices"]])
+    corners = np.array([triangle["vertex_indices"] for triangle in mesh["triangles"]])
+    assert len(corners) == 2000 and corners.max() == len(vertices) - 1
+    # Outward triangles: the volume is that of a liver [m3].
+    a, b, c = vertices[corners].swapaxes(0, 1)
+    volume = np.einsum("ni,ni->", a, np.cross(b, c)) / 6.0
+    assert 0.5e-3 < volume < 3e-3
+    # The tip presses the organ in the course of a second: the force points out of it.
+    wrenches = published(ros, "/palpate/right/wrench", count=150)
+    forces = [list(message["wrench"]["force"].values()) for message in wrenches]
+    assert np.linalg.norm(forces, axis=1).max() > 0.01
