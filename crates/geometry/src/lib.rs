@@ -65,7 +65,7 @@ pub use isosurface::{
 pub use label_map::{Label, LabelMap};
 pub use mesh::adjacency::Adjacency;
 pub use mesh::error::MeshError;
-pub use mesh::tetrahedra::{TetrahedronError, TetrahedronMesh, TetrahedronQuality};
+pub use mesh::tetrahedra::{HollowMesh, TetrahedronError, TetrahedronMesh, TetrahedronQuality};
 pub use mesh::triangles::{NodeId, TriangleId, TriangleMesh};
 pub use neighborhood_watch::{ContactPoint, FASTEST_TURN, follow, project_contact_point};
 pub use organ::{AnchorPlane, Organ, OrganDescription, OrganError};

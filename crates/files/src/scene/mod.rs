@@ -1,6 +1,7 @@
 //! What stands in a scene: an organ and its tissue, what surrounds it, the model that moves it and
 //! the tools that touch it.
 
+mod cavity;
 mod cut_line;
 mod cutting;
 mod draw;
@@ -22,6 +23,7 @@ mod view;
 
 use std::path::{Path, PathBuf};
 
+pub use cavity::CavityContent;
 pub use cut_line::CutLine;
 pub use cutting::{CutMode, Cutting};
 pub use draw::{Drawn, Draws, FindOnSurface, LARGEST_SEED, OnSurface, SurfacePoint, Variant};
@@ -36,7 +38,7 @@ pub use model_words::{
 };
 pub use neighbour::{Location, Neighbour, SoftNeighbour};
 pub use organ::{Layer, Nodule, Organ};
-pub use part::{BodyPart, PartPlace};
+pub use part::{BodyPart, PartContent, PartPlace};
 pub use region::{Region, RegionBox, RegionPlane, RegionSphere};
 pub use shape::{BuiltinOrgan, LengthUnit, Shape};
 pub use standing_alone::standing_alone;

@@ -2,7 +2,7 @@ use std::ops::Bound::{Excluded, Included};
 use std::path::Path;
 
 use super::neighbour::{LEAST_NODES, MOST_NODES};
-use super::{BodyPart, Inclusion, Neighbour, PartPlace, Region, Shape, TissueChoice};
+use super::{BodyPart, Inclusion, Neighbour, PartContent, PartPlace, Region, Shape, TissueChoice};
 use crate::{Domain, Error, Event, Key, Keys};
 
 /// What an organ means that does not say where it stands.
@@ -182,9 +182,13 @@ pub(super) fn parts(keys: &Keys<'_>, folder: &Path) -> Result<(Vec<Layer>, Vec<I
         let BodyPart {
             name,
             place,
-            tissue,
+            content,
             key: shape,
         } = BodyPart::from_keys(keys, number, folder)?;
+        let PartContent::Tissue(tissue) = content else {
+            let expected = "a tissue, for the models of `simulate` have no cavities yet";
+            return Err(keys.bad("cavity", expected));
+        };
         match place {
             PartPlace::Layer(thickness_m) => {
                 key = "region";

@@ -1,10 +1,10 @@
 use std::path::Path;
 
 use super::inclusion::{BALL, CAPSULE, ELLIPSOID, InclusionShape};
-use super::{InclusionPlace, LengthUnit, Shape, TissueChoice};
+use super::{CavityContent, InclusionPlace, LengthUnit, Shape, TissueChoice};
 use crate::{Domain, Error, Key, Keys};
 
-/// A part of a body with a tissue of its own, as a table `[[region]]` says it.
+/// A part of a body that is not of its tissue, as a table `[[region]]` says it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyPart {
     /// Its name, for people.
@@ -14,7 +14,16 @@ pub struct BodyPart {
     /// The key that says where it is.
     pub key: &'static str,
     /// What it is made of.
-    pub tissue: TissueChoice,
+    pub content: PartContent,
+}
+
+/// What a part of a body is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PartContent {
+    /// A tissue.
+    Tissue(TissueChoice),
+    /// None: it is a cavity.
+    Cavity(CavityContent),
 }
 
 /// Where a part of a body is.
@@ -51,6 +60,14 @@ const SURFACE: Key = Key::path(
 /// The largest number of a region in a file.
 const LARGEST: u64 = 1_000_000_000;
 
+const CAVITY: Key = Key::table(
+    "cavity",
+    CavityContent::KEYS,
+    "In place of a tissue: a cavity that tissue encloses, such as a gall bladder; `{}` is an empty one. For `palpate solve` \
+     alone.",
+)
+.optional("{ pressure_pa = 2000.0 }", "it is of a tissue");
+
 impl BodyPart {
     /// The keys of a part of a body within a surface.
     pub const OF_SURFACE: &'static [Key] = &[
@@ -76,6 +93,7 @@ impl BodyPart {
         .optional("2", "another shape is there"),
         TissueChoice::KEYS[0],
         TissueChoice::KEYS[1],
+        CAVITY,
     ];
 
     /// The keys of a part of a body that may be a volume mesh.
@@ -100,12 +118,13 @@ impl BodyPart {
             .optional("\"tumour\"", "another shape is there"),
         TissueChoice::KEYS[0],
         TissueChoice::KEYS[1],
+        CAVITY,
     ];
 
     /// The part of a table with these keys, the `number`th from 0; paths begin in `folder`.
     ///
     /// # Errors
-    /// When the table has no shape or two, or no tissue.
+    /// When the table has no shape or two, neither a tissue nor a cavity or both, or a layer is a cavity.
     pub fn from_keys(keys: &Keys<'_>, number: usize, folder: &Path) -> Result<Self, Error> {
         let (key, place) = PartPlace::from_keys(keys, folder)?;
         let name = keys.text("name")?.unwrap_or_else(|| match &place {
@@ -117,8 +136,23 @@ impl BodyPart {
             name,
             place,
             key,
-            tissue: TissueChoice::from_keys(keys, folder)?,
+            content: PartContent::from_keys(keys, folder)?,
         })
+    }
+}
+
+impl PartContent {
+    fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
+        let Some(cavity) = keys.table("cavity")? else {
+            return Ok(Self::Tissue(TissueChoice::from_keys(keys, folder)?));
+        };
+        for key in ["tissue", "builtin_tissue"] {
+            if keys.contains(key) {
+                return Err(keys.given_twice("cavity", key));
+            }
+        }
+        keys.refuse("layer", "a shape that tissue encloses")?;
+        Ok(Self::Cavity(CavityContent::from_keys(&cavity)?))
     }
 }
 

@@ -14,6 +14,7 @@ mod faces;
 mod quality;
 
 pub use error::TetrahedronError;
+pub use faces::HollowMesh;
 pub(crate) use faces::{faces, matched, pieces};
 pub use quality::TetrahedronQuality;
 pub(crate) use quality::{dihedral_angles, longest_edge, six_fold_volume};

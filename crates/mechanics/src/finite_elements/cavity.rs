@@ -5,23 +5,27 @@
 //! an axisymmetric wall, and V = ⅓ ∫ x · n da over a solid's: the same as the force of the pressure
 //! wherever the edge of the wall is held or lies in a plane of symmetry through the origin.
 //!
-//! *How we know*: `tube::lame`, `tube::follows_the_closed_form`, `hexahedra::pressed_ring_is_lames`.
+//! A fluid that keeps its volume makes stationary Π − p (V − V₀) with its pressure p as an unknown of its own, whose row of the
+//! matrix carries −ε V₀/μ for the reason given in `assembly`.
 //!
-//! *Limits*: an edge of the wall that is free to move off those planes would feel a wrong force; sides of tetrahedra
-//! are refused.
+//! *How we know*: `tube::lame`, `tube::follows_the_closed_form`, `hexahedra::pressed_ring_is_lames`, `cavities::…`.
+//!
+//! *Limits*: an edge of the wall that is free to move off those planes would feel a wrong force.
 
+use super::assembly::PRESSURE_REGULARIZATION;
 use super::element::ElementKind;
 use super::mismatch::Mismatch;
-use super::model::FiniteElementModel;
+use super::model::{FiniteElementModel, FiniteElementWorkspace};
 use crate::{Error, Strain, Vec3};
 
-/// A wall under pressure: sides of elements, three nodes each in an axisymmetric body and nine in a
-/// solid of hexahedra.
+/// A wall under pressure: sides of elements, three nodes each in an axisymmetric body, nine in a solid of hexahedra and six
+/// in one of tetrahedra.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cavity {
     /// Nodes of the sides. In an axisymmetric body walked with the pressure on the left, r to the right
     /// and z up: upward along the inner wall of a tube. In a solid numbered like [`super::ElementKind::Quad9`], the normal ξ × η pointing
-    /// away from the pressure.
+    /// away from the pressure. Of tetrahedra the three corners, counter-clockwise seen from the body, then the middles of
+    /// their edges, the first of which lies between the first two.
     pub sides: Vec<Vec<u32>>,
 }
 
@@ -44,13 +48,31 @@ impl Cavity {
         Ok(self.sides.iter().map(each).sum())
     }
 
+    /// The volume that the wall encloses at rest [m³].
+    pub(super) fn volume_at_rest(&self, model: &FiniteElementModel) -> f64 {
+        let rest = vec![0.0; model.size()];
+        let each = |side: &Vec<u32>| side_volume(model, &rest, side).volume;
+        self.sides.iter().map(each).sum()
+    }
+
+    /// What the displacements add to it [m³]; to the first order where strain is small.
+    pub(super) fn growth(&self, model: &FiniteElementModel, unknowns: &[f64]) -> f64 {
+        if is_small(model) {
+            let mut gradient = vec![0.0; unknowns.len()];
+            self.add_gradient(model, unknowns, 1.0, &mut gradient);
+            return gradient.iter().zip(unknowns).map(|(g, u)| g * u).sum();
+        }
+        let each = |side: &Vec<u32>| side_volume(model, unknowns, side).volume;
+        self.sides.iter().map(each).sum::<f64>() - self.volume_at_rest(model)
+    }
+
     /// Every side has the nodes of a side of the model's elements, and they exist.
     pub(super) fn check(&self, model: &FiniteElementModel) -> Result<(), Mismatch> {
         let (kind, nodes) = (model.mesh.kind, model.mesh.nodes.len());
         let expected = match kind {
             ElementKind::Quad9 => 3,
             ElementKind::Hex27 => 9,
-            ElementKind::Tet10 => return Err(Mismatch::CavityOfElements { kind }),
+            ElementKind::Tet10 => 6,
         };
         for (number, side) in self.sides.iter().enumerate() {
             if side.len() != expected {
@@ -116,6 +138,33 @@ impl Cavity {
             }
         }
     }
+
+    /// Adds the pressure of a fluid that keeps its volume, which is the unknown of this `number`.
+    pub(super) fn add_constraint(
+        &self,
+        model: &FiniteElementModel,
+        unknowns: &[f64],
+        number: usize,
+        workspace: &mut FiniteElementWorkspace,
+    ) {
+        let pressure = unknowns[number];
+        let mut gradient = vec![0.0; model.size()];
+        self.add_gradient(model, unknowns, 1.0, &mut gradient);
+        let (at_rest, change) = (self.volume_at_rest(model), self.growth(model, unknowns));
+        let (residual, tangent) = (&mut workspace.residual, &mut workspace.tangent);
+        for (column, slope) in gradient
+            .iter()
+            .enumerate()
+            .filter(|(_, slope)| **slope != 0.0)
+        {
+            residual[column] -= pressure * slope;
+            tangent[model.pattern.index(number, column)] -= slope;
+        }
+        residual[number] -= change;
+        tangent[model.pattern.index(number, number)] -=
+            PRESSURE_REGULARIZATION * at_rest / model.shear_modulus;
+        self.add_curvature(model, unknowns, -pressure, tangent);
+    }
 }
 
 fn is_small(model: &FiniteElementModel) -> bool {
@@ -134,10 +183,10 @@ fn side_volume(model: &FiniteElementModel, unknowns: &[f64], side: &[u32]) -> Si
             place
         })
         .collect();
-    if dimension == 2 {
-        meridian(&places)
-    } else {
-        wall(&places)
+    match places.len() {
+        3 => meridian(&places),
+        6 => wall(&places, &TRIANGLE.map(triangle_point)),
+        _ => wall(&places, &square_points()),
     }
 }
 
@@ -182,34 +231,118 @@ fn meridian(places: &[Vec3]) -> SideVolume {
     out
 }
 
+/// A point of integration on a side of N nodes: their shape functions, the derivatives of these, and its weight.
+struct SidePoint<const N: usize> {
+    value: [f64; N],
+    along: [f64; N],
+    across: [f64; N],
+    weight: f64,
+}
+
+/// Of the square [−1, 1]², nodes numbered like those of [`ElementKind::Quad9`].
+fn square_points() -> [SidePoint<9>; 9] {
+    std::array::from_fn(|point| {
+        let [(xi, w1), (eta, w2)] = [LINE[point / 3], LINE[point % 3]];
+        let ((n, dn), (m, dm)) = (shape(xi), shape(eta));
+        SidePoint {
+            value: std::array::from_fn(|a| n[a % 3] * m[a / 3]),
+            along: std::array::from_fn(|a| dn[a % 3] * m[a / 3]),
+            across: std::array::from_fn(|a| n[a % 3] * dm[a / 3]),
+            weight: w1 * w2,
+        }
+    })
+}
+
+/// Points of degree four in the triangle of the corners (0, 0), (1, 0), (0, 1) [Dunavant 1985]: the triple product of a
+/// quadratic side has that degree.
+const TRIANGLE: [([f64; 2], f64); 6] = [
+    (
+        [0.445_948_490_915_965, 0.445_948_490_915_965],
+        0.111_690_794_839_005_7,
+    ),
+    (
+        [0.108_103_018_168_070, 0.445_948_490_915_965],
+        0.111_690_794_839_005_7,
+    ),
+    (
+        [0.445_948_490_915_965, 0.108_103_018_168_070],
+        0.111_690_794_839_005_7,
+    ),
+    (
+        [0.091_576_213_509_771, 0.091_576_213_509_771],
+        0.054_975_871_827_661,
+    ),
+    (
+        [0.816_847_572_980_459, 0.091_576_213_509_771],
+        0.054_975_871_827_661,
+    ),
+    (
+        [0.091_576_213_509_771, 0.816_847_572_980_459],
+        0.054_975_871_827_661,
+    ),
+];
+
+fn triangle_point(([x, y], weight): ([f64; 2], f64)) -> SidePoint<6> {
+    let rest = 1.0 - x - y;
+    SidePoint {
+        value: [
+            rest * (2.0 * rest - 1.0),
+            x * (2.0 * x - 1.0),
+            y * (2.0 * y - 1.0),
+            4.0 * rest * x,
+            4.0 * x * y,
+            4.0 * y * rest,
+        ],
+        along: [
+            1.0 - 4.0 * rest,
+            4.0 * x - 1.0,
+            0.0,
+            4.0 * (rest - x),
+            4.0 * y,
+            -4.0 * y,
+        ],
+        across: [
+            1.0 - 4.0 * rest,
+            0.0,
+            4.0 * y - 1.0,
+            -4.0 * x,
+            4.0 * x,
+            4.0 * (rest - y),
+        ],
+        weight,
+    }
+}
+
 /// V = ⅓ ∫ x · (x_ξ × x_η) dξ dη.
-fn wall(places: &[Vec3]) -> SideVolume {
-    let count = 27;
+fn wall<const N: usize>(places: &[Vec3], points: &[SidePoint<N>]) -> SideVolume {
+    let count = 3 * N;
     let mut out = SideVolume {
         volume: 0.0,
         gradient: vec![0.0; count],
         curvature: vec![0.0; count * count],
     };
-    for ((xi, w1), (eta, w2)) in LINE.iter().flat_map(|a| LINE.iter().map(move |b| (*a, *b))) {
-        let ((n, dn), (m, dm)) = (shape(xi), shape(eta));
-        let value = |a: usize| n[a % 3] * m[a / 3];
-        let along = |a: usize| dn[a % 3] * m[a / 3];
-        let across = |a: usize| n[a % 3] * dm[a / 3];
-        let sum = |f: &dyn Fn(usize) -> f64| (0..9).map(|a| f(a) * places[a]).sum::<Vec3>();
-        let (x, e, h) = (sum(&value), sum(&along), sum(&across));
-        let weight = w1 * w2 / 3.0;
+    for point in points {
+        let SidePoint {
+            value,
+            along,
+            across,
+            ..
+        } = point;
+        let sum = |f: &[f64; N]| f.iter().zip(places).map(|(f, x)| *f * x).sum::<Vec3>();
+        let (x, e, h) = (sum(value), sum(along), sum(across));
+        let weight = point.weight / 3.0;
         out.volume += weight * x.dot(&e.cross(&h));
-        for a in 0..9 {
+        for a in 0..N {
             // The triple product is linear in each of x, x_ξ, x_η.
             let gradient =
-                value(a) * e.cross(&h) + along(a) * h.cross(&x) + across(a) * x.cross(&e);
+                value[a] * e.cross(&h) + along[a] * h.cross(&x) + across[a] * x.cross(&e);
             for i in 0..3 {
                 out.gradient[3 * a + i] += weight * gradient[i];
             }
-            for b in 0..9 {
-                let pair = (value(a) * along(b) - along(a) * value(b)) * h
-                    + (along(a) * across(b) - across(a) * along(b)) * x
-                    + (across(a) * value(b) - value(a) * across(b)) * e;
+            for b in 0..N {
+                let pair = (value[a] * along[b] - along[a] * value[b]) * h
+                    + (along[a] * across[b] - across[a] * along[b]) * x
+                    + (across[a] * value[b] - value[a] * across[b]) * e;
                 // u_a · (u_b × pair) is bilinear: the cross matrix of pair, turned.
                 let cross = pair.cross_matrix();
                 for i in 0..3 {

@@ -1,4 +1,3 @@
-use super::element::ElementKind;
 use super::supports::RigidSurface;
 
 /// Numbers of the caller that do not fit a finite element model: found before any work.
@@ -25,14 +24,6 @@ pub enum Mismatch {
         node: usize,
         /// Components of a displacement.
         dimension: usize,
-    },
-    /// A pressure on elements whose sides have no formula here.
-    #[error(
-        "a cavity has sides of {kind:?} elements, for which no pressure is implemented; use Quad9 or Hex27 elements"
-    )]
-    CavityOfElements {
-        /// The kind of the elements.
-        kind: ElementKind,
     },
     /// A side of a cavity with too few nodes or too many.
     #[error(
@@ -138,7 +129,6 @@ impl Mismatch {
         match self {
             Self::NodeBeyondMesh { .. }
             | Self::ComponentOutOfRange { .. }
-            | Self::CavityOfElements { .. }
             | Self::CavitySide { .. }
             | Self::CannotSlide { .. }
             | Self::SurfaceOutOfRange { .. }

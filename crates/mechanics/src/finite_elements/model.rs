@@ -1,5 +1,6 @@
 use std::sync::Arc;
 
+use super::cavity::Cavity;
 use super::mapping::Mapping;
 use super::mesh::ElementMesh;
 use super::mismatch::Mismatch;
@@ -35,6 +36,8 @@ pub struct FiniteElementModel {
     pub(crate) scatter: Vec<u32>,
     /// The largest shear modulus at rest [Pa]: the scale of stress.
     pub(crate) shear_modulus: f64,
+    /// Cavities full of a fluid of constant volume, whose pressures are the last unknowns.
+    fluids: Vec<Cavity>,
 }
 
 impl FiniteElementModel {
@@ -93,22 +96,8 @@ impl FiniteElementModel {
         }
         let mapping = Mapping::new(&mesh, formulation == Formulation::Mixed)?;
         let unknowns = number(&mesh, regions, mapping.pressures_per_element);
-        let size = unknowns.iter().max().map_or(0, |&last| last as usize + 1);
         let local = unknowns.len() / mesh.len();
-        let mut entries = Vec::with_capacity(mesh.len() * local * (local + 1) / 2);
-        for element in unknowns.chunks_exact(local) {
-            for (row, column) in lower(element) {
-                entries.push((column, row));
-            }
-        }
-        let pattern = Pattern::new(size, entries);
-        let mut scatter = Vec::with_capacity(mesh.len() * local * (local + 1) / 2);
-        for element in unknowns.chunks_exact(local) {
-            scatter.extend(
-                lower(element)
-                    .map(|(row, column)| pattern.index(row as usize, column as usize) as u32),
-            );
-        }
+        let (pattern, scatter) = couple(&unknowns, local, &[]);
         Ok(Self {
             mesh,
             law,
@@ -118,7 +107,37 @@ impl FiniteElementModel {
             pattern,
             scatter,
             shear_modulus,
+            fluids: Vec::new(),
         })
+    }
+
+    /// The same body whose `cavities` are full of a fluid that keeps its volume; the pressure in each is a further unknown
+    /// [Pa], positive on the wall.
+    ///
+    /// # Errors
+    /// When the sides of a cavity are none of the model.
+    pub fn with_fluids(mut self, cavities: Vec<Cavity>) -> Result<Self, Error> {
+        let dimension = self.dimension() as u32;
+        let mut walls = Vec::with_capacity(cavities.len());
+        for cavity in &cavities {
+            cavity.check(&self)?;
+            let nodes = cavity.sides.iter().flatten();
+            walls.push(
+                nodes
+                    .flat_map(|n| (0..dimension).map(move |i| n * dimension + i))
+                    .collect(),
+            );
+        }
+        (self.pattern, self.scatter) = couple(&self.unknowns, self.local_unknowns(), &walls);
+        self.fluids = cavities;
+        Ok(self)
+    }
+
+    /// Its cavities that are full of a fluid, each with the number of the unknown that is its pressure.
+    pub(super) fn fluids(&self) -> impl ExactSizeIterator<Item = (&Cavity, usize)> {
+        let first = self.size() - self.fluids.len();
+        let numbered = self.fluids.iter().enumerate();
+        numbered.map(move |(at, cavity)| (cavity, first + at))
     }
 
     /// The same body with the fibres of its laws in the `frame` of each place at rest [m], which is that of the mesh: (r, z, 0)
@@ -187,7 +206,7 @@ impl FiniteElementModel {
         self.mesh.kind.dimension()
     }
 
-    /// Number of pressures.
+    /// Number of pressures, of elements and of fluids.
     pub fn pressures(&self) -> usize {
         self.size() - self.displacements()
     }
@@ -231,7 +250,7 @@ impl FiniteElementModel {
 /// All that must be kept of a deformed body to go on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FiniteElementState {
-    /// Displacements [m] node by node, then pressures [Pa], tension positive.
+    /// Displacements [m] node by node, then pressures [Pa], tension positive, then those of fluids, positive on the wall.
     pub unknowns: Vec<f64>,
 }
 
@@ -369,6 +388,29 @@ fn number(mesh: &ElementMesh, regions: &[u32], pressures: usize) -> Vec<u32> {
         unknowns.extend(corners(element).map(|corner| first + place(corner)));
     }
     unknowns
+}
+
+/// The couplings of unknowns within elements of `local` ones, and the places of each element's lower triangle; a further
+/// unknown is coupled with those of each of the `walls`.
+fn couple(unknowns: &[u32], local: usize, walls: &[Vec<u32>]) -> (Pattern, Vec<u32>) {
+    let first = unknowns.iter().max().map_or(0, |&last| last + 1);
+    let mut entries = Vec::with_capacity(unknowns.len() * (local + 1) / 2);
+    for element in unknowns.chunks_exact(local) {
+        entries.extend(lower(element).map(|(row, column)| (column, row)));
+    }
+    for (wall, row) in walls.iter().zip(first..) {
+        entries.push((row, row));
+        entries.extend(wall.iter().map(|&column| (column, row)));
+    }
+    let pattern = Pattern::new(first as usize + walls.len(), entries);
+    let mut scatter = Vec::with_capacity(unknowns.len() * (local + 1) / 2);
+    for element in unknowns.chunks_exact(local) {
+        let places = lower(element);
+        scatter.extend(
+            places.map(|(row, column)| pattern.index(row as usize, column as usize) as u32),
+        );
+    }
+    (pattern, scatter)
 }
 
 /// Pairs (row, column) of an element's lower triangle, column by column of its own numbering, turned so

@@ -124,9 +124,12 @@ pub(super) fn assemble(
 ) -> Result<(), Failure> {
     assembly::assemble(model, unknowns, supports.relaxing, workspace)
         .map_err(|_| Failure::Inverted)?;
-    if let Some((cavity, pressure)) = supports.pressure {
+    for (cavity, pressure) in &supports.pressures {
         cavity.add_gradient(model, unknowns, -pressure, &mut workspace.residual);
         cavity.add_curvature(model, unknowns, -pressure, &mut workspace.tangent);
+    }
+    for (fluid, number) in model.fluids() {
+        fluid.add_constraint(model, unknowns, number, workspace);
     }
     if let Some((load, times)) = supports.dead_load {
         for (residual, load) in workspace.residual.iter_mut().zip(load) {
@@ -187,16 +190,20 @@ pub(super) fn size_of_residual(
         size.free += across * across / along_surface;
         size.held += normal * normal / along_normal;
     }
-    if let Some((cavity, pressure)) = supports.pressure {
+    for (cavity, pressure) in &supports.pressures {
         let mut load = vec![0.0; model.size()];
-        cavity.add_gradient(model, &workspace.trial, pressure, &mut load);
+        cavity.add_gradient(model, &workspace.trial, *pressure, &mut load);
         size.held += (0..model.displacements())
             .map(|i| load[i].powi(2) / diagonal(i).abs())
             .sum::<f64>();
     }
     let softest =
         1.0 / model.law.volume().bulk_modulus + PRESSURE_REGULARIZATION / model.shear_modulus;
-    for i in model.displacements()..model.size() {
+    for (fluid, number) in model.fluids() {
+        let volume = fluid.volume_at_rest(model);
+        size.free += workspace.residual[number].powi(2) * model.shear_modulus / volume;
+    }
+    for i in model.displacements()..model.size() - model.fluids().len() {
         // M = diagonal / compressibility.
         let mass = diagonal(i).abs() / softest;
         size.free += workspace.residual[i].powi(2) * model.shear_modulus / mass;

@@ -335,8 +335,8 @@ impl<'a> Path<'a> {
         let (model, workspace) = (self.model, &mut self.workspace);
         let mut relax: Vec<f64> = workspace.residual.iter().map(|r| -r).collect();
         let mut push = vec![0.0; model.size()];
-        if let Some((cavity, pressure)) = self.loads.pressure {
-            cavity.add_gradient(model, &state.unknowns, pressure, &mut push);
+        for (cavity, pressure) in &self.loads.pressures {
+            cavity.add_gradient(model, &state.unknowns, *pressure, &mut push);
         }
         if let Some((load, times)) = self.loads.dead_load {
             push.iter_mut().zip(load).for_each(|(q, b)| *q += times * b);
@@ -392,7 +392,7 @@ fn scaled<'a>(loads: &Supports<'a>, factor: f64) -> Supports<'a> {
     for held in all.held.iter_mut().flatten() {
         *held *= factor;
     }
-    if let Some((_, pressure)) = &mut all.pressure {
+    for (_, pressure) in &mut all.pressures {
         *pressure *= factor;
     }
     if let Some((_, times)) = &mut all.dead_load {

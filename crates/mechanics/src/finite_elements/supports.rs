@@ -15,8 +15,8 @@ pub struct Supports<'a> {
     pub held: Vec<Option<f64>>,
     /// Nodes that slide on a rigid surface, in an axisymmetric body; their unknowns must not be held.
     pub sliding: Vec<Sliding>,
-    /// A pressure on walls that follows them.
-    pub pressure: Option<(&'a Cavity, f64)>,
+    /// Pressures on the walls of cavities that follow them [Pa].
+    pub pressures: Vec<(&'a Cavity, f64)>,
     /// Forces at the unknowns that do not turn with the body [N], of
     /// [`FiniteElementModel::body_load`], and how many times they act.
     pub dead_load: Option<(&'a [f64], f64)>,
@@ -149,7 +149,7 @@ impl<'a> Supports<'a> {
         Self {
             held: vec![None; model.displacements()],
             sliding: Vec::new(),
-            pressure: None,
+            pressures: Vec::new(),
             dead_load: None,
             relaxing: None,
             stray: None,
@@ -178,7 +178,7 @@ impl<'a> Supports<'a> {
 
     /// With `pressure` [Pa] on the walls of `cavity`.
     pub fn press(mut self, cavity: &'a Cavity, pressure: f64) -> Self {
-        self.pressure = Some((cavity, pressure));
+        self.pressures.push((cavity, pressure));
         self
     }
 
@@ -226,7 +226,7 @@ impl<'a> Supports<'a> {
             lengths("the history of stresses", points, expected)?;
             lengths("the history of pressures", pressures, model.pressures())?;
         }
-        if let Some((cavity, _)) = self.pressure {
+        for (cavity, _) in &self.pressures {
             cavity.check(model)?;
         }
         let mut slides = vec![false; nodes];

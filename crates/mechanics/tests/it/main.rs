@@ -13,6 +13,7 @@ mod boundary_elements;
 mod boundary_response;
 mod boundary_tubes;
 mod carried_field;
+mod cavities;
 mod condensed;
 mod contacts;
 mod convergence;

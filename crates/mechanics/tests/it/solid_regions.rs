@@ -6,7 +6,8 @@ use palpate_files::scene::InclusionShape;
 use palpate_geometry::{Organ, Surface, TetrahedronMesh, TriangleMesh};
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::solid::{
-    Body, DeadLoad, LoadPlace, Loads, SolidPlace, SolidProblem, SolidRegion, Weight, solve_at,
+    Body, DeadLoad, LoadPlace, Loads, RegionContent, SolidPlace, SolidProblem, SolidRegion, Weight,
+    solve_at,
 };
 use palpate_mechanics::layered::{LayeredHalfSpace, LoadShape};
 use palpate_mechanics::regions::{RegionError, RegionPlace};
@@ -19,19 +20,21 @@ const DENSITY: f64 = 1000.0;
 /// What the small pressure block of a linear system leaves (`finite_elements::assembly`).
 const SOLVER: f64 = 1e-7;
 
-fn linear(modulus: f64, ratio: f64) -> Arc<dyn Law> {
+pub(crate) fn linear(modulus: f64, ratio: f64) -> Arc<dyn Law> {
     Arc::new(LinearElastic::new(modulus, ratio).unwrap())
 }
 
 fn region(place: RegionPlace, law: Arc<dyn Law>) -> SolidRegion {
     SolidRegion {
         place: SolidPlace::Bounded(place),
-        law,
-        density: DENSITY,
+        content: RegionContent::Tissue {
+            law,
+            density: DENSITY,
+        },
     }
 }
 
-fn ball(center: Vec3, radius_m: f64) -> InclusionShape {
+pub(crate) fn ball(center: Vec3, radius_m: f64) -> InclusionShape {
     InclusionShape::Ball {
         center_m: center.into(),
         radius_m,
@@ -40,7 +43,7 @@ fn ball(center: Vec3, radius_m: f64) -> InclusionShape {
 
 /// A cube of edge 1 m around the origin, of modulus 1 and no Poisson's ratio, pulled along x by a stress of 1e-3; at its other
 /// end it is held, which at this ratio disturbs nothing. A ball of radius 0.08 in its middle has `law`.
-fn pulled(law: Arc<dyn Law>, place: RegionPlace) -> SolidProblem {
+pub(crate) fn pulled(law: Arc<dyn Law>, place: RegionPlace) -> SolidProblem {
     let half = 0.5;
     SolidProblem {
         body: Body::Volume(
@@ -234,8 +237,10 @@ fn cells_have_the_tissue_of_their_region() {
         fibres: None,
         regions: vec![SolidRegion {
             place: SolidPlace::Cells(1),
-            law: linear(1e5, 0.0),
-            density: 3.0 * DENSITY,
+            content: RegionContent::Tissue {
+                law: linear(1e5, 0.0),
+                density: 3.0 * DENSITY,
+            },
         }],
         loads: Loads {
             weight: None,

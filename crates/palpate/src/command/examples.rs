@@ -193,6 +193,11 @@ const ALL: &[Example] = &[
         "the same organ with a layer and a tumour"
     ),
     example!(
+        "problems/cyst.toml",
+        "problems/cyst.toml",
+        "a body with a cyst full of fluid under a patch"
+    ),
+    example!(
         "problems/beam_weight.toml",
         "problems/beam_weight.toml",
         "a beam under its weight, whose stiffness is fitted"

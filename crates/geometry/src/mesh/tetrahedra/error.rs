@@ -59,6 +59,14 @@ pub enum TetrahedronError {
         /// How many tetrahedra there are.
         tetrahedra: usize,
     },
+    /// A region that was to be taken out is no hole in the others.
+    #[error(
+        "region {region} is not enclosed by others: it reaches the boundary, or another region that is taken out"
+    )]
+    NotEnclosed {
+        /// The region.
+        region: u32,
+    },
     /// A length that is none.
     #[error("{what} is {found:e} m where a positive length was expected; give one in metres")]
     NotALength {
@@ -112,6 +120,7 @@ impl TetrahedronError {
             | Self::Flat { .. }
             | Self::CrowdedFace { .. }
             | Self::WrongRegions { .. }
+            | Self::NotEnclosed { .. }
             | Self::NotALength { .. }
             | Self::TooMany { .. }
             | Self::NotRefined { .. }

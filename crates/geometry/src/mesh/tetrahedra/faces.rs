@@ -1,4 +1,4 @@
-use super::TetrahedronMesh;
+use super::{TetrahedronError, TetrahedronMesh};
 use crate::{MeshError, NodeId, Surface, TriangleMesh};
 
 /// Corners of the face that leaves out corner `k`, counter-clockwise seen from outside.
@@ -36,7 +36,66 @@ pub(crate) fn matched(faces: &[Face]) -> impl Iterator<Item = &[Face]> {
     faces.chunk_by(|a, b| a.corners == b.corners)
 }
 
+/// Tetrahedra from which whole regions were taken out.
+#[derive(Debug, Clone)]
+pub struct HollowMesh {
+    /// What is left.
+    pub mesh: TetrahedronMesh,
+    /// For each region that was taken out the triangles of the boundary around it, oriented like those of
+    /// [`TetrahedronMesh::boundary`].
+    pub walls: Vec<Vec<[NodeId; 3]>>,
+}
+
 impl TetrahedronMesh {
+    /// The mesh without the tetrahedra of these `regions`, each of which the others enclose.
+    ///
+    /// # Errors
+    /// When a region reaches the boundary or another of `regions`, or nothing is left.
+    pub fn without(&self, regions: &[u32]) -> Result<HollowMesh, TetrahedronError> {
+        let place = |tetrahedron: u32| {
+            let region = self.region(tetrahedron as usize);
+            regions.iter().position(|taken| *taken == region)
+        };
+        let mut walls = vec![Vec::new(); regions.len()];
+        for alike in matched(&faces(&self.tetrahedra)) {
+            let taken = alike.iter().find_map(|face| place(face.tetrahedron));
+            let left = alike.iter().find(|face| place(face.tetrahedron).is_none());
+            match (taken, left) {
+                (Some(at), Some(face)) => {
+                    let nodes = self.tetrahedra[face.tetrahedron as usize];
+                    walls[at].push(OPPOSITE[face.opposite as usize].map(|k| nodes[k]));
+                }
+                (Some(at), None)
+                    if alike.iter().any(|face| place(face.tetrahedron) != Some(at))
+                        || alike.len() == 1 =>
+                {
+                    return Err(TetrahedronError::NotEnclosed {
+                        region: regions[at],
+                    });
+                }
+                _ => {}
+            }
+        }
+        let numbers = 0..self.tetrahedra.len();
+        let left: Vec<_> = numbers.filter(|t| place(*t as u32).is_none()).collect();
+        let tetrahedra: Vec<_> = left.iter().map(|t| self.tetrahedra[*t]).collect();
+        // Vertices that are left keep their order.
+        let mut number = vec![0; self.vertices.len()];
+        for node in tetrahedra.iter().flatten() {
+            number[node.index()] = 1;
+        }
+        let mut next = 0;
+        for number in &mut number {
+            next += std::mem::replace(number, next);
+        }
+        for node in walls.iter_mut().flatten().flatten() {
+            *node = NodeId(number[node.index()]);
+        }
+        let regions = left.iter().map(|t| self.region(*t)).collect();
+        let mesh = Self::new(self.vertices.clone(), tetrahedra)?.with_regions(regions)?;
+        Ok(HollowMesh { mesh, walls })
+    }
+
     /// The triangles of the boundary, oriented outward, with the vertex numbers of this mesh, each
     /// with the number of its tetrahedron; in the order of the tetrahedra.
     pub fn boundary(&self) -> Vec<([NodeId; 3], usize)> {

@@ -22,7 +22,7 @@ use palpate_mechanics::contact::Friction;
 
 pub(crate) use hemisphere::Hemisphere;
 pub(crate) use indentation::{Indentation, Loading, Ramp};
-pub(crate) use regions::SolidPart;
+pub(crate) use regions::{SolidContent, SolidPart};
 pub(crate) use solid::{Patch, Point, Solid};
 pub(crate) use tube::{Tube, TubeIndent};
 pub(crate) use uniaxial::Uniaxial;
@@ -170,7 +170,7 @@ impl Problem {
                 let law = tissue.elasticity.law();
                 let solid = Solid::from_keys(&keys, folder, law)?;
                 let tissues = std::iter::once(&tissue);
-                let parts = solid.parts.iter().map(|part| &part.tissue);
+                let parts = solid.parts.iter().filter_map(SolidPart::tissue);
                 fibres::check(&keys, solid.fibres.as_deref(), tissues.chain(parts))?;
                 Case::Solid(solid)
             }

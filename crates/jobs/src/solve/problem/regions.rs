@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use palpate_files::scene::{BodyPart, Inclusion, Layer, PartPlace, TissueChoice};
+use palpate_files::scene::{
+    BodyPart, CavityContent, Inclusion, Layer, PartContent, PartPlace, TissueChoice,
+};
 use palpate_files::tissue::LawName;
 use palpate_files::{Error, Key, Keys, Place, Tissue};
 use palpate_mechanics::Material;
@@ -14,11 +16,27 @@ use crate::Error as JobError;
 pub(crate) struct SolidPart {
     pub(crate) name: String,
     pub(crate) place: PartPlace,
-    pub(crate) tissue: Tissue,
-    pub(crate) material: Material,
+    pub(crate) content: SolidContent,
     /// Where it is in the document, and the full name of the key that says where it lies.
     pub(crate) found_at: Place,
     pub(crate) key: String,
+}
+
+/// What a part of a solid is made of.
+#[derive(Debug, Clone)]
+pub(crate) enum SolidContent {
+    Tissue(Box<(Tissue, Material)>),
+    Cavity(CavityContent),
+}
+
+impl SolidPart {
+    /// Its tissue, none of a cavity.
+    pub(crate) fn tissue(&self) -> Option<&Tissue> {
+        match &self.content {
+            SolidContent::Tissue(tissue) => Some(&tissue.0),
+            SolidContent::Cavity(_) => None,
+        }
+    }
 }
 
 /// The tables of a problem that name parts.
@@ -26,7 +44,7 @@ pub(super) const KEYS: [Key; 3] = [
     Key::tables(
         "region",
         BodyPart::OF_VOLUME,
-        "Parts with a tissue of their own: layers, shapes inside such as a tumour or a vessel, and regions of a volume mesh. \
+        "Parts with a tissue of their own, and cavities: layers, shapes inside such as a tumour or a vessel, and regions of a volume mesh. \
          Shapes are above layers, and these above regions of the mesh. What is in none of them is of `tissue`. Tetrahedra do \
          not cross their borders.",
     )
@@ -59,37 +77,47 @@ pub(super) fn from_keys(
         let name = name.unwrap_or_else(|| format!("layer {}", number + 1));
         let place = PartPlace::Layer(keys.required_number("thickness_m")?);
         let tissue = TissueChoice::from_keys(keys, folder)?.read()?;
-        parts.push(part((keys, "thickness_m"), name, place, (tissue, law))?);
+        let content = tissue_of(keys, tissue, law)?;
+        parts.push(part(keys, "thickness_m", name, place, content));
     }
     for (number, keys) in keys.tables("inclusion")?.iter().enumerate() {
         let inclusion = Inclusion::from_keys(keys, number, folder)?;
         let shapes = ["ball", "ellipsoid", "capsule", "mesh"];
         let key = shapes.into_iter().find(|key| keys.contains(key));
         let place = PartPlace::Inclusion(inclusion.place);
-        let tissue = inclusion.tissue.read()?;
+        let content = tissue_of(keys, inclusion.tissue.read()?, law)?;
         let key = key.unwrap_or("name");
-        parts.push(part((keys, key), inclusion.name, place, (tissue, law))?);
+        parts.push(part(keys, key, inclusion.name, place, content));
     }
     for (number, keys) in keys.tables("region")?.iter().enumerate() {
-        let part_of_file = BodyPart::from_keys(keys, number, folder)?;
-        let tissue = part_of_file.tissue.read()?;
-        let key = (keys, part_of_file.key);
-        parts.push(part(
-            key,
-            part_of_file.name,
-            part_of_file.place,
-            (tissue, law),
-        )?);
+        let found = BodyPart::from_keys(keys, number, folder)?;
+        let content = match found.content {
+            PartContent::Tissue(tissue) => tissue_of(keys, tissue.read()?, law)?,
+            PartContent::Cavity(content) => SolidContent::Cavity(content),
+        };
+        parts.push(part(keys, found.key, found.name, found.place, content));
     }
     Ok(parts)
 }
 
 fn part(
-    (keys, key): (&Keys<'_>, &'static str),
+    keys: &Keys<'_>,
+    key: &'static str,
     name: String,
     place: PartPlace,
-    (tissue, law): (Tissue, LawName),
-) -> Result<SolidPart, JobError> {
+    content: SolidContent,
+) -> SolidPart {
+    SolidPart {
+        name,
+        place,
+        content,
+        found_at: keys.place_of_key(key),
+        key: keys.full_name(key),
+    }
+}
+
+/// The tissue of a part of a body of `law`.
+fn tissue_of(keys: &Keys<'_>, tissue: Tissue, law: LawName) -> Result<SolidContent, JobError> {
     let is_small = |law| law == LawName::Linear;
     let found = tissue.elasticity.law();
     if is_small(found) != is_small(law) {
@@ -109,12 +137,6 @@ fn part(
         }
         .into());
     }
-    Ok(SolidPart {
-        name,
-        place,
-        material: Material::from_tissue(&tissue)?,
-        tissue,
-        found_at: keys.place_of_key(key),
-        key: keys.full_name(key),
-    })
+    let material = Material::from_tissue(&tissue)?;
+    Ok(SolidContent::Tissue(Box::new((tissue, material))))
 }

@@ -132,6 +132,9 @@ pub struct SolidFigures {
     /// The parts of the body, after what is in none of them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub regions: Vec<RegionFigures>,
+    /// The cavities.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub cavities: Vec<CavityFigures>,
     /// What the moduli of the tissues were multiplied by, where they were fitted [-].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness_factor: Option<f64>,
@@ -148,6 +151,19 @@ pub struct RegionFigures {
     /// The name of its law.
     pub law: &'static str,
     /// On the finest mesh [m³].
+    pub volume_m3: f64,
+}
+
+/// A cavity in the body.
+#[derive(Debug, Clone, Serialize)]
+pub struct CavityFigures {
+    /// Its name.
+    pub name: String,
+    /// The pressure on its wall [Pa].
+    pub pressure_pa: f64,
+    /// What its wall encloses at rest, on the finest mesh [m³].
+    pub volume_at_rest_m3: f64,
+    /// The same in the deformed body [m³].
     pub volume_m3: f64,
 }
 

@@ -19,6 +19,8 @@ pub struct SolidAnswer {
     pub mean_displacement: f64,
     /// Displacement of each point that was asked for [m].
     pub points: Vec<Vec3>,
+    /// What each cavity has become, in the order of the regions.
+    pub cavities: Vec<CavityAnswer>,
     /// Area of the patch at rest [m²].
     pub patch_area: f64,
     /// Number of unknowns.
@@ -29,6 +31,19 @@ pub struct SolidAnswer {
     pub fields: SolidFields,
     /// Warnings.
     pub warnings: Vec<String>,
+}
+
+/// A cavity of a solid in equilibrium.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CavityAnswer {
+    /// Number of its region, from 0.
+    pub region: usize,
+    /// Pressure on its wall [Pa].
+    pub pressure: f64,
+    /// The volume that the wall encloses at rest [m³].
+    pub volume_at_rest: f64,
+    /// The same now [m³]; for small strain to the first order.
+    pub volume: f64,
 }
 
 /// What a grid of quadratic tetrahedra has at its nodes and in its cells.
@@ -71,6 +86,7 @@ impl SolidAnswer {
             energy: workspace.energy(),
             mean_displacement: mean_displacement(model, state),
             points: Vec::new(),
+            cavities: Vec::new(),
             patch_area: held.area,
             unknowns: model.size(),
             factor_entries: workspace.factor_entries(),

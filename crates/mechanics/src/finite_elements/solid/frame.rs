@@ -1,6 +1,7 @@
 use crate::contact::Friction;
 use nalgebra::Rotation3;
 
+use super::super::cavity::Cavity;
 use super::super::mesh::ElementMesh;
 use super::super::model::FiniteElementModel;
 use super::super::supports::Supports;
@@ -80,14 +81,24 @@ pub(super) struct Conditions<'a> {
     pub(super) held: &'a Held,
     /// Whole forces at the unknowns [N], in the frame.
     pub(super) load: &'a [f64],
+    /// Whole pressures in cavities [Pa].
+    pub(super) pressures: &'a [(&'a Cavity, f64)],
 }
 
 impl Conditions<'_> {
     /// The supports at this `part` [-] of the displacement of the patch and of the loads.
     pub(super) fn supports(&self, model: &FiniteElementModel, part: f64) -> Supports<'_> {
-        let Self { frame, held, load } = self;
+        let Self {
+            frame,
+            held,
+            load,
+            pressures,
+        } = self;
         let mut supports = Supports::none(model);
         supports.dead_load = Some((load, part));
+        for (cavity, pressure) in *pressures {
+            supports = supports.press(cavity, part * pressure);
+        }
         for axis in 0..3 {
             supports = supports.hold(model, held.anchored.iter().copied(), axis, 0.0);
             if frame.held[axis] {

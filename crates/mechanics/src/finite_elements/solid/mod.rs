@@ -9,7 +9,8 @@
 //! the boundary are dead loads: they keep their direction while the body turns, and grow with the displacement of the
 //! patch.
 //!
-//! Regions have laws of their own. Tetrahedra are cut at their borders, and pressures jump there.
+//! Regions have laws of their own. Tetrahedra are cut at their borders, and pressures jump there. Where a region is a
+//! cavity its tetrahedra are taken out, and its wall bears a pressure or that of a fluid of constant volume.
 //!
 //! *How we know*: `solid::a_patch_on_a_cube_is_a_punch` (axisymmetric elements and the half-space),
 //! `solid::a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space`,
@@ -20,6 +21,7 @@
 //! its facets. A third mesh of an organ takes gigabytes and minutes.
 
 mod answer;
+mod cavities;
 mod error;
 mod frame;
 mod grading;
@@ -34,9 +36,10 @@ mod supports;
 
 pub(crate) use mesh::{Face, faces};
 
-pub use answer::{SolidAnswer, SolidFields};
+pub use answer::{CavityAnswer, SolidAnswer, SolidFields};
 pub use error::SolidError;
 pub use problem::{
-    Body, DeadLoad, LoadPlace, Loads, MovedPatch, SolidPlace, SolidProblem, SolidRegion, Weight,
+    Body, DeadLoad, LoadPlace, Loads, MovedPatch, RegionContent, SolidPlace, SolidProblem,
+    SolidRegion, Weight,
 };
 pub use run::{solve, solve_at};

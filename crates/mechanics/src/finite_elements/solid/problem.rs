@@ -1,7 +1,7 @@
 use crate::contact::Friction;
 use std::sync::Arc;
 
-use palpate_files::scene::Region;
+use palpate_files::scene::{CavityContent, Region};
 use palpate_geometry::{Surface, TetrahedronMesh};
 
 use crate::material::law::Law;
@@ -49,15 +49,27 @@ pub struct Weight {
     pub density: f64,
 }
 
-/// A part of the body with a tissue of its own.
+/// A part of the body that is not of its tissue.
 #[derive(Debug, Clone)]
 pub struct SolidRegion {
     /// Where it is.
     pub place: SolidPlace,
-    /// Its law, for small or finite strain as that of the body.
-    pub law: Arc<dyn Law>,
-    /// Density at rest [kg/m³].
-    pub density: f64,
+    /// What it is full of.
+    pub content: RegionContent,
+}
+
+/// What a region of a solid is full of.
+#[derive(Debug, Clone)]
+pub enum RegionContent {
+    /// A tissue.
+    Tissue {
+        /// Its law, for small or finite strain as that of the body.
+        law: Arc<dyn Law>,
+        /// Density at rest [kg/m³].
+        density: f64,
+    },
+    /// Nothing that is solid. Tissue encloses it.
+    Cavity(CavityContent),
 }
 
 /// Where a region of a solid is.
@@ -98,7 +110,7 @@ pub struct SolidProblem {
     pub patch: Option<MovedPatch>,
     /// Its law outside of the regions; with [`crate::Strain::Small`] all is linear.
     pub law: Arc<dyn Law>,
-    /// Parts of other tissue. Shapes and surfaces are above layers, and these above cells.
+    /// Parts of other tissue, and cavities. Shapes and surfaces are above layers, and these above cells.
     pub regions: Vec<SolidRegion>,
     /// Where its fibres point to, if it has any.
     pub fibres: Option<FibreField>,

@@ -1,15 +1,20 @@
+use std::sync::Arc;
+
+use palpate_files::scene::CavityContent;
+
 use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
 use super::super::mesh::ElementMesh;
 use super::super::model::{FiniteElementModel, FiniteElementWorkspace, Formulation};
-use super::answer::SolidAnswer;
+use super::answer::{CavityAnswer, SolidAnswer};
+use super::cavities::Tissue;
 use super::frame::{Conditions, Frame};
 use super::grading::MeshContext;
 use super::loads;
 use super::mesh::faces;
-use super::problem::{Body, SolidProblem};
+use super::problem::{Body, RegionContent, SolidProblem, SolidRegion};
 use super::solve::equilibrium;
 use super::supports::Held;
-use crate::{Error, FibreError, Vec3};
+use crate::{Error, FibreError, Law, Vec3};
 
 /// More unknowns than these are refused: their factors would have about ten gigabytes.
 const MOST_UNKNOWNS: usize = 600_000;
@@ -24,6 +29,15 @@ const MESHES: Meshes<'static> = Meshes {
     sizes: &[8.0, 4.0, 2.0, 1.0],
     order: 1.0,
 };
+
+/// What is refined of cavities.
+const CAVITY_QUANTITIES: [(&str, fn(&CavityAnswer) -> f64); 2] = [
+    ("pressure of the cavities", |cavity| cavity.pressure),
+    // Flat sides cut off a part of both volumes.
+    ("growth of the cavities", |cavity| {
+        cavity.volume / cavity.volume_at_rest
+    }),
+];
 
 /// The force of a patch and the displacement of the body, to the relative `accuracy` [-] if four meshes give it; on a
 /// body too large for the last the remaining error is stated too.
@@ -60,6 +74,12 @@ pub fn solve(
                 vec![mean.sqrt()],
             ));
         }
+        for (name, of) in CAVITY_QUANTITIES {
+            let values: Vec<_> = answer.cavities.iter().map(of).collect();
+            if values.iter().any(|value| *value != 0.0) {
+                quantities.push(Quantity::new(name, values));
+            }
+        }
         Ok(Some((answer, quantities)))
     })
 }
@@ -88,7 +108,10 @@ impl SolidProblem {
     ) -> Result<SolidAnswer, Error> {
         progress(Progress { part: 0.0, mesh });
         let graded = context.mesh(mesh as i32 - 1)?;
-        let (tetrahedra, crossing) = (graded.mesh, graded.crossing);
+        let missing = context.missing(&graded.mesh);
+        let crossing = graded.crossing;
+        let tissue = Tissue::new(self, graded.mesh)?;
+        let tetrahedra = &tissue.mesh;
         let corners = tetrahedra.vertices().len();
         let unknowns = 4 * corners + 3 * tetrahedra.edges().len();
         if unknowns > MOST_UNKNOWNS {
@@ -97,20 +120,25 @@ impl SolidProblem {
                 most: MOST_UNKNOWNS,
             });
         }
-        let boundary = faces(&tetrahedra);
-        let held = Held::new(self, &tetrahedra, &boundary, context.center())?;
-        let forces = loads::of_boundary(&self.loads.forces, &tetrahedra, &boundary)?;
-        let places = loads::places(&self.points, &tetrahedra, &boundary)?;
+        let held = Held::new(self, tetrahedra, &tissue.outer, context.center())?;
+        let forces = loads::of_boundary(&self.loads.forces, tetrahedra, &tissue.outer)?;
+        let places = loads::places(&self.points, tetrahedra, &faces(tetrahedra))?;
         let frame = Frame::new(self.patch.as_ref());
-        let elements = frame.put(ElementMesh::from_tetrahedra(&tetrahedra));
+        let elements = frame.put(ElementMesh::from_tetrahedra(tetrahedra));
         let regions: Vec<u32> = (0..tetrahedra.tetrahedra().len())
             .map(|number| tetrahedra.region(number))
             .collect();
         let laws = std::iter::once(&self.law);
-        let laws = laws.chain(self.regions.iter().map(|region| &region.law));
+        // A cavity has no element that would take its law.
+        let laws = laws.chain(
+            self.regions
+                .iter()
+                .map(|region| region.law().unwrap_or(&self.law)),
+        );
         let laws: Vec<_> = laws.cloned().collect();
         let mut model =
-            FiniteElementModel::with_regions(elements, &laws, &regions, Formulation::Mixed)?;
+            FiniteElementModel::with_regions(elements, &laws, &regions, Formulation::Mixed)?
+                .with_fluids(tissue.fluids())?;
         if let Some(fibres) = &self.fibres {
             model = model.in_frames(|place| frame.turned(&fibres.at(&frame.back(place))));
         }
@@ -121,7 +149,10 @@ impl SolidProblem {
                 model.body_load(|element, _| {
                     let number = regions[element] as usize;
                     let region = number.checked_sub(1).and_then(|at| self.regions.get(at));
-                    region.map_or(weight.density, |region| region.density) * gravity
+                    region
+                        .and_then(SolidRegion::density)
+                        .unwrap_or(weight.density)
+                        * gravity
                 })
             }
             None => vec![0.0; model.size()],
@@ -135,6 +166,7 @@ impl SolidProblem {
             frame: &frame,
             held: &held,
             load: &load,
+            pressures: &tissue.pressures().collect::<Vec<_>>(),
         };
         let state = equilibrium(&model, &conditions, &mut workspace, &mut |part| {
             progress(Progress { part, mesh });
@@ -147,6 +179,7 @@ impl SolidProblem {
                 .map(|(node, part)| *part * answer.fields.displacements[*node])
                 .sum()
         };
+        answer.cavities = tissue.answers(&model, &state);
         answer.points = places.iter().map(moved).collect();
         answer.fields.regions = regions;
         if let Some(fibres) = &self.fibres {
@@ -154,7 +187,7 @@ impl SolidProblem {
         }
         answer.warnings.clone_from(&context.warnings);
         answer.warnings.extend(graded.warnings);
-        answer.warnings.extend(context.missing(&tetrahedra));
+        answer.warnings.extend(missing);
         if crossing > 0 {
             answer.warnings.push(format!(
                 "{crossing} edges of the mesh cross the edge of the patch, whose area is {:.3e} m²",
@@ -185,21 +218,40 @@ impl SolidProblem {
                 });
             }
         }
-        self.loads.check(self.patch.is_some())?;
+        let presses = |region: &SolidRegion| matches!(region.content, RegionContent::Cavity(CavityContent::Pressure(p)) if p != 0.0);
+        let is_pressed = self.regions.iter().any(presses);
+        self.loads.check(self.patch.is_some() || is_pressed)?;
         if self.loads.weight.is_some() {
-            let densities = self.regions.iter().map(|region| region.density);
+            let densities = self.regions.iter().filter_map(SolidRegion::density);
             loads::check_densities(densities)?;
         }
         if self.anchor.is_empty() {
             return Err(Error::NothingHeld);
         }
-        let laws = self.regions.iter().map(|region| &region.law);
+        let laws = self.regions.iter().filter_map(SolidRegion::law);
         let mut laws = std::iter::once(&self.law).chain(laws);
         if laws.any(|law| law.has_fibres()) && self.fibres.is_none() {
             let model = "a solid without `fibres`";
             return Err(FibreError::NoDirection { model }.into());
         }
         Ok(())
+    }
+}
+
+impl SolidRegion {
+    /// Its law, if it is of a tissue.
+    fn law(&self) -> Option<&Arc<dyn Law>> {
+        match &self.content {
+            RegionContent::Tissue { law, .. } => Some(law),
+            RegionContent::Cavity(_) => None,
+        }
+    }
+
+    fn density(&self) -> Option<f64> {
+        match self.content {
+            RegionContent::Tissue { density, .. } => Some(density),
+            RegionContent::Cavity(_) => None,
+        }
     }
 }
 

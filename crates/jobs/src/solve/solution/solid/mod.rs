@@ -11,14 +11,16 @@ use palpate_files::{Place, Tissue};
 use palpate_geometry::{VolumeRegion, read_tetrahedra};
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::solid::{
-    Body, Loads, MovedPatch, SolidError, SolidProblem, Weight, solve,
+    Body, Loads, MovedPatch, RegionContent, SolidError, SolidProblem, Weight, solve,
 };
 use palpate_mechanics::{Material, Vec3};
 use palpate_simulate::{held_region, read_organ};
 
 use super::super::problem::{Patch, Problem, Solid};
 use super::super::table::Table;
-use super::figures::{Displacements, Figures, PatchFigures, PointFigures, SolidFigures};
+use super::figures::{
+    CavityFigures, Displacements, Figures, PatchFigures, PointFigures, SolidFigures,
+};
 use super::{Solution, Wanted, plots, warnings};
 use crate::Error;
 use crate::solve::telling::Telling;
@@ -103,7 +105,11 @@ pub(crate) fn solution(
         let (fitted, law) = law_of(&problem.tissue)?;
         mechanical.law = law;
         for (region, part) in mechanical.regions.iter_mut().zip(&case.parts) {
-            region.law = law_of(&part.tissue)?.1;
+            if let (RegionContent::Tissue { law, .. }, Some(tissue)) =
+                (&mut region.content, part.tissue())
+            {
+                *law = law_of(tissue)?.1;
+            }
         }
         tissue = Some(Box::new(fitted));
         found = solved(&mechanical)?;
@@ -158,6 +164,20 @@ pub(crate) fn solution(
                 ),
         );
     }
+    let cavities = regions::cavities(case, &answer.cavities);
+    if !cavities.is_empty() {
+        let column = |of: fn(&CavityFigures) -> f64| cavities.iter().map(of).collect::<Vec<_>>();
+        tables.push(
+            Table::default()
+                .with_texts("cavity", cavities.iter().map(|cavity| cavity.name.clone()))
+                .with("pressure [Pa]", column(|cavity| cavity.pressure_pa))
+                .with(
+                    "volume at rest [cm³]",
+                    column(|cavity| 1e6 * cavity.volume_at_rest_m3),
+                )
+                .with("volume [cm³]", column(|cavity| 1e6 * cavity.volume_m3)),
+        );
+    }
     if case.fits {
         let parameters = tissue
             .as_deref()
@@ -183,6 +203,7 @@ pub(crate) fn solution(
             reaction_n: answer.reaction.into(),
             points,
             regions,
+            cavities,
             stiffness_factor: case.fits.then_some(factor),
             tissue: match case.fits {
                 true => Some(tissue.unwrap_or_else(|| Box::new(problem.tissue.clone()))),

@@ -3,12 +3,14 @@
 use palpate_files::quantity::rounded;
 use palpate_files::scene::PartPlace;
 use palpate_geometry::VolumeRegion;
-use palpate_mechanics::finite_elements::solid::{SolidFields, SolidPlace, SolidRegion};
+use palpate_mechanics::finite_elements::solid::{
+    CavityAnswer, RegionContent, SolidFields, SolidPlace, SolidRegion,
+};
 use palpate_mechanics::regions::{RegionError, RegionPlace};
 use palpate_simulate::read_inclusion;
 
-use super::super::super::problem::{Problem, Solid, SolidPart};
-use super::super::figures::RegionFigures;
+use super::super::super::problem::{Problem, Solid, SolidContent, SolidPart};
+use super::super::figures::{CavityFigures, RegionFigures};
 use super::bad;
 use crate::Error;
 
@@ -21,7 +23,6 @@ pub(super) fn solved(
     let mut taken = Vec::new();
     let mut regions = Vec::new();
     for part in parts {
-        warnings.extend(part.material.warnings.iter().cloned());
         let place = match &part.place {
             PartPlace::Layer(thickness) => SolidPlace::Bounded(RegionPlace::Layer(*thickness)),
             PartPlace::Inclusion(inclusion) => {
@@ -45,11 +46,18 @@ pub(super) fn solved(
                 SolidPlace::Cells(cells as u32)
             }
         };
-        regions.push(SolidRegion {
-            place,
-            law: part.material.law.clone(),
-            density: part.tissue.density_kg_m3.value,
-        });
+        let content = match &part.content {
+            SolidContent::Tissue(own) => {
+                let (tissue, material) = own.as_ref();
+                warnings.extend(material.warnings.iter().cloned());
+                RegionContent::Tissue {
+                    law: material.law.clone(),
+                    density: tissue.density_kg_m3.value,
+                }
+            }
+            SolidContent::Cavity(content) => RegionContent::Cavity(*content),
+        };
+        regions.push(SolidRegion { place, content });
     }
     if of_file.len() > 1 && taken.is_empty() {
         warnings.push(format!(
@@ -105,18 +113,31 @@ pub(super) fn figures(problem: &Problem, case: &Solid, fields: &SolidFields) -> 
         let [a, b, c, d] = [0, 1, 2, 3].map(|k| fields.positions[nodes[k] as usize]);
         volumes[*region as usize] += (b - a).dot(&(c - a).cross(&(d - a))) / 6.0;
     }
-    let body = std::iter::once(("body", &problem.tissue));
+    let body = std::iter::once(("body", Some(&problem.tissue)));
     let parts = case
         .parts
         .iter()
-        .map(|part| (part.name.as_str(), &part.tissue));
+        .map(|part| (part.name.as_str(), part.tissue()));
     let each = body.chain(parts).zip(volumes);
-    let each = each.map(|((name, tissue), volume_m3)| RegionFigures {
-        name: name.to_owned(),
-        law: tissue.elasticity.law().word(),
-        volume_m3,
+    let each = each.filter_map(|((name, tissue), volume_m3)| {
+        Some(RegionFigures {
+            name: name.to_owned(),
+            law: tissue?.elasticity.law().word(),
+            volume_m3,
+        })
     });
     each.filter(|region| region.volume_m3 > 0.0).collect()
+}
+
+/// What each cavity has become.
+pub(super) fn cavities(case: &Solid, answers: &[CavityAnswer]) -> Vec<CavityFigures> {
+    let each = answers.iter().map(|answer| CavityFigures {
+        name: case.parts[answer.region].name.clone(),
+        pressure_pa: answer.pressure,
+        volume_at_rest_m3: answer.volume_at_rest,
+        volume_m3: answer.volume,
+    });
+    each.collect()
 }
 
 /// What the solver says of a part of the body.

@@ -15,7 +15,7 @@ impl IndentationRun {
         let mut supports = Supports {
             held: self.rest.clone(),
             sliding: Vec::new(),
-            pressure: None,
+            pressures: Vec::new(),
             dead_load: None,
             relaxing,
             stray: None,

@@ -1,0 +1,116 @@
+//! Regions of a solid that are cavities: their tetrahedra are taken out, and what is left has walls around them.
+
+use std::collections::HashSet;
+
+use palpate_files::scene::CavityContent;
+use palpate_geometry::{NodeId, TetrahedronMesh};
+
+use super::super::cavity::Cavity;
+use super::super::model::{FiniteElementModel, FiniteElementState};
+use super::answer::CavityAnswer;
+use super::mesh::{Face, faces};
+use super::problem::{RegionContent, SolidProblem};
+use crate::Error;
+
+/// The tissue of a solid, on a mesh.
+pub(super) struct Tissue {
+    pub(super) mesh: TetrahedronMesh,
+    /// Its outer boundary.
+    pub(super) outer: Vec<Face>,
+    pub(super) cavities: Vec<SolidCavity>,
+}
+
+/// A cavity in a mesh.
+pub(super) struct SolidCavity {
+    /// Number of its region among those of the problem, from 0.
+    region: usize,
+    content: CavityContent,
+    wall: Cavity,
+}
+
+impl Tissue {
+    /// What of `mesh`, whose regions are those of the `problem` from 1, is no cavity.
+    pub(super) fn new(problem: &SolidProblem, mesh: TetrahedronMesh) -> Result<Self, Error> {
+        let regions = problem.regions.iter().enumerate();
+        let contents = regions.filter_map(|(region, own)| match own.content {
+            RegionContent::Cavity(content) => Some((region, content)),
+            RegionContent::Tissue { .. } => None,
+        });
+        let contents: Vec<_> = contents.collect();
+        if contents.is_empty() {
+            return Ok(Self {
+                outer: faces(&mesh),
+                mesh,
+                cavities: Vec::new(),
+            });
+        }
+        let numbers: Vec<_> = contents.iter().map(|(at, _)| *at as u32 + 1).collect();
+        let hollow = mesh.without(&numbers)?;
+        let sorted = |mut corners: [NodeId; 3]| {
+            corners.sort_unstable();
+            corners
+        };
+        let mut outer = faces(&hollow.mesh);
+        let mut cavities = Vec::new();
+        for ((region, content), wall) in contents.into_iter().zip(hollow.walls) {
+            let around: HashSet<_> = wall.into_iter().map(sorted).collect();
+            let is_wall = |face: &mut Face| around.contains(&sorted(face.corners));
+            let sides = outer.extract_if(.., is_wall).map(|face| {
+                // Seen from the body instead of from the cavity.
+                let [a, b, c, ab, bc, ca] = face.nodes.map(|node| node as u32);
+                vec![a, c, b, ca, bc, ab]
+            });
+            cavities.push(SolidCavity {
+                region,
+                content,
+                wall: Cavity {
+                    sides: sides.collect(),
+                },
+            });
+        }
+        Ok(Self {
+            mesh: hollow.mesh,
+            outer,
+            cavities,
+        })
+    }
+
+    /// The walls of cavities that are full of a fluid.
+    pub(super) fn fluids(&self) -> Vec<Cavity> {
+        let fluids = self
+            .cavities
+            .iter()
+            .filter(|own| own.content == CavityContent::Fluid);
+        fluids.map(|own| own.wall.clone()).collect()
+    }
+
+    /// The pressures [Pa] in the other cavities.
+    pub(super) fn pressures(&self) -> impl Iterator<Item = (&Cavity, f64)> {
+        self.cavities.iter().filter_map(|own| match own.content {
+            CavityContent::Pressure(pressure) => Some((&own.wall, pressure)),
+            CavityContent::Fluid => None,
+        })
+    }
+
+    /// What each cavity has become.
+    pub(super) fn answers(
+        &self,
+        model: &FiniteElementModel,
+        state: &FiniteElementState,
+    ) -> Vec<CavityAnswer> {
+        let mut fluids = model.fluids().map(|(_, unknown)| state.unknowns[unknown]);
+        let each = self.cavities.iter().map(|own| {
+            let volume_at_rest = own.wall.volume_at_rest(model);
+            CavityAnswer {
+                region: own.region,
+                pressure: match own.content {
+                    CavityContent::Pressure(pressure) => pressure,
+                    CavityContent::Fluid => fluids.next().unwrap_or(f64::NAN),
+                },
+                volume_at_rest,
+                volume: volume_at_rest + own.wall.growth(model, &state.unknowns),
+            }
+        });
+        each.collect()
+    }
+}
