@@ -40,6 +40,8 @@ ENGINES = {
     "drake_sap": "Drake SAP",
     "mujoco_flex": "MuJoCo flex",
     "pybullet_soft": "PyBullet",
+    "sofa_corotational": "SOFA corotational",
+    "sofa_linear": "SOFA linear",
 }
 OWN = {"palpate_local", "palpate_global", "palpate_nonlinear", "felupe_axisymmetric", "calculix_axisymmetric"}
 FINE = {"sphere_cube_045"}  # scenes that are run on the fine mesh too: minutes with some engines
