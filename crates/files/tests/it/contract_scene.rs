@@ -136,6 +136,11 @@ fn regions_that_are_none_are_refused() {
             "is a surface",
         ],
     );
+    let hollow = format!(
+        "[organ]\n{ORGAN}[[organ.region]]\ncavity = {{}}\nball = {{ center_m = [0, 0, 0.03], radius_m = 0.005 }}\n\
+         {NONLINEAR}"
+    );
+    refused(&hollow, &["`organ.region[0].cavity`", "have no cavities"]);
     refused(
         &region("layer = { thickness_m = 0.001 }\nsurface = \"a.stl\""),
         &["`organ.region[0].surface` is given although `organ.region[0].layer`"],

@@ -137,6 +137,32 @@ fn cube_in_millimetres(edge: f64) -> String {
 }
 
 /// A closed surface inside, with its unit. Judge: the volume of a cube.
+/// Judge: the pressure and the fluid that were asked for, and signs.
+#[test]
+fn a_region_is_a_cavity() {
+    let ball = "ball = { center_m = [0.0, 0.0, 0.0], radius_m = 0.02 }";
+    let problem = |cavity: &str, load: &str| {
+        format!("{BODY}{TISSUE}{load}[[region]]\nname = \"bladder\"\n{ball}\ncavity = {cavity}\n")
+    };
+    let only = |answer: &Value| {
+        let cavities = answer["cavities"].as_array().unwrap();
+        assert_eq!(cavities.len(), 1, "{answer}");
+        assert_eq!(cavities[0]["name"], "bladder");
+        // The tissue around it.
+        assert_eq!(answer["regions"].as_array().unwrap().len(), 1, "{answer}");
+        let number = |key: &str| cavities[0][key].as_f64().unwrap();
+        let grown = number("volume_m3") / number("volume_at_rest_m3") - 1.0;
+        (number("pressure_pa"), grown)
+    };
+    // A pressure loads the body by itself.
+    let (pressure, grown) = only(&solve(&problem("{ pressure_kpa = 0.5 }", "")));
+    assert_eq!(pressure, 500.0);
+    assert!(grown > 0.0, "{grown}");
+    let (pressure, grown) = only(&solve(&problem("{ constant_volume = true }", TOP)));
+    assert!(pressure > 0.0, "{pressure}");
+    assert!(grown.abs() < 1e-9, "{grown}");
+}
+
 #[test]
 fn a_region_is_the_inside_of_a_surface() {
     let folder = tempfile::tempdir().unwrap();
@@ -189,6 +215,10 @@ fn a_region_is_a_label_of_a_volume_mesh() {
     )
     .unwrap();
     let words = ["`region[0].label` is 8", "regions 3, 7"];
+    assert_refused(folder, &["solve", "problem.toml"], &words);
+    let hollow = problem("label").replace(STIFF, "cavity = {}\n");
+    fs::write(folder.join("problem.toml"), hollow).unwrap();
+    let words = ["`region[0].label` is \"below\"", "that tissue encloses"];
     assert_refused(folder, &["solve", "problem.toml"], &words);
 }
 
@@ -244,6 +274,22 @@ fn mistakes_are_named() {
     refused(
         &region("layer = { thickness_m = 0.01 }\nlabel = 2"),
         &["`region[0].label` is given although `region[0].layer`"],
+    );
+    refused(
+        &region("ball = { center_m = [0.0, 0.0, 0.0], radius_m = 0.01 }\ncavity = {}"),
+        &["`region[0].tissue` is given although `region[0].cavity`"],
+    );
+    let hollow = |keys: &str| with(&format!("{TOP}[[region]]\n{keys}\n"));
+    refused(
+        &hollow("layer = { thickness_m = 0.01 }\ncavity = {}"),
+        &["`region[0].layer`", "a shape that tissue encloses"],
+    );
+    refused(
+        &hollow(
+            "ball = { center_m = [0.0, 0.0, 0.0], radius_m = 0.01 }\n\
+             cavity = { pressure_pa = 10.0, constant_volume = true }",
+        ),
+        &["`region[0].cavity.constant_volume` is given although"],
     );
     refused(
         &region("label = 2"),

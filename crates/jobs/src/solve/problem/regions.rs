@@ -37,6 +37,15 @@ impl SolidPart {
             SolidContent::Cavity(_) => None,
         }
     }
+
+    /// Whether it is a cavity whose pressure loads the body.
+    pub(super) fn presses(&self) -> bool {
+        let pressure = match &self.content {
+            SolidContent::Cavity(CavityContent::Pressure(pressure)) => *pressure,
+            SolidContent::Cavity(CavityContent::Fluid) | SolidContent::Tissue(_) => 0.0,
+        };
+        pressure != 0.0
+    }
 }
 
 /// The tables of a problem that name parts.

@@ -169,11 +169,13 @@ impl Solid {
             parts: regions::from_keys(keys, folder, law)?,
             fits,
         };
-        if solid.patch.is_none() && solid.gravity.is_none() && solid.loads.is_empty() {
+        let is_loaded = solid.gravity.is_some() || !solid.loads.is_empty();
+        if solid.patch.is_none() && !is_loaded && !solid.parts.iter().any(SolidPart::presses) {
             return Err(keys.missing(
                 "patch",
                 "what moves or loads the body: `patch = { center_m = [0.0, 0.0, 0.05], radius_m = 0.003, \
-                 displacement_m = [0.0, 0.0, -0.001] }`, `gravity_m_per_s2 = [0.0, 0.0, -9.81]` or a `[[load]]`",
+                 displacement_m = [0.0, 0.0, -0.001] }`, `gravity_m_per_s2 = [0.0, 0.0, -9.81]`, a `[[load]]` or the \
+                 pressure of a `cavity`",
             )
             .into());
         }

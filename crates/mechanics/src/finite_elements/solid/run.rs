@@ -5,7 +5,7 @@ use palpate_files::scene::CavityContent;
 use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
 use super::super::mesh::ElementMesh;
 use super::super::model::{FiniteElementModel, FiniteElementWorkspace, Formulation};
-use super::answer::{CavityAnswer, SolidAnswer};
+use super::answer::SolidAnswer;
 use super::cavities::Tissue;
 use super::frame::{Conditions, Frame};
 use super::grading::MeshContext;
@@ -29,15 +29,6 @@ const MESHES: Meshes<'static> = Meshes {
     sizes: &[8.0, 4.0, 2.0, 1.0],
     order: 1.0,
 };
-
-/// What is refined of cavities.
-const CAVITY_QUANTITIES: [(&str, fn(&CavityAnswer) -> f64); 2] = [
-    ("pressure of the cavities", |cavity| cavity.pressure),
-    // Flat sides cut off a part of both volumes.
-    ("growth of the cavities", |cavity| {
-        cavity.volume / cavity.volume_at_rest
-    }),
-];
 
 /// The force of a patch and the displacement of the body, to the relative `accuracy` [-] if four meshes give it; on a
 /// body too large for the last the remaining error is stated too.
@@ -74,11 +65,17 @@ pub fn solve(
                 vec![mean.sqrt()],
             ));
         }
-        for (name, of) in CAVITY_QUANTITIES {
-            let values: Vec<_> = answer.cavities.iter().map(of).collect();
-            if values.iter().any(|value| *value != 0.0) {
-                quantities.push(Quantity::new(name, values));
-            }
+        // Zero has no relative error.
+        let pressures = answer.cavities.iter().map(|cavity| cavity.pressure);
+        let pressures: Vec<_> = pressures.filter(|pressure| *pressure != 0.0).collect();
+        if !pressures.is_empty() {
+            quantities.push(Quantity::new("pressure of the cavities", pressures));
+        }
+        if !answer.cavities.is_empty() {
+            // Flat sides cut off a part of both volumes.
+            let growths = answer.cavities.iter();
+            let growths = growths.map(|cavity| cavity.volume / cavity.volume_at_rest);
+            quantities.push(Quantity::new("growth of the cavities", growths.collect()));
         }
         Ok(Some((answer, quantities)))
     })

@@ -8,7 +8,7 @@ use std::path::Path;
 use palpate_files::quantity::rounded;
 use palpate_files::scene::{LengthUnit, Shape};
 use palpate_files::{Place, Tissue};
-use palpate_geometry::{VolumeRegion, read_tetrahedra};
+use palpate_geometry::{TetrahedronError, VolumeRegion, read_tetrahedra};
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::solid::{
     Body, Loads, MovedPatch, RegionContent, SolidError, SolidProblem, Weight, solve,
@@ -310,6 +310,21 @@ fn refused(problem: &Problem, case: &Solid, error: palpate_mechanics::Error) -> 
             })
         }
         palpate_mechanics::Error::Region(error) => regions::refused(case, error),
+        palpate_mechanics::Error::Tetrahedra(TetrahedronError::NotEnclosed { region }) => {
+            let part = region.checked_sub(1).map(|at| &case.parts[at as usize]);
+            part.map(|part| {
+                let found = format!(
+                    "{:?}, a cavity that reaches the surface or another one",
+                    part.name
+                );
+                bad(
+                    &part.found_at,
+                    &part.key,
+                    found,
+                    "a cavity that tissue encloses",
+                )
+            })
+        }
         _ => None,
     }
     .unwrap_or_else(|| problem.refused(error))
