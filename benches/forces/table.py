@@ -290,7 +290,8 @@ def drawn(scenes, results, path):
             if "force" not in answer:
                 continue
             force = 1e3 * np.array(answer["force"], dtype=float)
-            handles[title] = axis.plot(answer["time"], force, lw=0.9, color=f"C{number}")[0]
+            style = "-" if number < 10 else "-."
+            handles[title] = axis.plot(answer["time"], force, style, lw=0.9, color=f"C{number}")[0]
         axis.set_ylim(0, 1.6 * largest)
         axis.set_xlabel("time [s]", fontsize=7)
         axis.set_ylabel("force [mN]", fontsize=7)
