@@ -44,15 +44,18 @@ impl Cavity {
     pub fn volume(&self, model: &FiniteElementModel, unknowns: &[f64]) -> Result<f64, Error> {
         self.check(model)?;
         model.check_length("the list of unknowns", unknowns.len())?;
-        let each = |side: &Vec<u32>| side_volume(model, unknowns, side).volume;
-        Ok(self.sides.iter().map(each).sum())
+        Ok(self.enclosed(model, unknowns))
+    }
+
+    fn enclosed(&self, model: &FiniteElementModel, unknowns: &[f64]) -> f64 {
+        let each = self.sides.iter();
+        each.map(|side| side_volume(model, unknowns, side).volume)
+            .sum()
     }
 
     /// The volume that the wall encloses at rest [m³].
     pub(super) fn volume_at_rest(&self, model: &FiniteElementModel) -> f64 {
-        let rest = vec![0.0; model.size()];
-        let each = |side: &Vec<u32>| side_volume(model, &rest, side).volume;
-        self.sides.iter().map(each).sum()
+        self.enclosed(model, &vec![0.0; model.size()])
     }
 
     /// What the displacements add to it [m³]; to the first order where strain is small.
@@ -62,8 +65,7 @@ impl Cavity {
             self.add_gradient(model, unknowns, 1.0, &mut gradient);
             return gradient.iter().zip(unknowns).map(|(g, u)| g * u).sum();
         }
-        let each = |side: &Vec<u32>| side_volume(model, unknowns, side).volume;
-        self.sides.iter().map(each).sum::<f64>() - self.volume_at_rest(model)
+        self.enclosed(model, unknowns) - self.volume_at_rest(model)
     }
 
     /// Every side has the nodes of a side of the model's elements, and they exist.

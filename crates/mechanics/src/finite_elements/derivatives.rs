@@ -4,6 +4,7 @@
 
 use std::sync::Arc;
 
+use super::cavity::Cavity;
 use super::element::ElementKind;
 use super::mesh::ElementMesh;
 use super::model::{FiniteElementModel, FiniteElementWorkspace, Formulation};
@@ -41,6 +42,18 @@ fn body(kind: ElementKind) -> ElementMesh {
         }
     }
     mesh
+}
+
+/// Nodes in the number of a side, for a volume is one of any such nodes.
+fn wall(kind: ElementKind) -> Cavity {
+    let nodes = match kind {
+        ElementKind::Quad9 => 3,
+        ElementKind::Hex27 => 9,
+        ElementKind::Tet10 => 6,
+    };
+    Cavity {
+        sides: vec![(0..nodes).collect()],
+    }
 }
 
 struct Random(u64);
@@ -126,6 +139,7 @@ fn tangent_is_the_derivative_of_the_residual() {
         for (law, formulation) in cases() {
             let name = format!("{kind:?} {law:?} {formulation:?}");
             let model = FiniteElementModel::new(body(kind), law, formulation).unwrap();
+            let model = model.with_fluids(vec![wall(kind)]).unwrap();
             let mut workspace = FiniteElementWorkspace::new(&model).unwrap();
             let mut random = Random(5);
             let count = model.displacements();
