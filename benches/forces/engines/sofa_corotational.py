@@ -9,7 +9,6 @@ import SofaRuntime
 
 LAW = "corotated"
 MESHES = ["coarse", "fine"]
-METHOD = "polar"
 SETTINGS = """TetrahedronFEMForceField, method `polar`; FreeMotionAnimationLoop with EulerImplicitSolver, SparseLDLSolver,
 LinearSolverConstraintCorrection, BlockGaussSeidelConstraintSolver (1e-9, 1,000 iterations) and LocalMinDistance (alarm
 2 mm, contact 0.1 mm), no friction; density 1000 kg/m3, no gravity, steps of 10 ms. The skin meets the tool with its points;
@@ -34,7 +33,7 @@ def unfit(scene):
     return "no relaxation" if scene.prony else None
 
 
-def run(scene, mesh, method=METHOD):
+def run(scene, mesh, method="polar"):
     began = time.perf_counter()
     root = Sofa.Core.Node("root")
     root.gravity, root.dt = [0, 0, 0], STEP

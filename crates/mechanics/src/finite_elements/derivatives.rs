@@ -44,7 +44,7 @@ fn body(kind: ElementKind) -> ElementMesh {
     mesh
 }
 
-/// Nodes in the number of a side, for a volume is one of any such nodes.
+/// A wall of one side, of any nodes: what it encloses is a polynomial of their places whichever they are.
 fn wall(kind: ElementKind) -> Cavity {
     let nodes = match kind {
         ElementKind::Quad9 => 3,

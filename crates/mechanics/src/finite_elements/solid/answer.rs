@@ -53,6 +53,8 @@ pub struct SolidFields {
     pub positions: Vec<Vec3>,
     /// Ten nodes for each tetrahedron: corners, then the middles of 01, 12, 02, 03, 13, 23.
     pub cells: Vec<u32>,
+    /// Corners of the outer boundary, ascending; walls of cavities are not of it.
+    pub surface: Vec<usize>,
     /// The region of each tetrahedron: 0, or one of the problem from 1.
     pub regions: Vec<u32>,
     /// Displacement of each node [m].
@@ -103,6 +105,7 @@ impl SolidFields {
         Self {
             positions: nodes.iter().map(|x| frame.back(x)).collect(),
             cells: model.mesh.elements.clone(),
+            surface: Vec::new(),
             regions: Vec::new(),
             displacements: (0..nodes.len()).map(displacement).collect(),
             pressures: pressures(model, state),

@@ -1,6 +1,6 @@
 //! Regions of a solid that are cavities: their tetrahedra are taken out, and what is left has walls around them.
 
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 
 use palpate_files::scene::CavityContent;
 use palpate_geometry::{NodeId, TetrahedronMesh};
@@ -12,8 +12,8 @@ use super::mesh::{Face, faces};
 use super::problem::{RegionContent, SolidProblem};
 use crate::Error;
 
-/// The tissue of a solid, on a mesh.
-pub(super) struct Tissue {
+/// What of a mesh is tissue, and the cavities in it.
+pub(super) struct SolidMesh {
     pub(super) mesh: TetrahedronMesh,
     /// Its outer boundary.
     pub(super) outer: Vec<Face>,
@@ -28,7 +28,7 @@ pub(super) struct SolidCavity {
     wall: Cavity,
 }
 
-impl Tissue {
+impl SolidMesh {
     /// What of `mesh`, whose regions are those of the `problem` from 1, is no cavity.
     pub(super) fn new(problem: &SolidProblem, mesh: TetrahedronMesh) -> Result<Self, Error> {
         let regions = problem.regions.iter().enumerate();
@@ -73,6 +73,13 @@ impl Tissue {
             outer,
             cavities,
         })
+    }
+
+    /// Corners of its outer boundary, ascending.
+    pub(super) fn surface(&self) -> Vec<usize> {
+        let corners = self.outer.iter().flat_map(|face| face.corners);
+        let corners: BTreeSet<_> = corners.map(NodeId::index).collect();
+        corners.into_iter().collect()
     }
 
     /// The walls of cavities that are full of a fluid.

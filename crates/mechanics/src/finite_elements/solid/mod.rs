@@ -14,7 +14,7 @@
 //!
 //! *How we know*: `solid::a_patch_on_a_cube_is_a_punch` (axisymmetric elements and the half-space),
 //! `solid::a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space`,
-//! `solid::the_force_converges_with_the_edge_of_the_patch`, `thin_patch::a_patch_on_a_thin_edge_has_its_area`, and energy, equilibrium and turned bodies.
+//! `solid::the_force_converges_with_the_edge_of_the_patch`, `cavities::…`, `thin_patch::a_patch_on_a_thin_edge_has_its_area`, and energy, equilibrium and turned bodies.
 //!
 //! *Limits*: the side of the tool does not touch, and the patch neither grows nor shrinks. Where the
 //! anchor ends inside a side, it ends along whole triangles. A body without a surface of its own keeps

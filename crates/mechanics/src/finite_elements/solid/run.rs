@@ -6,7 +6,7 @@ use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
 use super::super::mesh::ElementMesh;
 use super::super::model::{FiniteElementModel, FiniteElementWorkspace, Formulation};
 use super::answer::SolidAnswer;
-use super::cavities::Tissue;
+use super::cavities::SolidMesh;
 use super::frame::{Conditions, Frame};
 use super::grading::MeshContext;
 use super::loads;
@@ -107,8 +107,8 @@ impl SolidProblem {
         let graded = context.mesh(mesh as i32 - 1)?;
         let missing = context.missing(&graded.mesh);
         let crossing = graded.crossing;
-        let tissue = Tissue::new(self, graded.mesh)?;
-        let tetrahedra = &tissue.mesh;
+        let solid = SolidMesh::new(self, graded.mesh)?;
+        let tetrahedra = &solid.mesh;
         let corners = tetrahedra.vertices().len();
         let unknowns = 4 * corners + 3 * tetrahedra.edges().len();
         if unknowns > MOST_UNKNOWNS {
@@ -117,8 +117,8 @@ impl SolidProblem {
                 most: MOST_UNKNOWNS,
             });
         }
-        let held = Held::new(self, tetrahedra, &tissue.outer, context.center())?;
-        let forces = loads::of_boundary(&self.loads.forces, tetrahedra, &tissue.outer)?;
+        let held = Held::new(self, tetrahedra, &solid.outer, context.center())?;
+        let forces = loads::of_boundary(&self.loads.forces, tetrahedra, &solid.outer)?;
         let places = loads::places(&self.points, tetrahedra, &faces(tetrahedra))?;
         let frame = Frame::new(self.patch.as_ref());
         let elements = frame.put(ElementMesh::from_tetrahedra(tetrahedra));
@@ -135,7 +135,7 @@ impl SolidProblem {
         let laws: Vec<_> = laws.cloned().collect();
         let mut model =
             FiniteElementModel::with_regions(elements, &laws, &regions, Formulation::Mixed)?
-                .with_fluids(tissue.fluids())?;
+                .with_fluids(solid.fluids())?;
         if let Some(fibres) = &self.fibres {
             model = model.in_frames(|place| frame.turned(&fibres.at(&frame.back(place))));
         }
@@ -163,7 +163,7 @@ impl SolidProblem {
             frame: &frame,
             held: &held,
             load: &load,
-            pressures: &tissue.pressures().collect::<Vec<_>>(),
+            pressures: &solid.pressures().collect::<Vec<_>>(),
         };
         let state = equilibrium(&model, &conditions, &mut workspace, &mut |part| {
             progress(Progress { part, mesh });
@@ -176,8 +176,9 @@ impl SolidProblem {
                 .map(|(node, part)| *part * answer.fields.displacements[*node])
                 .sum()
         };
-        answer.cavities = tissue.answers(&model, &state);
+        answer.cavities = solid.answers(&model, &state);
         answer.points = places.iter().map(moved).collect();
+        answer.fields.surface = solid.surface();
         answer.fields.regions = regions;
         if let Some(fibres) = &self.fibres {
             answer.fields.set_fibres(fibres);

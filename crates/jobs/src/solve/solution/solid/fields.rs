@@ -1,7 +1,5 @@
 //! What is to be seen of a solid: the body for ParaView, and how its surface moves.
 
-use std::collections::BTreeMap;
-
 use palpate_geometry::vtk::{CellKind, Cells, FieldValues, PointField, unstructured_grid};
 use palpate_mechanics::finite_elements::solid::SolidFields;
 
@@ -53,7 +51,7 @@ pub(super) fn grid(fields: &SolidFields) -> Vec<u8> {
 
 /// How far the surface moves: by its distance from the patch, or along the longest axis where there is none.
 pub(super) fn around_patch(case: &Solid, fields: &SolidFields) -> Plot {
-    let surface = boundary_nodes(&fields.cells);
+    let surface = &fields.surface;
     let step = surface.len() / POINTS + 1;
     let nodes = surface.iter().step_by(step);
     let nodes = nodes.map(|&node| (fields.positions[node], fields.displacements[node]));
@@ -101,23 +99,4 @@ pub(super) fn around_patch(case: &Solid, fields: &SolidFields) -> Plot {
         }],
         ..Plot::default()
     }
-}
-
-/// Corners of faces that belong to one tetrahedron only.
-fn boundary_nodes(cells: &[u32]) -> Vec<usize> {
-    let mut faces: BTreeMap<[u32; 3], u32> = BTreeMap::new();
-    for cell in cells.chunks_exact(10) {
-        for face in [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]] {
-            let mut corners = face.map(|corner: usize| cell[corner]);
-            corners.sort_unstable();
-            *faces.entry(corners).or_default() += 1;
-        }
-    }
-    let alone = faces.iter().filter(|(_, count)| **count == 1);
-    let mut nodes: Vec<usize> = alone
-        .flat_map(|(face, _)| face.map(|n| n as usize))
-        .collect();
-    nodes.sort_unstable();
-    nodes.dedup();
-    nodes
 }
