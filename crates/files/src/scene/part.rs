@@ -66,7 +66,7 @@ const CAVITY: Key = Key::table(
     "In place of a tissue: a cavity that tissue encloses, such as a gall bladder; `{}` is an empty one. For `palpate solve` \
      alone.",
 )
-.optional("{ pressure_pa = 2000.0 }", "it is of a tissue");
+.optional("", "it is of a tissue");
 
 impl BodyPart {
     /// The keys of a part of a body within a surface.
