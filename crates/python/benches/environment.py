@@ -1,8 +1,8 @@
 """Steps of the environments per second of processor time, alone and vectorised, by the same actions at random.
 
 Processor time is that of all threads together, so that other programs on the machine hardly matter; a vector divides its
-work among all cores. A step of an environment is ten of the model. With an argument "hybrid" the whole organs are prepared
-(minutes, once); without one the local model answers.
+work among all cores. A step of an environment is ten of the model. An argument "local", "hybrid" or "nonlinear" takes that
+model (some minutes, once) in place of each environment's own.
 """
 
 from __future__ import annotations
@@ -52,12 +52,11 @@ def together(environment: touch.TouchVectorEnv) -> float:
 
 def main() -> None:
     """Prints both for each task."""
-    model = sys.argv[1] if len(sys.argv) > 1 else "local"
-    print(f"{model} model, {COUNT} together; a step is ten of the model's; per second of one core")
+    model = sys.argv[1] if len(sys.argv) > 1 else None
+    print(f"{model or 'own'} model, {COUNT} together; a step is ten of the model's; per second of one core")
     for single, vector in FORMS:
-        scene = palpate.Scene.builtin(single.kind.builtin)
         begin = time.process_time()
-        one = single(scene, model=model)
+        one = single(model=model)
         prepared = time.process_time() - begin
         simulation = one.touch.simulation
         name = single.__name__.removesuffix("Env")

@@ -12,7 +12,7 @@
 mod many;
 mod single;
 
-pub(crate) use single::SingleFactors;
+pub(crate) use single::{SingleFactors, add};
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;

@@ -377,19 +377,20 @@ impl Contacts {
             self.columns.resize(first + self.nodes.len(), [0.0; 3]);
             let columns = &mut self.columns[first..];
             for &(node, weight) in own.nodes() {
-                let Some(place) = model.loaded[node as usize] else {
+                let Some(influence) = model.influence(node) else {
                     continue;
                 };
-                let influence = &model.influences[place as usize].values;
                 let q = &rotations[node as usize];
                 let f: [f32; 3] = std::array::from_fn(|i| {
                     let along = (0..3).map(|k| f64::from(q[3 * i + k]) * own.normal[k]);
                     (weight * along.sum::<f64>()) as f32
                 });
+                let [x, y, z] = influence.columns();
                 for (column, &there) in columns.iter_mut().zip(&self.nodes) {
-                    let g = &influence[9 * there as usize..][..9];
+                    let first = 3 * there as usize;
                     for (i, u) in column.iter_mut().enumerate() {
-                        *u += g[i] * f[0] + g[3 + i] * f[1] + g[6 + i] * f[2];
+                        let at = first + i;
+                        *u += x[at] * f[0] + y[at] * f[1] + z[at] * f[2];
                     }
                 }
             }

@@ -3,6 +3,7 @@ use nalgebra::{DMatrix, Matrix3};
 use super::constraints::Turned;
 use super::model::NonlinearModel;
 use crate::Vec3;
+use crate::linear::sparse::add;
 
 /// What a tool does to the body in a step: it moves the weighted mean of some nodes through its own compliance,
 ///
@@ -13,7 +14,7 @@ use crate::Vec3;
 /// along all directions, or along one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coupling<'a> {
-    /// Nodes with their weights w [-], whose sum is one.
+    /// Nodes with their weights w [-], whose sum is one. The model has to know that they can be loaded.
     pub nodes: &'a [(u32, f64)],
     /// The only direction along which it acts, of length one; all if there is none.
     pub along: Option<Vec3>,
@@ -183,10 +184,9 @@ pub(super) fn influence(
     let Turned { model, rotations } = body;
     let size = rotations.len() * 3;
     for &(node, weight) in nodes {
-        let Some(place) = model.loaded[node as usize] else {
+        let Some(influence) = model.influence(node) else {
             continue;
         };
-        let influence = &model.influences[place as usize].values;
         let q = &rotations[node as usize];
         for (column, direction) in columns.chunks_exact_mut(size).zip(directions) {
             // w Qᵀ times the direction.
@@ -194,11 +194,7 @@ pub(super) fn influence(
                 let sum: f64 = (0..3).map(|k| f64::from(q[3 * i + k]) * direction[k]).sum();
                 (weight * sum) as f32
             });
-            for (own, g) in column.chunks_exact_mut(3).zip(influence.chunks_exact(9)) {
-                for i in 0..3 {
-                    own[i] += g[i] * turned[0] + g[3 + i] * turned[1] + g[6 + i] * turned[2];
-                }
-            }
+            add(column, &turned, &influence.columns());
         }
     }
     for column in columns.chunks_exact_mut(size) {

@@ -200,7 +200,10 @@ impl NonlinearModel {
     }
 
     /// What a force on the weighted mean of `nodes` moves it by [m/N], by the factors of the stiffness at rest, turned as
-    /// the nodes are in `state`. Of nodes that cannot be loaded it has nothing.
+    /// the nodes are in `state`.
+    ///
+    /// # Panics
+    /// When one of the nodes can move and cannot be loaded.
     pub fn compliance(&self, state: &NonlinearState, nodes: &[(u32, f64)]) -> Matrix3<f64> {
         let rotation = |node: u32| {
             let q = &state.rotations[node as usize];
@@ -208,19 +211,32 @@ impl NonlinearModel {
         };
         let mut sum = Matrix3::zeros();
         for &(there, weight) in nodes {
-            let Some(place) = self.loaded[there as usize] else {
+            let Some(influence) = self.influence(there) else {
                 continue;
             };
-            let influence = &self.influences[place as usize].values;
             let mut own = Matrix3::zeros();
             for &(here, weight) in nodes {
-                let entries = &influence[9 * here as usize..][..9];
-                let by = Matrix3::from_iterator(entries.iter().map(|&entry| f64::from(entry)));
+                let columns = influence.columns();
+                let by = Matrix3::from_fn(|i, j| f64::from(columns[j][3 * here as usize + i]));
                 own += weight * rotation(here) * by;
             }
             sum += weight * own * rotation(there).transpose();
         }
         sum
+    }
+
+    /// What forces on a node do; none of a fixed one.
+    ///
+    /// # Panics
+    /// When it can move and cannot be loaded: without its influence, steps would not converge.
+    #[inline]
+    pub(super) fn influence(&self, node: u32) -> Option<&Influence> {
+        let place = self.loaded[node as usize];
+        assert!(
+            place.is_some() || self.rest.is_fixed(node),
+            "node {node} is loaded, and the model was made without that"
+        );
+        place.map(|place| &self.influences[place as usize])
     }
 
     /// Scratch for [`super::advance`] with at most `tools` tools.

@@ -21,8 +21,17 @@ pub(super) struct RestFactors {
 /// Displacements of all nodes from a unit force on one, in each direction.
 #[derive(Debug, Clone)]
 pub(super) struct Influence {
-    /// Nodes × 3 × 3 [m/N]: entry 9 a + 3 j + i is that of node a along i from a force along j.
-    pub(super) values: Vec<f32>,
+    /// 3 × nodes × 3 [m/N]: from a force along each direction those of all nodes.
+    values: Vec<f32>,
+}
+
+impl Influence {
+    /// Displacements of all nodes, one after the other, from a unit force along each direction [m/N].
+    #[inline(always)]
+    pub(super) fn columns(&self) -> [&[f32]; 3] {
+        let size = self.values.len() / 3;
+        [0, 1, 2].map(|j| &self.values[j * size..][..size])
+    }
 }
 
 impl RestFactors {
@@ -68,6 +77,10 @@ impl RestFactors {
         Ok((rest, influences))
     }
 
+    pub(super) fn is_fixed(&self, node: u32) -> bool {
+        self.places[node as usize].is_none()
+    }
+
     fn influences(&self, factors: &Factors, loaded: &[u32]) -> Vec<Influence> {
         let mut influences = Vec::with_capacity(loaded.len());
         for nodes in loaded.chunks(AT_ONCE / 3) {
@@ -80,12 +93,13 @@ impl RestFactors {
             }
             factors.solve_many(&mut sides, width);
             influences.extend((0..nodes.len()).map(|number| {
-                let mut values = vec![0.0; 9 * self.places.len()];
-                for (own, places) in values.chunks_exact_mut(9).zip(&self.places) {
+                let size = 3 * self.places.len();
+                let mut values = vec![0.0; 3 * size];
+                for (node, places) in self.places.iter().enumerate() {
                     for (i, place) in places.iter().flatten().enumerate() {
                         for j in 0..3 {
                             let side = *place as usize * width + 3 * number + j;
-                            own[3 * j + i] = sides[side] as f32;
+                            values[j * size + 3 * node + i] = sides[side] as f32;
                         }
                     }
                 }

@@ -108,7 +108,8 @@ impl Workspace {
 /// conjugate gradients.
 ///
 /// # Panics
-/// When `state` or `workspace` are those of another model or fewer tools, or a contact has no point.
+/// When `state` or `workspace` are those of another model or fewer tools, a contact has no point, or a tool loads a node that
+/// can move and cannot be loaded.
 pub fn advance(
     model: &NonlinearModel,
     conditions: Conditions<'_>,

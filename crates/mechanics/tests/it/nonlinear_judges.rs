@@ -51,7 +51,8 @@ const TUBE: Case = Case {
     is_fixed: |place| place.x < 1e-9 || place.x > 0.08 - 1e-9,
     load: (Vec3::new(0.04, 0.008, 0.0), Vec3::new(0.0, 1.0, 0.0), 8e-3),
     is_loaded: |place| {
-        let is_outside = place.y.hypot(place.z) > 0.008 - 1e-4;
+        // With twelve edges around, the middle of one is at 7.7 mm.
+        let is_outside = place.y.hypot(place.z) > 0.0065;
         is_outside && (place - Vec3::new(0.04, 0.008, 0.0)).norm() < 0.014
     },
     way: Vec3::new(0.0, 0.02, 0.0),
@@ -244,14 +245,14 @@ fn follow(cases: &[Case], ratios: &[f64], seconds: &[f64]) {
     assert!(misses.is_empty(), "{misses:?}");
 }
 
+/// As [`bars_and_tubes_of_every_law_follow_a_hand`], of one law and one body.
 #[test]
-#[ignore = "by hand: minutes; not run to its end yet"]
-fn a_pulled_tube_follows_a_hand() {
-    follow(&[TUBE], &[0.45], &[0.0]);
+fn a_bent_bar_follows_a_hand() {
+    follow(&[BAR], &[0.49], &[0.5]);
 }
 
 #[test]
-#[ignore = "by hand: minutes; not run to its end yet"]
+#[ignore = "slow: all laws and bodies, six minutes"]
 fn bars_and_tubes_of_every_law_follow_a_hand() {
     follow(&[BAR, TUBE], &[0.3, 0.45, 0.49], &[0.0, 0.5]);
 }

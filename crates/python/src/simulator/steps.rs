@@ -2,10 +2,14 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
+use std::time::{Duration, Instant};
 
 use super::stepper::Stepper;
 use super::{Model, poses};
 use crate::failure::Failure;
+
+/// So long one thread works alone: to start another takes about half of it.
+const ALONE: Duration = Duration::from_micros(100);
 
 /// Steps of all states, as rows of numbers that were checked.
 pub(super) struct Steps<'p> {
@@ -32,23 +36,33 @@ impl Steps<'_> {
         let (count, tools) = (steppers.len(), models[0].prepared.tools().len());
         let each = (self.steps * 3 * tools).max(1);
         let states = steppers.iter_mut().zip(forces.chunks_mut(each));
-        let queue = Mutex::new(states.enumerate());
+        let mut states = states.enumerate();
+        let go = |(number, (stepper, forces)): (usize, (&mut Stepper, &mut [f64]))| {
+            self.run_one(&models[number], (number, count), stepper, forces)
+        };
+        let begun = Instant::now();
+        while begun.elapsed() < ALONE {
+            match states.next() {
+                Some(next) => go(next)?,
+                None => return Ok(()),
+            }
+        }
+        let helpers = states.len().min(threads).saturating_sub(1);
+        let queue = Mutex::new(states);
         let failed = Mutex::new(None);
         let work = || {
             loop {
                 let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
-                let Some((number, (stepper, forces))) = next else {
+                let Some(next) = next else {
                     return;
                 };
-                if let Err(failure) =
-                    self.run_one(&models[number], (number, count), stepper, forces)
-                {
+                if let Err(failure) = go(next) {
                     *failed.lock().unwrap_or_else(PoisonError::into_inner) = Some(failure);
                 }
             }
         };
         thread::scope(|scope| {
-            for _ in 1..threads.min(count) {
+            for _ in 0..helpers {
                 // With fewer threads it takes longer, and comes to the same.
                 if thread::Builder::new().spawn_scoped(scope, work).is_err() {
                     break;

@@ -47,6 +47,13 @@ impl Swept {
 
     /// Whether a part of a triangle with these corners in the tool's frame lies between the jaws.
     pub(crate) fn reaches(&self, corners: &[Vec3; 3]) -> bool {
+        let beside = |axis: usize| {
+            let along = corners.map(|corner| corner[axis]);
+            along.iter().all(|&x| x < self.low[axis]) || along.iter().all(|&x| x > self.high[axis])
+        };
+        if (0..3).any(beside) {
+            return false;
+        }
         let step = (self.high.z - self.low.z) / (ALONG - 1) as f64;
         let mut along = (0..ALONG).map(|k| self.low.z + step * k as f64);
         along.any(|z| {

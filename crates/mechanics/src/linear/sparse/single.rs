@@ -70,8 +70,17 @@ impl SingleFactors {
     }
 
     /// Replaces `x`, in the order of elimination, by K⁻¹ x.
-    #[inline(always)]
     pub(crate) fn solve(&self, x: &mut [f32], scratch: &mut [f32]) {
+        let factors = self;
+        pulp::Arch::new().dispatch(Solve {
+            factors,
+            x,
+            scratch,
+        });
+    }
+
+    #[inline(always)]
+    fn both_ways(&self, x: &mut [f32], scratch: &mut [f32]) {
         for node in &self.nodes {
             let rows = &self.rows[node.rows.clone()];
             let below = &mut scratch[..rows.len()];
@@ -125,6 +134,23 @@ impl SingleFactors {
     }
 }
 
+/// A solution, compiled for the vector instructions of the processor, and apart from the rest of a step: as a part of it the
+/// compiler made its products number by number.
+struct Solve<'a> {
+    factors: &'a SingleFactors,
+    x: &'a mut [f32],
+    scratch: &'a mut [f32],
+}
+
+impl pulp::WithSimd for Solve<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        self.factors.both_ways(self.x, self.scratch);
+    }
+}
+
 /// Neighbouring columns of a supernode, which go through a vector together.
 struct Columns<'a, const N: usize> {
     first: usize,
@@ -163,7 +189,7 @@ impl<const N: usize> Columns<'_, N> {
 
 /// y ← y + Σ a x.
 #[inline(always)]
-fn add<const N: usize>(y: &mut [f32], a: &[f32; N], x: &[&[f32]; N]) {
+pub(crate) fn add<const N: usize>(y: &mut [f32], a: &[f32; N], x: &[&[f32]; N]) {
     let x = x.map(|x| &x[..y.len()]);
     for (i, y) in y.iter_mut().enumerate() {
         for k in 0..N {
