@@ -11,7 +11,6 @@ import sys
 import time
 
 import numpy as np
-import palpate
 import palpate.gym as touch
 from numpy.typing import NDArray
 
