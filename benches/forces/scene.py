@@ -101,6 +101,14 @@ class Scene:
         """A cut of the top along y: its distance from the tool along x, length and depth, none without."""
         return self.body.get("slit")
 
+    def not_a_press(self, grip="no grip in this adapter"):
+        """Why an adapter cannot do it that only presses elastic tissue without a slit; None if it can."""
+        if self.gripped:
+            return grip
+        if self.slit:
+            return "no contact of a slit's sides in this adapter"
+        return "no relaxation" if self.prony else None
+
     @property
     def lame(self):
         """mu and lambda [Pa] of Hooke's law."""

@@ -18,13 +18,7 @@ def version():
 
 
 def unfit(scene):
-    if scene.second:
-        return "a flex has one material"
-    if scene.gripped:
-        return "no grip in this adapter"
-    if scene.slit:
-        return "no contact of a slit's sides in this adapter"
-    return "no relaxation" if scene.prony else None
+    return "a flex has one material" if scene.second else scene.not_a_press()
 
 
 def model_of(scene, mesh):

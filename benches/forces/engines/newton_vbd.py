@@ -23,11 +23,7 @@ def version():
 
 
 def unfit(scene):
-    if scene.gripped:
-        return "its observables have no force on prescribed nodes"
-    if scene.slit:
-        return "no contact of a slit's sides in this adapter"
-    return "no relaxation" if scene.prony else None
+    return scene.not_a_press(grip="its observables have no force on prescribed nodes")
 
 
 def run(scene, mesh):

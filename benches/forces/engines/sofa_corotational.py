@@ -26,11 +26,7 @@ def version():
 
 
 def unfit(scene):
-    if scene.gripped:
-        return "no grip in this adapter"
-    if scene.slit:
-        return "no contact of a slit's sides in this adapter"
-    return "no relaxation" if scene.prony else None
+    return scene.not_a_press()
 
 
 def run(scene, mesh, method="polar"):

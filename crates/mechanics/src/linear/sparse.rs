@@ -12,7 +12,7 @@
 mod many;
 mod single;
 
-pub(crate) use single::{SingleFactors, add};
+pub(crate) use single::{SingleFactors, add_scaled};
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;

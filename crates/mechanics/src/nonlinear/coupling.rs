@@ -3,7 +3,7 @@ use nalgebra::{DMatrix, Matrix3};
 use super::constraints::Turned;
 use super::model::NonlinearModel;
 use crate::Vec3;
-use crate::linear::sparse::add;
+use crate::linear::sparse::add_scaled;
 
 /// What a tool does to the body in a step: it moves the weighted mean of some nodes through its own compliance,
 ///
@@ -194,7 +194,7 @@ pub(super) fn influence(
                 let sum: f64 = (0..3).map(|k| f64::from(q[3 * i + k]) * direction[k]).sum();
                 (weight * sum) as f32
             });
-            add(column, &turned, &influence.columns());
+            add_scaled(column, &turned, &influence.columns());
         }
     }
     for column in columns.chunks_exact_mut(size) {

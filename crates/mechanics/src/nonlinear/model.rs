@@ -214,9 +214,9 @@ impl NonlinearModel {
             let Some(influence) = self.influence(there) else {
                 continue;
             };
+            let columns = influence.columns();
             let mut own = Matrix3::zeros();
             for &(here, weight) in nodes {
-                let columns = influence.columns();
                 let by = Matrix3::from_fn(|i, j| f64::from(columns[j][3 * here as usize + i]));
                 own += weight * rotation(here) * by;
             }
@@ -225,7 +225,7 @@ impl NonlinearModel {
         sum
     }
 
-    /// What forces on a node do; none of a fixed one.
+    /// Displacements of all nodes from forces on one; none where that is fixed.
     ///
     /// # Panics
     /// When it can move and cannot be loaded: without its influence, steps would not converge.
@@ -234,7 +234,7 @@ impl NonlinearModel {
         let place = self.loaded[node as usize];
         assert!(
             place.is_some() || self.rest.is_fixed(node),
-            "node {node} is loaded, and the model was made without that"
+            "a tool loads node {node}, which this model was made without"
         );
         place.map(|place| &self.influences[place as usize])
     }

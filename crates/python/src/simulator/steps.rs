@@ -8,8 +8,8 @@ use super::stepper::Stepper;
 use super::{Model, poses};
 use crate::failure::Failure;
 
-/// So long one thread works alone: to start another takes about half of it.
-const ALONE: Duration = Duration::from_micros(100);
+/// The calling thread works for so long before it starts others, which takes about half of that for each.
+const BEFORE_THREADS: Duration = Duration::from_micros(100);
 
 /// Steps of all states, as rows of numbers that were checked.
 pub(super) struct Steps<'p> {
@@ -36,39 +36,32 @@ impl Steps<'_> {
         let (count, tools) = (steppers.len(), models[0].prepared.tools().len());
         let each = (self.steps * 3 * tools).max(1);
         let states = steppers.iter_mut().zip(forces.chunks_mut(each));
-        let mut states = states.enumerate();
-        let go = |(number, (stepper, forces)): (usize, (&mut Stepper, &mut [f64]))| {
-            self.run_one(&models[number], (number, count), stepper, forces)
-        };
-        let begun = Instant::now();
-        while begun.elapsed() < ALONE {
-            match states.next() {
-                Some(next) => go(next)?,
-                None => return Ok(()),
-            }
-        }
-        let helpers = states.len().min(threads).saturating_sub(1);
-        let queue = Mutex::new(states);
+        let queue = Mutex::new(states.enumerate());
         let failed = Mutex::new(None);
-        let work = || {
-            loop {
+        let work = |until: Option<Instant>| {
+            while until.is_none_or(|until| Instant::now() < until) {
                 let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
-                let Some(next) = next else {
+                let Some((number, (stepper, forces))) = next else {
                     return;
                 };
-                if let Err(failure) = go(next) {
+                if let Err(failure) =
+                    self.run_one(&models[number], (number, count), stepper, forces)
+                {
                     *failed.lock().unwrap_or_else(PoisonError::into_inner) = Some(failure);
                 }
             }
         };
+        work(Some(Instant::now() + BEFORE_THREADS));
+        let left = queue.lock().unwrap_or_else(PoisonError::into_inner).len();
         thread::scope(|scope| {
-            for _ in 0..helpers {
+            for _ in 1..threads.min(left) {
+                let work = || work(None);
                 // With fewer threads it takes longer, and comes to the same.
                 if thread::Builder::new().spawn_scoped(scope, work).is_err() {
                     break;
                 }
             }
-            work();
+            work(None);
         });
         let failed = failed.into_inner().unwrap_or_else(PoisonError::into_inner);
         failed.map_or(Ok(()), Err)

@@ -47,11 +47,12 @@ impl Swept {
 
     /// Whether a part of a triangle with these corners in the tool's frame lies between the jaws.
     pub(crate) fn reaches(&self, corners: &[Vec3; 3]) -> bool {
-        let beside = |axis: usize| {
+        // Of almost all triangles of an organ this is enough.
+        let misses = |axis: usize| {
             let along = corners.map(|corner| corner[axis]);
             along.iter().all(|&x| x < self.low[axis]) || along.iter().all(|&x| x > self.high[axis])
         };
-        if (0..3).any(beside) {
+        if (0..3).any(misses) {
             return false;
         }
         let step = (self.high.z - self.low.z) / (ALONG - 1) as f64;

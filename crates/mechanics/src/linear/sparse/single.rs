@@ -80,7 +80,7 @@ impl SingleFactors {
     }
 
     #[inline(always)]
-    fn both_ways(&self, x: &mut [f32], scratch: &mut [f32]) {
+    fn substitute(&self, x: &mut [f32], scratch: &mut [f32]) {
         for node in &self.nodes {
             let rows = &self.rows[node.rows.clone()];
             let below = &mut scratch[..rows.len()];
@@ -134,8 +134,8 @@ impl SingleFactors {
     }
 }
 
-/// A solution, compiled for the vector instructions of the processor, and apart from the rest of a step: as a part of it the
-/// compiler made its products number by number.
+/// Forward and back substitution, compiled for the vector instructions of the processor and apart from the rest of a step:
+/// inlined there, the products of back substitution are compiled without those instructions.
 struct Solve<'a> {
     factors: &'a SingleFactors,
     x: &'a mut [f32],
@@ -147,7 +147,7 @@ impl pulp::WithSimd for Solve<'_> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
-        self.factors.both_ways(self.x, self.scratch);
+        self.factors.substitute(self.x, self.scratch);
     }
 }
 
@@ -171,8 +171,8 @@ impl<const N: usize> Columns<'_, N> {
             values[j] = own[j] - before;
         }
         own.copy_from_slice(&values);
-        add(below, &values, &self.below);
-        add(top, &values.map(|value| -value), &self.top);
+        add_scaled(below, &values, &self.below);
+        add_scaled(top, &values.map(|value| -value), &self.top);
     }
 
     /// Their part of L⁻ᵀ.
@@ -189,7 +189,7 @@ impl<const N: usize> Columns<'_, N> {
 
 /// y ← y + Σ a x.
 #[inline(always)]
-pub(crate) fn add<const N: usize>(y: &mut [f32], a: &[f32; N], x: &[&[f32]; N]) {
+pub(crate) fn add_scaled<const N: usize>(y: &mut [f32], a: &[f32; N], x: &[&[f32]; N]) {
     let x = x.map(|x| &x[..y.len()]);
     for (i, y) in y.iter_mut().enumerate() {
         for k in 0..N {
