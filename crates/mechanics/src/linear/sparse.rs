@@ -10,9 +10,9 @@
 //! to notice.
 
 mod many;
-mod single;
+mod small;
 
-pub(crate) use single::{SingleFactors, add_scaled};
+pub(crate) use small::SmallFactors;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;

@@ -3,7 +3,6 @@ use nalgebra::{DMatrix, Matrix3};
 use super::constraints::Turned;
 use super::model::NonlinearModel;
 use crate::Vec3;
-use crate::linear::sparse::add_scaled;
 
 /// What a tool does to the body in a step: it moves the weighted mean of some nodes through its own compliance,
 ///
@@ -180,21 +179,14 @@ pub(super) fn influence(
     directions: &[Vec3],
     columns: &mut [f32],
 ) {
-    columns.fill(0.0);
-    let Turned { model, rotations } = body;
+    let rotations = body.rotations;
     let size = rotations.len() * 3;
-    for &(node, weight) in nodes {
-        let Some(influence) = model.influence(node) else {
-            continue;
-        };
-        let q = &rotations[node as usize];
-        for (column, direction) in columns.chunks_exact_mut(size).zip(directions) {
-            // w Qᵀ times the direction.
-            let turned: [f32; 3] = std::array::from_fn(|i| {
-                let sum: f64 = (0..3).map(|k| f64::from(q[3 * i + k]) * direction[k]).sum();
-                (weight * sum) as f32
-            });
-            add_scaled(column, &turned, &influence.columns());
+    match directions {
+        [x, y, z] => sum_influences(body, nodes, [x, y, z], columns),
+        directions => {
+            for (column, direction) in columns.chunks_exact_mut(size).zip(directions) {
+                sum_influences(body, nodes, [direction], column);
+            }
         }
     }
     for column in columns.chunks_exact_mut(size) {
@@ -202,6 +194,45 @@ pub(super) fn influence(
             let [x, y, z] = [own[0], own[1], own[2]];
             for i in 0..3 {
                 own[i] = q[i] * x + q[3 + i] * y + q[6 + i] * z;
+            }
+        }
+    }
+}
+
+/// `columns` = Σ_b w_b K⁻¹_ab Q_bᵀ along each of the directions, which all go through an influence together: reading them is
+/// what takes time.
+#[inline(always)]
+fn sum_influences<const N: usize>(
+    body: Turned<'_>,
+    nodes: &[(u32, f64)],
+    directions: [&Vec3; N],
+    columns: &mut [f32],
+) {
+    columns.fill(0.0);
+    let size = columns.len() / N;
+    for &(node, weight) in nodes {
+        let Some(influence) = body.model.influence(node) else {
+            continue;
+        };
+        let q = &body.rotations[node as usize];
+        // w Qᵀ times each direction.
+        let turned: [[f32; 3]; N] = directions.map(|direction| {
+            std::array::from_fn(|i| {
+                let sum: f64 = (0..3).map(|k| f64::from(q[3 * i + k]) * direction[k]).sum();
+                (weight * sum) as f32
+            })
+        });
+        let influences = influence.columns().map(|values| &values[..size]);
+        let mut rest = &mut *columns;
+        let mut sums: [&mut [f32]; N] = std::array::from_fn(|_| {
+            let (own, others) = std::mem::take(&mut rest).split_at_mut(size);
+            rest = others;
+            own
+        });
+        for i in 0..size {
+            let from = influences.map(|values| values[i]);
+            for (sum, by) in sums.iter_mut().zip(&turned) {
+                sum[i] += by[0] * from[0] + by[1] * from[1] + by[2] * from[2];
             }
         }
     }

@@ -4,7 +4,7 @@ use super::elements::{NODES, Nodal, Pack};
 use super::kernel::Deformed;
 use super::lanes::{LANES, Lanes};
 use crate::Error;
-use crate::linear::sparse::{Factors, Pattern, SingleFactors};
+use crate::linear::sparse::{Factors, Pattern, SmallFactors};
 
 /// Right sides that go through the factors at once.
 const AT_ONCE: usize = 48;
@@ -12,7 +12,7 @@ const AT_ONCE: usize = 48;
 /// Factors of the stiffness at rest, without the fixed nodes.
 #[derive(Debug, Clone)]
 pub(super) struct RestFactors {
-    factors: SingleFactors,
+    factors: SmallFactors,
     /// Where the three displacements of each node stand in the order of elimination; none of a fixed node.
     places: Vec<Option<[u32; 3]>>,
     unknowns: usize,
@@ -70,7 +70,7 @@ impl RestFactors {
         };
         let rest = Self {
             places: numbers.into_iter().map(place).collect(),
-            factors: SingleFactors::new(&factors),
+            factors: SmallFactors::new(&factors),
             unknowns,
         };
         let influences = rest.influences(&factors, loaded);
