@@ -241,7 +241,11 @@ impl pulp::WithSimd for Solve<'_> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, simd: S) {
-        self.factors.substitute(simd, self.x, self.scratch);
+        match S::F32_LANES <= ROWS / 2 {
+            true => self.factors.substitute(simd, self.x, self.scratch),
+            // Vectors longer than half a tile, which another crate may ask pulp for.
+            false => self.factors.substitute(pulp::Scalar::new(), self.x, self.scratch),
+        }
     }
 }
 
