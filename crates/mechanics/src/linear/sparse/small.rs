@@ -244,7 +244,9 @@ impl pulp::WithSimd for Solve<'_> {
         match S::F32_LANES <= ROWS / 2 {
             true => self.factors.substitute(simd, self.x, self.scratch),
             // Vectors longer than half a tile, which another crate may ask pulp for.
-            false => self.factors.substitute(pulp::Scalar::new(), self.x, self.scratch),
+            false => self
+                .factors
+                .substitute(pulp::Scalar::new(), self.x, self.scratch),
         }
     }
 }
@@ -290,7 +292,8 @@ impl<const N: usize> Columns<'_, N> {
     fn backward<S: pulp::Simd>(&self, simd: S, values: &mut [f32]) {
         let mut sums = [simd.splat_f32s(0.0); N];
         let rows = values[self.below.clone()].as_chunks::<ROWS>().0;
-        for (rows, tiles) in rows.iter().zip(self.tiles) {
+        // From below: the rows of the supernode itself wait for the blocks after this one.
+        for (rows, tiles) in rows.iter().zip(self.tiles).rev() {
             let (low, high) = rows.split_at(ROWS / 2);
             let (low, high) = (S::as_simd_f32s(low).0, S::as_simd_f32s(high).0);
             let words = tiles.each_ref().map(|tile| S::as_simd_u32s(tile).0);
