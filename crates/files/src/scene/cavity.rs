@@ -5,8 +5,8 @@ use crate::{Domain, Error, Key, Keys};
 pub enum CavityContent {
     /// A constant pressure [Pa], which is 0 where the cavity is empty.
     Pressure(f64),
-    /// A fluid that keeps its volume.
-    Fluid,
+    /// A fluid that keeps its volume, under a pressure [Pa] while nothing else loads the body.
+    Fluid(f64),
 }
 
 impl CavityContent {
@@ -15,12 +15,13 @@ impl CavityContent {
         Key::number(
             "pressure_pa",
             Domain::PRESSURE_OR_SUCTION,
-            "The pressure on its wall, which stays constant.",
+            "The pressure on its wall, which stays constant; of a fluid that keeps its volume, its pressure before anything \
+             else loads the body.",
         )
         .optional("2000.0", "it is empty"),
         Key::truth(
             "constant_volume",
-            "Whether it is full of a fluid that keeps its volume; its pressure at rest is zero.",
+            "Whether it is full of a fluid that keeps its volume.",
         )
         .default("false"),
     ];
@@ -28,15 +29,19 @@ impl CavityContent {
     /// What a table `cavity` says.
     ///
     /// # Errors
-    /// When it has a pressure and keeps its volume.
+    /// When a key has a value that it cannot have.
     pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
-        let pressure = keys.number("pressure_pa")?;
-        match keys.truth("constant_volume")?.unwrap_or(false) {
-            false => Ok(Self::Pressure(pressure.unwrap_or(0.0))),
-            true => match pressure {
-                None => Ok(Self::Fluid),
-                Some(_) => Err(keys.given_twice("pressure_pa", "constant_volume")),
-            },
+        let pressure = keys.number("pressure_pa")?.unwrap_or(0.0);
+        Ok(match keys.truth("constant_volume")?.unwrap_or(false) {
+            false => Self::Pressure(pressure),
+            true => Self::Fluid(pressure),
+        })
+    }
+
+    /// The pressure that loads the body by itself [Pa]; zero where there is none.
+    pub fn own_pressure(&self) -> f64 {
+        match *self {
+            Self::Pressure(pressure) | Self::Fluid(pressure) => pressure,
         }
     }
 }

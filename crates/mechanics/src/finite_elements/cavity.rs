@@ -5,8 +5,8 @@
 //! an axisymmetric wall, and V = ⅓ ∫ x · n da over a solid's: the same as the force of the pressure
 //! wherever the edge of the wall is held or lies in a plane of symmetry through the origin.
 //!
-//! A fluid that keeps its volume makes stationary Π − p (V − V₀) with its pressure p as an unknown of its own, whose row of the
-//! matrix carries −ε V₀/μ for the reason given in `assembly`.
+//! A fluid that keeps its volume V₁ makes stationary Π − p (V − V₁) with its pressure p as an unknown of its own, whose row of
+//! the matrix carries −ε V₀/μ for the reason given in `assembly`.
 //!
 //! *How we know*: `tube::lame`, `tube::follows_the_closed_form`, `hexahedra::pressed_ring_is_lames`, `cavities::…`.
 //!
@@ -141,12 +141,13 @@ impl Cavity {
         }
     }
 
-    /// Adds the pressure of a fluid that keeps its volume, which is the unknown of this `number`.
+    /// Adds the pressure of a fluid that keeps its volume, which is the unknown of this `number`, in a cavity that the fluid
+    /// has made larger by `growth` [m³].
     pub(super) fn add_constraint(
         &self,
         model: &FiniteElementModel,
         unknowns: &[f64],
-        number: usize,
+        (number, growth): (usize, f64),
         workspace: &mut FiniteElementWorkspace,
     ) {
         let pressure = unknowns[number];
@@ -162,7 +163,7 @@ impl Cavity {
             residual[column] -= pressure * slope;
             tangent[model.pattern.index(number, column)] -= slope;
         }
-        residual[number] -= change;
+        residual[number] -= change - growth;
         tangent[model.pattern.index(number, number)] -=
             PRESSURE_REGULARIZATION * at_rest / model.shear_modulus;
         self.add_curvature(model, unknowns, -pressure, tangent);

@@ -128,8 +128,8 @@ pub(super) fn assemble(
         cavity.add_gradient(model, unknowns, -pressure, &mut workspace.residual);
         cavity.add_curvature(model, unknowns, -pressure, &mut workspace.tangent);
     }
-    for (fluid, number) in model.fluids() {
-        fluid.add_constraint(model, unknowns, number, workspace);
+    for ((fluid, number), growth) in model.fluids().zip(supports.growths()) {
+        fluid.add_constraint(model, unknowns, (number, growth), workspace);
     }
     if let Some((load, times)) = supports.dead_load {
         for (residual, load) in workspace.residual.iter_mut().zip(load) {

@@ -338,6 +338,9 @@ impl<'a> Path<'a> {
         for (cavity, pressure) in &self.loads.pressures {
             cavity.add_gradient(model, &state.unknowns, *pressure, &mut push);
         }
+        for ((_, number), growth) in model.fluids().zip(self.loads.growths()) {
+            push[number] -= growth;
+        }
         if let Some((load, times)) = self.loads.dead_load {
             push.iter_mut().zip(load).for_each(|(q, b)| *q += times * b);
         }
@@ -395,6 +398,7 @@ fn scaled<'a>(loads: &Supports<'a>, factor: f64) -> Supports<'a> {
     for (_, pressure) in &mut all.pressures {
         *pressure *= factor;
     }
+    all.growths.iter_mut().for_each(|growth| *growth *= factor);
     if let Some((_, times)) = &mut all.dead_load {
         *times *= factor;
     }

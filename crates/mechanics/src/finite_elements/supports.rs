@@ -17,6 +17,8 @@ pub struct Supports<'a> {
     pub sliding: Vec<Sliding>,
     /// Pressures on the walls of cavities that follow them [Pa].
     pub pressures: Vec<(&'a Cavity, f64)>,
+    /// By how much fluids have made their cavities larger [m³], in the order of the cavities; zero of those beyond.
+    pub growths: Vec<f64>,
     /// Forces at the unknowns that do not turn with the body [N], of
     /// [`FiniteElementModel::body_load`], and how many times they act.
     pub dead_load: Option<(&'a [f64], f64)>,
@@ -150,6 +152,7 @@ impl<'a> Supports<'a> {
             held: vec![None; model.displacements()],
             sliding: Vec::new(),
             pressures: Vec::new(),
+            growths: Vec::new(),
             dead_load: None,
             relaxing: None,
             stray: None,
@@ -180,6 +183,11 @@ impl<'a> Supports<'a> {
     pub fn press(mut self, cavity: &'a Cavity, pressure: f64) -> Self {
         self.pressures.push((cavity, pressure));
         self
+    }
+
+    /// The growth of each cavity that is full of a fluid [m³], endlessly.
+    pub(super) fn growths(&self) -> impl Iterator<Item = f64> + '_ {
+        self.growths.iter().copied().chain(std::iter::repeat(0.0))
     }
 
     /// With `load` [N] at the unknowns.

@@ -97,12 +97,51 @@ fn an_inflated_ball_is_that_of_the_closed_form() {
 #[test]
 fn a_fluid_in_a_pulled_body_has_eshelbys_pressure() {
     let mut problem = pulled(linear(1.0, 0.0), place());
-    problem.regions = vec![cavity(place(), CavityContent::Fluid)];
+    problem.regions = vec![cavity(place(), CavityContent::Fluid(0.0))];
     problem.points.clear();
     let found = only(&problem, 0);
     assert!((found.pressure / -1e-3 - 1.0).abs() < 0.02);
     // What the small block of the pressure leaves.
     assert!((found.volume / found.volume_at_rest - 1.0).abs() < 1e-9);
+}
+
+/// Judge: the same ball under a constant pressure, which is solved without an unknown of the fluid. The fluid then keeps its
+/// volume while the body is pulled.
+#[test]
+fn a_fluid_fills_its_cavity_up_to_its_pressure() {
+    let law = Arc::new(NeoHookean::incompressible(0.5).unwrap());
+    let pressure = 0.9;
+    let pressed = only(&hollow(law.clone(), pressure), -1);
+    let mut problem = hollow(law, 0.0);
+    problem.regions = vec![cavity(place(), CavityContent::Fluid(pressure))];
+    let full = only(&problem, -1);
+    // What Newton's method leaves: its tolerance is 1e-7 of the reactions.
+    assert!((full.pressure / pressure - 1.0).abs() < 1e-6);
+    assert!((full.volume / pressed.volume - 1.0).abs() < 1e-6);
+    assert!(full.volume / full.volume_at_rest > 1.5);
+    problem.loads = pulled(linear(1.0, 0.3), place()).loads;
+    let loaded = only(&problem, -1);
+    assert!((loaded.volume / full.volume - 1.0).abs() < 1e-6);
+    assert!(loaded.pressure < (1.0 - 1e-4) * full.pressure);
+}
+
+/// Judge: superposition, at small strain.
+#[test]
+fn the_pressure_of_a_fluid_and_that_of_a_load_add_up() {
+    let own = 2e-3;
+    let of = |pressure: f64, is_pulled: bool| {
+        let mut problem = pulled(linear(1.0, 0.3), place());
+        problem.regions = vec![cavity(place(), CavityContent::Fluid(pressure))];
+        problem.points.clear();
+        if !is_pulled {
+            problem.loads = Loads::default();
+        }
+        only(&problem, -1).pressure
+    };
+    let (alone, by_load, both) = (of(own, false), of(0.0, true), of(own, true));
+    // What the refinement of the linear solution leaves.
+    assert!((alone / own - 1.0).abs() < 1e-6);
+    assert!(((both - alone) / by_load - 1.0).abs() < 1e-6);
 }
 
 /// Judge: tissue of a ten-thousandth of the stiffness that keeps its volume, in place of the fluid: other elements, another
@@ -127,7 +166,7 @@ fn a_fluid_is_very_soft_tissue_that_keeps_its_volume() {
         density: 1000.0,
     };
     let soft = pressed(soft);
-    let fluid = pressed(RegionContent::Cavity(CavityContent::Fluid));
+    let fluid = pressed(RegionContent::Cavity(CavityContent::Fluid(0.0)));
     let empty = pressed(RegionContent::Cavity(CavityContent::Pressure(0.0)));
     let forces = [&soft, &fluid, &empty].map(|answer| answer.force_along);
     println!("{forces:?} {:?} {:?}", fluid.cavities, empty.cavities);

@@ -285,13 +285,6 @@ fn mistakes_are_named() {
         &["`region[0].layer`", "a shape that tissue encloses"],
     );
     refused(
-        &hollow(
-            "ball = { center_m = [0.0, 0.0, 0.0], radius_m = 0.01 }\n\
-             cavity = { pressure_pa = 10.0, constant_volume = true }",
-        ),
-        &["`region[0].cavity.constant_volume` is given although"],
-    );
-    refused(
         &region("label = 2"),
         &["`region[0].label` is 2", "no file of tetrahedra"],
     );

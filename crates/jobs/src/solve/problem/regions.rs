@@ -40,11 +40,10 @@ impl SolidPart {
 
     /// Whether it is a cavity whose pressure loads the body.
     pub(super) fn presses(&self) -> bool {
-        let pressure = match &self.content {
-            SolidContent::Cavity(CavityContent::Pressure(pressure)) => *pressure,
-            SolidContent::Cavity(CavityContent::Fluid) | SolidContent::Tissue(_) => 0.0,
-        };
-        pressure != 0.0
+        match &self.content {
+            SolidContent::Cavity(content) => content.own_pressure() != 0.0,
+            SolidContent::Tissue(_) => false,
+        }
     }
 }
 

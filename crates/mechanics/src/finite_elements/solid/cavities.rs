@@ -82,20 +82,19 @@ impl SolidMesh {
         corners.into_iter().collect()
     }
 
-    /// The walls of cavities that are full of a fluid.
-    pub(super) fn fluids(&self) -> Vec<Cavity> {
-        let fluids = self
-            .cavities
-            .iter()
-            .filter(|own| own.content == CavityContent::Fluid);
-        fluids.map(|own| own.wall.clone()).collect()
+    /// The walls of cavities that are full of a fluid, with its pressure while nothing else loads the body [Pa].
+    pub(super) fn fluids(&self) -> impl Iterator<Item = (&Cavity, f64)> {
+        self.cavities.iter().filter_map(|own| match own.content {
+            CavityContent::Fluid(pressure) => Some((&own.wall, pressure)),
+            CavityContent::Pressure(_) => None,
+        })
     }
 
     /// The pressures [Pa] in the other cavities.
     pub(super) fn pressures(&self) -> impl Iterator<Item = (&Cavity, f64)> {
         self.cavities.iter().filter_map(|own| match own.content {
             CavityContent::Pressure(pressure) => Some((&own.wall, pressure)),
-            CavityContent::Fluid => None,
+            CavityContent::Fluid(_) => None,
         })
     }
 
@@ -112,7 +111,7 @@ impl SolidMesh {
                 region: own.region,
                 pressure: match own.content {
                     CavityContent::Pressure(pressure) => pressure,
-                    CavityContent::Fluid => fluids.next().unwrap_or(f64::NAN),
+                    CavityContent::Fluid(_) => fluids.next().unwrap_or(f64::NAN),
                 },
                 volume_at_rest,
                 volume: volume_at_rest + own.wall.growth(model, &state.unknowns),

@@ -51,6 +51,14 @@ impl Frame {
         }
     }
 
+    /// The same with a patch that is free.
+    pub(super) fn without_patch(&self) -> Self {
+        Self {
+            held: [false; 3],
+            ..*self
+        }
+    }
+
     pub(super) fn put(&self, mut mesh: ElementMesh) -> ElementMesh {
         for node in &mut mesh.nodes {
             *node = self.turn * *node;
@@ -83,6 +91,8 @@ pub(super) struct Conditions<'a> {
     pub(super) load: &'a [f64],
     /// Whole pressures in cavities [Pa].
     pub(super) pressures: &'a [(&'a Cavity, f64)],
+    /// Whole growths of the cavities that are full of a fluid [m³].
+    pub(super) growths: &'a [f64],
 }
 
 impl Conditions<'_> {
@@ -93,8 +103,10 @@ impl Conditions<'_> {
             held,
             load,
             pressures,
+            growths,
         } = self;
         let mut supports = Supports::none(model);
+        supports.growths = growths.iter().map(|growth| part * growth).collect();
         supports.dead_load = Some((load, part));
         for (cavity, pressure) in *pressures {
             supports = supports.press(cavity, part * pressure);

@@ -1,7 +1,6 @@
 use std::sync::Arc;
 
-use palpate_files::scene::CavityContent;
-
+use super::super::cavity::Cavity;
 use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
 use super::super::mesh::ElementMesh;
 use super::super::model::{FiniteElementModel, FiniteElementWorkspace, Formulation};
@@ -134,11 +133,23 @@ impl SolidProblem {
         );
         let laws: Vec<_> = laws.cloned().collect();
         let mut model =
-            FiniteElementModel::with_regions(elements, &laws, &regions, Formulation::Mixed)?
-                .with_fluids(solid.fluids())?;
+            FiniteElementModel::with_regions(elements, &laws, &regions, Formulation::Mixed)?;
         if let Some(fibres) = &self.fibres {
             model = model.in_frames(|place| frame.turned(&fibres.at(&frame.back(place))));
         }
+        let fluids: Vec<_> = solid.fluids().collect();
+        let is_under_pressure = fluids.iter().any(|(_, pressure)| *pressure != 0.0);
+        // The fluids' volumes are found first.
+        let begin = if is_under_pressure { 0.5 } else { 0.0 };
+        let growths = match is_under_pressure {
+            true => growths(&model, (&frame, &held), &fluids, &mut |part| {
+                let part = begin * part;
+                progress(Progress { part, mesh });
+            })?,
+            false => Vec::new(),
+        };
+        let model =
+            model.with_fluids(fluids.into_iter().map(|(wall, _)| wall.clone()).collect())?;
         let mut workspace = FiniteElementWorkspace::new(&model)?;
         let mut load = match &self.loads.weight {
             Some(weight) => {
@@ -164,8 +175,10 @@ impl SolidProblem {
             held: &held,
             load: &load,
             pressures: &solid.pressures().collect::<Vec<_>>(),
+            growths: &growths,
         };
         let state = equilibrium(&model, &conditions, &mut workspace, &mut |part| {
+            let part = begin + (1.0 - begin) * part;
             progress(Progress { part, mesh });
         })?;
         let along = self.patch.map(|patch| patch.displacement);
@@ -216,7 +229,7 @@ impl SolidProblem {
                 });
             }
         }
-        let presses = |region: &SolidRegion| matches!(region.content, RegionContent::Cavity(CavityContent::Pressure(p)) if p != 0.0);
+        let presses = |region: &SolidRegion| matches!(&region.content, RegionContent::Cavity(content) if content.own_pressure() != 0.0);
         let is_pressed = self.regions.iter().any(presses);
         self.loads.check(self.patch.is_some() || is_pressed)?;
         if self.loads.weight.is_some() {
@@ -234,6 +247,28 @@ impl SolidProblem {
         }
         Ok(())
     }
+}
+
+/// By how much the cavities of a body that nothing else loads grow under the pressures of their `fluids` [m³].
+fn growths(
+    model: &FiniteElementModel,
+    (frame, held): (&Frame, &Held),
+    fluids: &[(&Cavity, f64)],
+    at_part: &mut dyn FnMut(f64),
+) -> Result<Vec<f64>, Error> {
+    let conditions = Conditions {
+        frame: &frame.without_patch(),
+        held,
+        load: &vec![0.0; model.size()],
+        pressures: fluids,
+        growths: &[],
+    };
+    let mut workspace = FiniteElementWorkspace::new(model)?;
+    let state = equilibrium(model, &conditions, &mut workspace, at_part)?;
+    let walls = fluids.iter().map(|(wall, _)| wall);
+    Ok(walls
+        .map(|wall| wall.growth(model, &state.unknowns))
+        .collect())
 }
 
 impl SolidRegion {

@@ -13,6 +13,7 @@ impl IndentationRun {
         relaxing: Option<&'a RelaxationStep>,
     ) -> Supports<'a> {
         let mut supports = Supports {
+            growths: Vec::new(),
             held: self.rest.clone(),
             sliding: Vec::new(),
             pressures: Vec::new(),
