@@ -64,6 +64,8 @@ impl RestFactors {
                 fault: "its stiffness at rest is not positive",
             });
         }
+        // The influences of tools and contacts have to be those of the preconditioner.
+        factors.round();
         let order = factors.places();
         let place = |number: Option<u32>| {
             number.map(|n| [0, 1, 2].map(|axis| order[n as usize + axis] as u32))
