@@ -7,6 +7,7 @@
     clippy::unwrap_used,
     reason = "a bench that fails to unwrap has failed, and tells more than times"
 )]
+#![allow(clippy::print_stdout, reason = "criterion prints no percentiles")]
 
 use std::hint::black_box;
 use std::time::Instant;
