@@ -141,13 +141,13 @@ impl Cavity {
         }
     }
 
-    /// Adds the pressure of a fluid that keeps its volume, which is the unknown of this `number`, in a cavity that the fluid
-    /// has made larger by `growth` [m³].
+    /// Adds the pressure of a fluid that keeps its volume, which is the unknown of this `number`; how much fluid there is
+    /// beyond the volume at rest is a load.
     pub(super) fn add_constraint(
         &self,
         model: &FiniteElementModel,
         unknowns: &[f64],
-        (number, growth): (usize, f64),
+        number: usize,
         workspace: &mut FiniteElementWorkspace,
     ) {
         let pressure = unknowns[number];
@@ -163,7 +163,7 @@ impl Cavity {
             residual[column] -= pressure * slope;
             tangent[model.pattern.index(number, column)] -= slope;
         }
-        residual[number] -= change - growth;
+        residual[number] -= change;
         tangent[model.pattern.index(number, number)] -=
             PRESSURE_REGULARIZATION * at_rest / model.shear_modulus;
         self.add_curvature(model, unknowns, -pressure, tangent);

@@ -129,7 +129,8 @@ pub(super) fn assemble(
         cavity.add_curvature(model, unknowns, -pressure, &mut workspace.tangent);
     }
     for ((fluid, number), growth) in model.fluids().zip(supports.growths()) {
-        fluid.add_constraint(model, unknowns, (number, growth), workspace);
+        fluid.add_constraint(model, unknowns, number, workspace);
+        workspace.residual[number] += growth;
     }
     if let Some((load, times)) = supports.dead_load {
         for (residual, load) in workspace.residual.iter_mut().zip(load) {

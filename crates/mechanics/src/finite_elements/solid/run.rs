@@ -142,7 +142,7 @@ impl SolidProblem {
         // The fluids' volumes are found first.
         let begin = if is_under_pressure { 0.5 } else { 0.0 };
         let growths = match is_under_pressure {
-            true => growths(&model, (&frame, &held), &fluids, &mut |part| {
+            true => growths(&model, &frame, &held, &fluids, &mut |part| {
                 let part = begin * part;
                 progress(Progress { part, mesh });
             })?,
@@ -252,7 +252,8 @@ impl SolidProblem {
 /// By how much the cavities of a body that nothing else loads grow under the pressures of their `fluids` [m³].
 fn growths(
     model: &FiniteElementModel,
-    (frame, held): (&Frame, &Held),
+    frame: &Frame,
+    held: &Held,
     fluids: &[(&Cavity, f64)],
     at_part: &mut dyn FnMut(f64),
 ) -> Result<Vec<f64>, Error> {

@@ -13,10 +13,10 @@ impl IndentationRun {
         relaxing: Option<&'a RelaxationStep>,
     ) -> Supports<'a> {
         let mut supports = Supports {
-            growths: Vec::new(),
             held: self.rest.clone(),
             sliding: Vec::new(),
             pressures: Vec::new(),
+            growths: Vec::new(),
             dead_load: None,
             relaxing,
             stray: None,
