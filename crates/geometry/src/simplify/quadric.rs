@@ -41,6 +41,15 @@ impl Quadric {
         }
     }
 
+    /// The same with all weights times `factor` [-].
+    pub(crate) fn times(&self, factor: f64) -> Self {
+        Self {
+            matrix: factor * self.matrix,
+            vector: factor * self.vector,
+            constant: factor * self.constant,
+        }
+    }
+
     /// Value at a position [m⁴].
     pub(crate) fn at(&self, x: &Vec3) -> f64 {
         let value = x.dot(&(self.matrix * x + 2.0 * self.vector)) + self.constant;

@@ -206,11 +206,11 @@ impl NonlinearState {
         Rotation3::from_matrix_eps(&mean, 1e-9, 20, Rotation3::identity())
     }
 
-    /// Whether friction holds a point of the boundary.
+    /// Whether there is friction at a point of the boundary.
     pub fn has_friction(&self) -> bool {
-        self.rubbed
-            .iter()
-            .any(|rubbed| rubbed.force != Vec3::zeros())
+        let on_tools = self.on_tools.iter().take_while(|own| !own.is_none());
+        let mut all = self.rubbed.iter().chain(on_tools.map(|own| &own.rubbed));
+        all.any(|rubbed| rubbed.force != Vec3::zeros())
     }
 
     /// Whether no node is displaced from rest by more than `most` [m] along any axis, and no force fades.

@@ -229,7 +229,8 @@ fn guess(
             length += last * last;
         }
     }
-    let part = if all_known && state.is_smooth && length > 0.0 {
+    // What rubs depends on its way: continued, points that slide to and fro would do so ever farther.
+    let part = if all_known && state.is_smooth && length > 0.0 && !state.has_friction() {
         (along / length).clamp(-MOST_CONTINUED, MOST_CONTINUED)
     } else {
         0.0

@@ -1,22 +1,23 @@
 //! Warnings about the mesh of a body: missing parts of the body, and an anchor that misses nodes.
 
+use super::anchor::Anchor;
 use palpate_geometry::{Fidelity, FillSettings, NodeId, Surface, TetrahedronMesh, Vec3};
 
 /// Fixed area of the mesh over that of the surface below which a warning is given [-]. Where an anchor contains a layer of
 /// nodes, the two agree within a tenth.
 const FIXED: f64 = 0.5;
 
-/// Warnings about the mesh of so many `nodes` of the body within `surface`, fixed where `is_fixed` says so.
+/// Warnings about the mesh of so many `nodes` of the body within `surface`, fixed by `anchor`.
 pub(super) fn mesh_warnings(
     surface: &Surface,
     nodes: usize,
     mesh: &TetrahedronMesh,
-    is_fixed: impl Fn(&Vec3) -> bool,
+    anchor: &Anchor<'_>,
 ) -> Vec<String> {
     let edge = FillSettings::with_about(surface, nodes).edge;
     let missing = Fidelity::of(mesh, surface).warning(edge);
     let missing = missing.map(|warning| format!("{warning}; more `nodes` follow it closer"));
-    let missed = missed_anchor(surface, mesh, is_fixed).map(|part| {
+    let missed = missed_anchor(surface, mesh, anchor).map(|part| {
         format!(
             "the anchor fixes {:.0} % of the area that it should: the boundary of a mesh of {nodes} nodes differs from the surface \
              by a part of an edge, and an anchor that ends on a face misses its nodes; extend the anchor by {:.1} mm (half an \
@@ -29,19 +30,16 @@ pub(super) fn mesh_warnings(
 }
 
 /// The fixed area of the boundary of `mesh` over that of `surface` [-]; none where both are much alike.
-fn missed_anchor(
-    surface: &Surface,
-    mesh: &TetrahedronMesh,
-    is_fixed: impl Fn(&Vec3) -> bool,
-) -> Option<f64> {
+fn missed_anchor(surface: &Surface, mesh: &TetrahedronMesh, anchor: &Anchor<'_>) -> Option<f64> {
+    let is_fixed = |place: &Vec3| anchor.fixes(place);
     let wanted = surface.mesh();
     let wanted = fixed_area(
         wanted.vertices(),
         wanted.triangles().iter().copied(),
-        &is_fixed,
+        is_fixed,
     );
     let faces = mesh.boundary().into_iter().map(|(corners, _)| corners);
-    let part = fixed_area(mesh.vertices(), faces, &is_fixed) / wanted;
+    let part = fixed_area(mesh.vertices(), faces, is_fixed) / wanted;
     (part < FIXED).then_some(part)
 }
 

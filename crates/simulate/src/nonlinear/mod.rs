@@ -26,6 +26,7 @@
 //!
 //! [`TipField`]: palpate_mechanics::surface_response::TipField
 
+mod anchor;
 mod hold;
 mod mesh_warnings;
 mod neighbours;
@@ -36,6 +37,7 @@ mod soft;
 mod target;
 mod touch;
 
+use anchor::Anchor;
 use mesh_warnings::mesh_warnings;
 use neighbours::{Candidates, Skin};
 use regions::Elements;
@@ -179,11 +181,20 @@ impl NonlinearOrgan {
             .map(|body| tetrahedra(&body.surface, body.nodes, &body.regions));
         let filled = filled.collect::<Result<Vec<_>, _>>()?;
         let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
-        let is_held = |place: &Vec3| anchor.holds((*place).into());
-        let mut of_meshes = mesh_warnings(surface, nodes, &organ, is_held);
-        for (body, mesh) in soft.iter().zip(&filled) {
-            let is_held = |place: &Vec3| body.holds(place);
-            of_meshes.extend(mesh_warnings(&body.surface, body.nodes, mesh, is_held));
+        let holds = |place: &Vec3| anchor.holds((*place).into());
+        let anchor = Anchor::new(surface, &holds);
+        let mut of_meshes = mesh_warnings(surface, nodes, &organ, &anchor);
+        let of_soft: Vec<_> = soft
+            .iter()
+            .map(|body| |place: &Vec3| body.holds(place))
+            .collect();
+        let of_soft: Vec<_> = soft
+            .iter()
+            .zip(&of_soft)
+            .map(|(body, holds)| Anchor::new(&body.surface, holds))
+            .collect();
+        for ((body, mesh), anchor) in soft.iter().zip(&filled).zip(&of_soft) {
+            of_meshes.extend(mesh_warnings(&body.surface, body.nodes, mesh, anchor));
         }
         let mut elements = own;
         for (body, mesh) in soft.iter().zip(&filled) {
@@ -202,8 +213,8 @@ impl NonlinearOrgan {
         let is_fixed = |tetrahedron: usize, place: &Vec3| {
             let number = merged.pieces[tetrahedron].checked_sub(1);
             match number {
-                None => is_held(place),
-                Some(number) => soft[number as usize].holds(place),
+                None => anchor.fixes(place),
+                Some(number) => of_soft[number as usize].fixes(place),
             }
         };
         let (work, part) = (Work::Factors, FILLED);
@@ -350,8 +361,7 @@ fn tetrahedra(
         filling = filling
             .and_then(|coarse| refine_to(&coarse, Some(surface), |place| OF_EDGE * longest(place)));
     }
-    let volume = surface.mesh().volume();
     let detail = |place: &Vec3| edge / longest(place);
-    let mesh = filling.and_then(|fine| coarsen(&fine, nodes, volume, detail));
+    let mesh = filling.and_then(|fine| coarsen(&fine, surface, nodes, detail));
     mesh.map_err(|error| palpate_mechanics::Error::from(error).into())
 }

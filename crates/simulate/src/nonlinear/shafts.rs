@@ -272,22 +272,37 @@ impl NonlinearOrgan {
             false => body.pierced[motion.tool],
         };
         if was != 0 {
-            let mut pierced = 0;
             let from_tip = ShaftMotion {
                 loaded: None,
                 begins: [motion.begins[1]; 2],
                 ..*motion
             };
-            self.meet_shaft(&from_tip, [1.0; 2], &body.state, |gap, contact| {
-                let piece = self.shaft_skin.faces[contact.point as usize / POINTS].piece;
-                // What bends around a tip meets it wherever that appears, as a tip with a law of its own.
-                if gap < 0.0 && !self.pieces[piece].bends_around[motion.tool] {
-                    pierced |= bit(piece);
-                }
-            });
+            let pierced = self.pierced(&from_tip, &body.state);
             body.pierced[motion.tool] = was & pierced;
         }
         motion.pierced = body.pierced[motion.tool];
+    }
+
+    /// The pieces in which a shaft is: one whose axis is nearer to their boundary than its radius, whichever way that faces.
+    fn pierced(&self, motion: &ShaftMotion, state: &NonlinearState) -> Pierced {
+        let points = self.model.tool_points();
+        let mut pierced = 0;
+        self.for_each_near_face(motion, &motion.now, state, |number, axis, bound| {
+            let face = &self.shaft_skin.faces[number];
+            // What bends around a tip meets it wherever that appears, as a tip with a law of its own.
+            if bound > 0.0 || self.pieces[face.piece].bends_around[motion.tool] {
+                return;
+            }
+            let is_in = face.points(motion.now.radius).any(|k| {
+                let point = number * POINTS + k;
+                let moved = points[point].displacement(&state.displacements);
+                from_axis(&axis, &(self.shaft_skin.places[point] + moved)).0 < motion.now.radius
+            });
+            if is_in {
+                pierced |= bit(face.piece);
+            }
+        });
+        pierced
     }
 
     /// Which of the `motions` may touch the body; the others are none afterwards.

@@ -54,8 +54,12 @@ struct Pulled {
     left: f64,
 }
 
-/// The esophagus is pulled so far aside [m], past the ball, held for a moment, and let go.
-fn pull(beside: Beside, friction: f64, aside: f64) -> Pulled {
+/// How far the esophagus is pulled aside [m], and what a period adds.
+const ASIDE: f64 = 0.02;
+const STEP: f64 = 2.5e-4;
+
+/// The esophagus is pulled aside, past the ball, in steps of this length [m], held for a moment, and let go.
+fn pull(beside: Beside, friction: f64, length: f64) -> Pulled {
     let scene = scene(beside, friction);
     let simulation = Simulation::new(&scene).unwrap();
     let (ball, _) = read_neighbour(&scene.neighbours[0]).unwrap();
@@ -73,8 +77,8 @@ fn pull(beside: Beside, friction: f64, aside: f64) -> Pulled {
         left: 0.0,
     };
     let mut before = 0.0;
-    for step in 0..=100 {
-        let way = (2.5e-4 * f64::from(step)).min(aside);
+    for step in 0..=(1.25 * ASIDE / length) as u32 {
+        let way = (length * f64::from(step)).min(ASIDE);
         hands.go(&[pose(&(point - Vec3::y() * way), &turned, 1.0)]);
         let force = hands.state.tools[0].force;
         pulled.work += 0.5 * (pulled.force + force).y * (way - before);
@@ -97,14 +101,14 @@ fn pull(beside: Beside, friction: f64, aside: f64) -> Pulled {
         .map(|place| -moved.signed_distance(&boxes, place).1);
     pulled.deepest = depths.fold(0.0, f64::max);
     for _ in 0..80 {
-        hands.go(&[pose(&(point - Vec3::y() * aside), &turned, 0.0)]);
+        hands.go(&[pose(&(point - Vec3::y() * ASIDE), &turned, 0.0)]);
     }
     pulled.left = displaced(&hands, &simulation);
     pulled
 }
 
 /// Judge: energy. What is elastic and free of friction takes less work the softer it is: less than a stiffer ball, and more
-/// than none; friction takes more. A ball of a hundred times the tube's modulus takes as much as the rigid one but for 10 %:
+/// than none; friction takes more, by 8 and 15 %, and at any pace the same, to 2 %: 0.4 % was found with steps a quarter as long. A ball of a hundred times the tube's modulus takes as much as the rigid one but for 10 %:
 /// 8 % were found, which fall with the tube's elements (beside 400 nodes 4.4, 3.3 and 1.4 % with 1,500, 3,000 and 5,000). What
 /// is seen of tube and ball lies beside the surfaces that touch by 6²/(8 · 7.5) and 3²/(8 · 15) mm.
 #[test]
@@ -119,23 +123,23 @@ fn a_pulled_tube_pushes_a_neighbour_that_bends() {
             pulled.left
         );
     };
-    let free = pull(Beside::Nothing, 0.0, 0.02);
-    let rigid = pull(Beside::Rigid, 0.0, 0.02);
-    let stiff = pull(Beside::Soft(1e6), 0.0, 0.02);
-    let firm = pull(Beside::Soft(3e4), 0.0, 0.02);
-    let soft = pull(Beside::Soft(3e3), 0.0, 0.02);
-    let rubbed = pull(Beside::Soft(3e3), 0.3, 0.02);
-    // With friction a longer pull may end without equilibrium (`docs/theory/large_deformation.md`); this one does not.
-    let [smooth, rubbed_less] = [0.0, 0.3].map(|friction| pull(Beside::Soft(3e3), friction, 0.012));
+    let free = pull(Beside::Nothing, 0.0, STEP);
+    let rigid = pull(Beside::Rigid, 0.0, STEP);
+    let stiff = pull(Beside::Soft(1e6), 0.0, STEP);
+    let firm = pull(Beside::Soft(3e4), 0.0, STEP);
+    let soft = pull(Beside::Soft(3e3), 0.0, STEP);
+    let firm_rubbed = pull(Beside::Soft(3e4), 0.3, STEP);
+    let rubbed = pull(Beside::Soft(3e3), 0.3, STEP);
+    let slowly = pull(Beside::Soft(3e3), 0.3, 0.25 * STEP);
     for (name, pulled) in [
         ("free", &free),
         ("rigid", &rigid),
         ("stiff", &stiff),
         ("firm", &firm),
         ("soft", &soft),
-        ("rubbed", &rubbed),
-        ("smooth, 12 mm", &smooth),
-        ("rubbed, 12 mm", &rubbed_less),
+        ("firm, rubbed", &firm_rubbed),
+        ("soft, rubbed", &rubbed),
+        ("soft, rubbed, slowly", &slowly),
     ] {
         show(name, pulled);
     }
@@ -146,9 +150,9 @@ fn a_pulled_tube_pushes_a_neighbour_that_bends() {
     assert!((stiff.work / rigid.work - 1.0).abs() < 0.1, "{falls:?}");
     assert!(soft.ball > 5e-4, "{}", soft.ball);
     assert!(rubbed.work > 1.02 * soft.work, "{}", rubbed.work);
-    // With moduli that differ by up to a thousandth these works vary by less than that.
-    assert!(rubbed_less.work > 1.005 * smooth.work);
-    for pulled in [&stiff, &firm, &soft, &rubbed, &rubbed_less] {
+    assert!(firm_rubbed.work > 1.02 * firm.work, "{}", firm_rubbed.work);
+    assert!((slowly.work / rubbed.work - 1.0).abs() < 0.02);
+    for pulled in [&stiff, &firm, &soft, &firm_rubbed, &rubbed] {
         assert!(pulled.deepest < 0.68e-3, "{}", pulled.deepest);
         assert!(pulled.left < 1e-4, "{}", pulled.left);
     }
@@ -214,17 +218,20 @@ fn a_further_organ_has_its_own_layers_and_inclusions() {
         "format = 1\n[[organ]]\nbuiltin = \"hemisphere\"\n{soft}{}[model]\nkind = \"nonlinear\"\nnodes = 700\n{tool}",
         regions(0.0)
     );
-    let beside = |regions: &str| {
+    let beside = |x: f64, regions: &str| {
         format!(
             "format = 1\n[[organ]]\nbuiltin = \"cube\"\nbuiltin_tissue = \"pig-liver\"\n\
-             [[organ]]\nbuiltin = \"hemisphere\"\n{soft}nodes = 700\nat_m = [0.3, 0.0, 0.0]\n{regions}\
+             [[organ]]\nbuiltin = \"hemisphere\"\n{soft}nodes = 700\nat_m = [{x:?}, 0.0, 0.0]\n{regions}\
              [model]\nkind = \"nonlinear\"\nnodes = 300\n{tool}"
         )
     };
     let expected = press(&alone, Vec3::z() * 0.05);
-    let at = Vec3::new(0.3, 0.0, 0.05);
-    let found = press(&beside(&regions(0.3)), at);
-    let plain = press(&beside(""), at);
+    // Rounding makes another mesh of it at each place, whose force is up to 3 % off the mean.
+    let places = [0.28, 0.3, 0.31];
+    let at = |x: f64| Vec3::new(x, 0.0, 0.05);
+    let found = places.map(|x| press(&beside(x, &regions(x)), at(x)));
+    let found = found.iter().sum::<Vec3>() / places.len() as f64;
+    let plain = press(&beside(0.3, ""), at(0.3));
     println!("{expected:?} {found:?} {plain:?}");
     assert!(
         (found - expected).norm() < 0.03 * expected.norm(),

@@ -1,0 +1,30 @@
+use palpate_geometry::{AabbTree, Surface, Vec3};
+
+/// The anchor of a body as the boundary of its mesh knows it, which is beside the surface by a part of an edge: a place of the
+/// boundary is fixed where the nearest point of the surface is.
+pub(super) struct Anchor<'a> {
+    surface: &'a Surface,
+    tree: AabbTree,
+    holds: &'a dyn Fn(&Vec3) -> bool,
+}
+
+impl<'a> Anchor<'a> {
+    /// That of the body within `surface`, of which `holds` says whether a place [m] is fixed.
+    pub(super) fn new(surface: &'a Surface, holds: &'a dyn Fn(&Vec3) -> bool) -> Self {
+        let tree = AabbTree::new(surface.mesh());
+        Self {
+            surface,
+            tree,
+            holds,
+        }
+    }
+
+    /// Whether a place of the boundary of the mesh [m] is fixed.
+    pub(super) fn fixes(&self, place: &Vec3) -> bool {
+        let mesh = self.surface.mesh();
+        let nearest = self.tree.nearest(mesh, place);
+        // An anchor that ends in the plane of a triangle holds it, which rounding of a point on it would hide.
+        let corners = mesh.positions(nearest.triangle);
+        (self.holds)(&nearest.on.position) || corners.iter().all(self.holds)
+    }
+}
