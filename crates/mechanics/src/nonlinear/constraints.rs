@@ -98,11 +98,6 @@ impl Constraints {
         self.tools.rows.len() + self.contacts.listed.len()
     }
 
-    /// Whether points of the boundary may be in contact in this step.
-    pub(super) fn has_contacts(&self) -> bool {
-        !self.contacts.listed.is_empty()
-    }
-
     /// Takes the conditions of a step, and S of all of them.
     #[inline(always)]
     pub(super) fn prepare(

@@ -19,7 +19,9 @@ const UNTURNED: [f32; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 pub struct NonlinearState {
     /// Displacements of the nodes [m]; three a node.
     pub displacements: Vec<f64>,
+    /// Those one step before, and two.
     pub(super) before: Vec<f64>,
+    pub(super) earlier: Vec<f64>,
     /// Whether the last step can be continued.
     pub(super) is_smooth: bool,
     /// Rotations of the nodes in the last step, each column by column [-].
@@ -89,6 +91,7 @@ impl NonlinearState {
         let mut state = Self {
             displacements: vec![0.0; size],
             before: vec![0.0; size],
+            earlier: vec![0.0; size],
             is_smooth: true,
             rotations: vec![UNTURNED; nodes],
             tools: vec![tool; tools],
@@ -114,11 +117,13 @@ impl NonlinearState {
         if let Some(settled) = &model.settled {
             self.displacements.copy_from_slice(&settled.displacements);
             self.before.copy_from_slice(&settled.displacements);
+            self.earlier.copy_from_slice(&settled.displacements);
             self.rotations.copy_from_slice(&settled.rotations);
             self.stress.copy_from_slice(&settled.stress);
         } else {
             self.displacements.fill(0.0);
             self.before.fill(0.0);
+            self.earlier.fill(0.0);
             self.rotations.fill(UNTURNED);
             self.stress.fill(Remembered::default());
         }
@@ -163,6 +168,7 @@ impl NonlinearState {
     /// Forgets how it moved last.
     pub(super) fn stop(&mut self) {
         self.before.copy_from_slice(&self.displacements);
+        self.earlier.copy_from_slice(&self.displacements);
     }
 
     /// Weighted mean of the displacements of `nodes` [m].
@@ -182,18 +188,17 @@ impl NonlinearState {
         each.fold(0.0, |most, (now, before)| (now - before).abs().max(most))
     }
 
-    /// By how much the last step changed the weighted mean of the displacements of `nodes` [m].
-    pub(super) fn last_advance(&self, nodes: &[(u32, f64)]) -> Vec3 {
-        let nodes = nodes.iter();
-        nodes
-            .map(|&(node, weight)| {
-                let at = 3 * node as usize;
-                weight
-                    * Vec3::from_fn(|axis, _| {
-                        self.displacements[at + axis] - self.before[at + axis]
-                    })
-            })
-            .sum()
+    /// The motion that a step continues.
+    pub(super) fn motion(&self) -> Motion<'_> {
+        let (from, steps) = match self.touches() {
+            true => (&self.earlier, 2.0),
+            false => (&self.before, 1.0),
+        };
+        Motion {
+            from,
+            to: &self.displacements,
+            steps,
+        }
     }
 
     /// Mean rotation of `nodes`.
@@ -204,6 +209,11 @@ impl NonlinearState {
             mean += Matrix3::from_iterator(q.iter().map(|&entry| weight * f64::from(entry)));
         }
         Rotation3::from_matrix_eps(&mean, 1e-9, 20, Rotation3::identity())
+    }
+
+    /// Whether anything but a tool touched the boundary in the last step.
+    fn touches(&self) -> bool {
+        self.pressed.iter().any(|force| *force > 0.0)
     }
 
     /// Whether there is friction at a point of the boundary.
@@ -304,6 +314,29 @@ impl NonlinearState {
     /// When there is no such tool.
     pub fn force(&self, tool: usize) -> Vec3 {
         self.tools[tool].force
+    }
+}
+
+/// The motion of the last step; in contact the mean of the last two, in which points that go to and fro do not count: continued,
+/// they would do so ever farther.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Motion<'a> {
+    pub(super) from: &'a [f64],
+    pub(super) to: &'a [f64],
+    pub(super) steps: f64,
+}
+
+impl Motion<'_> {
+    /// That of the weighted mean of `nodes` [m].
+    pub(super) fn of(&self, nodes: &[(u32, f64)]) -> Vec3 {
+        let nodes = nodes.iter();
+        nodes
+            .map(|&(node, weight)| {
+                let at = 3 * node as usize;
+                let by = Vec3::from_fn(|axis, _| self.to[at + axis] - self.from[at + axis]);
+                (weight / self.steps) * by
+            })
+            .sum()
     }
 }
 

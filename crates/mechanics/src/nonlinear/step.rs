@@ -16,15 +16,16 @@ const SLOPE_LEFT: f64 = 0.3;
 /// Largest factor with which the last displacement is continued, or gone back [-].
 const MOST_CONTINUED: f64 = 1.5;
 
-/// Without contacts, conjugate gradients go on, up to twice as many, until they have reduced the residual's energy so many
-/// times [-]. Thin walls need it: the residual that is left makes the organ too stiff within a step, and the force under a tip
-/// oscillates with a growing amplitude. With contacts, more iterations are not steadier.
+/// Conjugate gradients go on, up to [`MOST_TIMES`] as many, until they have reduced the residual's energy so many times [-].
+/// Thin walls need it: the residual that is left makes the organ too stiff within a step, and the force under a tip
+/// oscillates with a growing amplitude.
 const REDUCED: f64 = 1e3;
+const MOST_TIMES: usize = 2;
 
 /// How a step is taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pace {
-    /// Conjugate gradients; where they converge slowly without contacts, up to twice as many [-].
+    /// Conjugate gradients; where they converge slowly, up to twice as many [-].
     pub iterations: usize,
     /// Time since the last step [s], in which tissue relaxes; zero is a jump.
     pub elapsed: f64,
@@ -163,16 +164,12 @@ fn step(
     let couplings = conditions.couplings;
     state.fade(couplings);
     workspace.begin(model, pace.elapsed, state);
-    guess(model, conditions, state, workspace);
-    workspace.deform(model, GuessOrEnd::Guess, state);
-    workspace.rotate(model, state);
-    let body = Turned {
-        model,
-        rotations: &state.rotations,
-    };
-    workspace.constraints.prepare(body, conditions, state);
-    workspace.carry(body, couplings);
-    let mut advance = workspace.iterate(body, couplings, pace.iterations);
+    let is_continued = guess(model, conditions, state, workspace);
+    let mut advance = solve(model, conditions, pace.iterations, state, workspace);
+    if advance.was_unstable && is_continued {
+        stay(state, workspace);
+        advance = solve(model, conditions, pace.iterations, state, workspace);
+    }
     workspace.bound(model.farthest, &mut advance);
     advance.was_shortened |= workspace.take(model, couplings, state);
     let body = Turned {
@@ -194,27 +191,48 @@ fn step(
     advance
 }
 
+/// Finds the change from the guess that satisfies the conditions.
+#[inline(always)]
+fn solve(
+    model: &NonlinearModel,
+    conditions: Conditions<'_>,
+    iterations: usize,
+    state: &mut NonlinearState,
+    workspace: &mut Workspace,
+) -> Advance {
+    workspace.deform(model, GuessOrEnd::Guess, state);
+    workspace.rotate(model, state);
+    let body = Turned {
+        model,
+        rotations: &state.rotations,
+    };
+    workspace.constraints.prepare(body, conditions, state);
+    workspace.carry(body, conditions.couplings);
+    workspace.iterate(body, conditions.couplings, iterations)
+}
+
 enum GuessOrEnd {
     Guess,
     End,
 }
 
-/// Continues the last displacement as far as the tools continue their paths.
+/// Continues the last motion as far as the tools continue their paths; whether there was one to be continued.
 fn guess(
     model: &NonlinearModel,
     conditions: Conditions<'_>,
     state: &mut NonlinearState,
     workspace: &mut Workspace,
-) {
+) -> bool {
     let Conditions {
         couplings,
         contacts,
     } = conditions;
+    let last_motion = state.motion();
     let (mut along, mut length, mut all_known) = (0.0, 0.0, true);
     for (coupling, memory) in couplings.iter().zip(&state.tools) {
         all_known &= coupling.is_some() == memory.is_coupled;
         if let Some(coupling) = coupling {
-            let last = state.last_advance(coupling.nodes);
+            let last = last_motion.of(coupling.nodes);
             along += coupling.advance.dot(&last);
             length += last.norm_squared();
         }
@@ -224,20 +242,21 @@ fn guess(
             && state.force_of(model, contact) > 0.0
         {
             let nodes = &model.tool_points()[contact.point as usize].nodes;
-            let last = contact.normal.dot(&state.last_advance(nodes));
+            let last = contact.normal.dot(&last_motion.of(nodes));
             along += contact.normal.dot(&motion) * last;
             length += last * last;
         }
     }
-    // What rubs depends on its way: continued, points that slide to and fro would do so ever farther.
+    // Friction depends on the way, which is not known yet.
     let part = if all_known && state.is_smooth && length > 0.0 && !state.has_friction() {
         (along / length).clamp(-MOST_CONTINUED, MOST_CONTINUED)
     } else {
         0.0
     };
-    let now = state.displacements.iter().zip(&state.before);
-    for (guess, (now, before)) in workspace.guess.iter_mut().zip(now) {
-        *guess = now + part * (now - before);
+    let each = last_motion.to.iter().zip(last_motion.from);
+    let per_step = part / last_motion.steps;
+    for (guess, (to, from)) in workspace.guess.iter_mut().zip(each) {
+        *guess = to + per_step * (to - from);
     }
     for (coupling, memory) in couplings.iter().zip(&mut state.tools) {
         let force = match coupling {
@@ -246,6 +265,15 @@ fn guess(
         };
         memory.force_in_series = memory.force;
         memory.force = force;
+    }
+    part != 0.0
+}
+
+/// Takes back what a guess continued.
+fn stay(state: &mut NonlinearState, workspace: &mut Workspace) {
+    workspace.guess.copy_from_slice(&state.displacements);
+    for memory in &mut state.tools {
+        memory.force = memory.force_in_series;
     }
 }
 
@@ -339,10 +367,7 @@ impl Workspace {
         let Turned { model, rotations } = body;
         let mut advance = Advance::default();
         let (mut released, mut first) = (0.0, 0.0);
-        let most = match self.constraints.has_contacts() {
-            true => iterations,
-            false => 2 * iterations,
-        };
+        let most = MOST_TIMES * iterations;
         for iteration in 0..most {
             // By the last residual that is known: the one that is left now would cost a solution.
             if iteration >= iterations && first >= REDUCED * released {
@@ -417,6 +442,7 @@ impl Workspace {
         state: &mut NonlinearState,
     ) -> bool {
         let slope = self.slope(couplings);
+        std::mem::swap(&mut state.earlier, &mut state.before);
         std::mem::swap(&mut state.before, &mut state.displacements);
         let guess = self.guess.iter().zip(&self.change);
         for (now, (guess, change)) in state.displacements.iter_mut().zip(guess) {
