@@ -1,6 +1,6 @@
 //! How thick an organ is under its surface.
 
-use palpate_geometry::{AabbTree, Surface, TriangleId, Vec3};
+use palpate_geometry::{AabbTree, Hit, Surface, TriangleId, Vec3};
 
 /// Constant boundary elements are 10 % too stiff in bending when their edges are this part of a wall [-]
 /// (`docs/theory/boundary_elements.md`).
@@ -8,6 +8,9 @@ const COARSEST: f64 = 0.6;
 
 /// Part of the touchable triangles that may lie on thinner walls: rims are thin too [-].
 const FEW: f64 = 0.1;
+
+/// Cosine of the angle between the outward normals of two sides of a wall, at most [-].
+const FACES: f64 = -0.4;
 
 /// Longest edge of tetrahedra in parts of a wall [-] (`docs/theory/condensed_elements.md`).
 const OF_A_WALL: f64 = 0.7;
@@ -75,6 +78,14 @@ pub(crate) fn thicknesses(
     surface: &Surface,
     triangles: impl Iterator<Item = TriangleId>,
 ) -> impl Iterator<Item = (TriangleId, f64)> {
+    through_each(surface, triangles).map(|(triangle, hit)| (triangle, hit.distance))
+}
+
+/// Where the inward normal of each of `triangles` leaves the organ.
+fn through_each(
+    surface: &Surface,
+    triangles: impl Iterator<Item = TriangleId>,
+) -> impl Iterator<Item = (TriangleId, Hit)> {
     let mesh = surface.mesh();
     let tree = AabbTree::new(mesh);
     let (low, high) = mesh.bounds();
@@ -85,8 +96,56 @@ pub(crate) fn thicknesses(
         let inward: Vec3 = -area.normalize();
         let start = (a + b + c) / 3.0 + inward * (1e-3 * (2.0 * area.norm()).sqrt());
         let hit = tree.cast(mesh, &start, &inward, reach)?;
-        Some((triangle, hit.distance))
+        Some((triangle, hit))
     })
+}
+
+/// How thick an organ is, at any place of it.
+pub(crate) struct Thickness<'a> {
+    surface: &'a Surface,
+    tree: AabbTree,
+    /// Under each triangle [m].
+    under: Vec<f64>,
+}
+
+impl<'a> Thickness<'a> {
+    pub(crate) fn new(surface: &'a Surface) -> Self {
+        let mesh = surface.mesh();
+        let mut through = vec![f64::INFINITY; mesh.triangles().len()];
+        for (triangle, hit) in through_each(surface, mesh.triangle_ids()) {
+            let [here, there] = [triangle, hit.triangle].map(|id| mesh.area_vector(id).normalize());
+            // The faces of a wedge that is no rim are not two sides of a wall.
+            if here.dot(&there) < FACES {
+                through[triangle.index()] = hit.distance;
+            }
+        }
+        // On the crest of a rim the way through is a long one.
+        let around = |triangle: TriangleId| {
+            let corners = mesh.corners(triangle).into_iter();
+            let beside = corners.flat_map(|node| surface.adjacency().around(node));
+            beside.fold(f64::INFINITY, |least, other| {
+                through[other.index()].min(least)
+            })
+        };
+        Self {
+            surface,
+            tree: AabbTree::new(mesh),
+            under: mesh.triangle_ids().map(around).collect(),
+        }
+    }
+
+    /// Under the middle one of the triangles [m].
+    pub(crate) fn typical(&self) -> f64 {
+        let mut all = self.under.clone();
+        all.sort_by(f64::total_cmp);
+        all[all.len() / 2]
+    }
+
+    /// Under the surface that is nearest to a place [m].
+    pub(crate) fn at(&self, place: &Vec3) -> f64 {
+        let nearest = self.tree.nearest(self.surface.mesh(), place);
+        self.under[nearest.triangle.index()]
+    }
 }
 
 /// Triangles that are asked for a thickness.

@@ -67,6 +67,7 @@ use crate::neighbour::Neighbour;
 use crate::preparation::{Progress, Work, tell};
 use crate::shaft::Shaft;
 use crate::tool::Tool;
+use crate::walls::Thickness;
 use crate::{Error, held_region};
 
 /// About so many nodes, if the scene does not say.
@@ -81,6 +82,12 @@ const FILLED: f64 = 0.5;
 
 /// Edges that are made coarser, in those that are wanted [-].
 const OF_EDGE: f64 = 0.6;
+
+/// Where a body is thinner than so many edges, they are shorter in proportion [-], by a factor of [`MOST_GRADED`] at most: rims and
+/// lobes bend within their thickness. With twice as much grading the bulk becomes too coarse for a tip. A body that is a wall of
+/// one element is not graded, nor are neighbours, whose short edges at a rim fold where a stiffer organ presses them.
+const THIN: f64 = 3.0;
+const MOST_GRADED: f64 = 3.0;
 
 /// Fillings to try.
 const FILLINGS: usize = 5;
@@ -173,12 +180,12 @@ impl NonlinearOrgan {
             neighbours,
         } = beside;
         let nodes = scene.model.nodes.unwrap_or(NODES);
-        let organ = tetrahedra(surface, nodes, &regions)?;
+        let organ = tetrahedra(surface, nodes, &regions, grading(surface, nodes))?;
         let mut series = regions.series();
         let own = regions.of_elements(&organ);
         let filled = soft
             .iter()
-            .map(|body| tetrahedra(&body.surface, body.nodes, &body.regions));
+            .map(|body| tetrahedra(&body.surface, body.nodes, &body.regions, |_| 1.0));
         let filled = filled.collect::<Result<Vec<_>, _>>()?;
         let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
         let holds = |place: &Vec3| anchor.holds((*place).into());
@@ -348,11 +355,24 @@ fn has_topology_of(surface: &Surface, filling: &TetrahedronMesh) -> bool {
         .is_ok_and(|boundary| euler(&boundary) == euler(surface))
 }
 
-/// About so many nodes in the body within `surface`: a filling that has all of its walls, made coarser, finer at inclusions.
+/// By what factor edges are shorter where the body within `surface` is thin, if it has so many nodes [-].
+fn grading(surface: &Surface, nodes: usize) -> impl Fn(&Vec3) -> f64 {
+    let edge = FillSettings::with_about(surface, nodes).edge;
+    let thickness = Thickness::new(surface);
+    let is_wall = thickness.typical() < edge;
+    move |place| match is_wall {
+        true => 1.0,
+        false => (THIN * edge / thickness.at(place)).clamp(1.0, MOST_GRADED),
+    }
+}
+
+/// About so many nodes in the body within `surface`: a filling that has all of its walls, made coarser; its edges are shorter
+/// at inclusions, and by the factor `finer` [-].
 fn tetrahedra(
     surface: &Surface,
     nodes: usize,
     regions: &Regions,
+    finer: impl Fn(&Vec3) -> f64,
 ) -> Result<TetrahedronMesh, Error> {
     let edge = FillSettings::with_about(surface, nodes).edge;
     let longest = |place: &Vec3| regions.longest_edge(place).min(edge);
@@ -361,7 +381,7 @@ fn tetrahedra(
         filling = filling
             .and_then(|coarse| refine_to(&coarse, Some(surface), |place| OF_EDGE * longest(place)));
     }
-    let detail = |place: &Vec3| edge / longest(place);
+    let detail = |place: &Vec3| finer(place) * edge / longest(place);
     let mesh = filling.and_then(|fine| coarsen(&fine, surface, nodes, detail));
     mesh.map_err(|error| palpate_mechanics::Error::from(error).into())
 }

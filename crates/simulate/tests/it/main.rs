@@ -35,6 +35,7 @@ mod no_allocation;
 mod nodules;
 mod nonlinear;
 mod nonlinear_neighbours;
+mod nonlinear_organs;
 mod nonlinear_regions;
 mod nonlinear_shafts;
 mod nonlinear_soft;
