@@ -19,9 +19,8 @@ pub(super) fn mesh_warnings(
     let missing = missing.map(|warning| format!("{warning}; more `nodes` follow it closer"));
     let missed = missed_anchor(surface, mesh, anchor).map(|part| {
         format!(
-            "the anchor fixes {:.0} % of the area that it should: the boundary of a mesh of {nodes} nodes differs from the surface \
-             by a part of an edge, and an anchor that ends on a face misses its nodes; extend the anchor by {:.1} mm (half an \
-             edge) into the body",
+            "the anchor fixes {:.0} % of the area that it should: it is narrower than the elements of a mesh of {nodes} nodes, and \
+             misses some; widen it by {:.1} mm (half an edge), or raise `nodes`",
             100.0 * part,
             1e3 * 0.5 * edge
         )
