@@ -186,4 +186,20 @@ mod tests {
         assert!(edge > 0.6 * OF_A_WALL * 2.5e-3 && edge < OF_A_WALL * 2.5e-3);
         assert_eq!(walls(Organ::Esophagus, 20_000).warning(), None);
     }
+
+    /// Judge: the bodies' own sizes. The rim of a hemisphere, a right angle, is no wall.
+    #[test]
+    fn a_body_is_as_thick_as_it_is() {
+        let surface = |organ: Organ| Surface::new(organ.surface_mesh(2000).unwrap()).unwrap();
+        let slab = surface(Organ::Slab);
+        let (low, high) = slab.mesh().bounds();
+        let middle = 0.5 * (low + high);
+        let thickness = Thickness::new(&slab).at(&Vec3::new(middle.x, middle.y, high.z));
+        assert!((thickness - 0.015).abs() < 1e-4, "{thickness}");
+        let hemisphere = surface(Organ::Hemisphere);
+        let (low, high) = hemisphere.mesh().bounds();
+        let rim = Vec3::new(high.x, 0.0, low.z);
+        let thickness = Thickness::new(&hemisphere).at(&rim);
+        assert!(thickness > 0.01, "{thickness}");
+    }
 }

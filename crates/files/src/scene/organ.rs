@@ -72,7 +72,7 @@ impl Organ {
             "anchor",
             Region::KEYS,
             "The fixed part: triangles whose centroid lies in one of these regions, and with the nonlinear model the nodes of its \
-             mesh that do, which lie up to half an edge behind the surface.",
+             mesh to which the nearest point of the surface does.",
         )
         .optional("", "the attachment of a built-in organ; none of a mesh, which only the local model allows"),
         Key::table("touchable", Region::KEYS, "Where tools may touch it; the hybrid model prepares no more than this.")

@@ -241,6 +241,12 @@ impl NonlinearOrgan {
         *clear <= 0.0
     }
 
+    /// Where a point is now [m].
+    fn place(&self, point: usize, state: &NonlinearState) -> Vec3 {
+        let own = &self.model.tool_points()[point];
+        self.shaft_skin.places[point] + own.displacement(&state.displacements)
+    }
+
     /// Visits faces with the part of the axis that they may meet, and a lower bound of their gap [m].
     fn for_each_near_face(
         &self,
@@ -249,14 +255,11 @@ impl NonlinearOrgan {
         state: &NonlinearState,
         mut visit: impl FnMut(usize, [Vec3; 2], f64),
     ) {
-        let points = self.model.tool_points();
         for (number, face) in self.shaft_skin.faces.iter().enumerate() {
             let Some(axis) = shaft.axis(self.shaft_begins(motion, face.piece)) else {
                 continue;
             };
-            let first = number * POINTS;
-            let moved = points[first].displacement(&state.displacements);
-            let (distance, _) = from_axis(&axis, &(self.shaft_skin.places[first] + moved));
+            let (distance, _) = from_axis(&axis, &self.place(number * POINTS, state));
             visit(
                 number,
                 axis,
@@ -285,7 +288,6 @@ impl NonlinearOrgan {
 
     /// The pieces in which a shaft is: one whose axis is nearer to their boundary than its radius, whichever way that faces.
     fn pierced(&self, motion: &ShaftMotion, state: &NonlinearState) -> Pierced {
-        let points = self.model.tool_points();
         let mut pierced = 0;
         self.for_each_near_face(motion, &motion.now, state, |number, axis, bound| {
             let face = &self.shaft_skin.faces[number];
@@ -293,12 +295,9 @@ impl NonlinearOrgan {
             if bound > 0.0 || self.pieces[face.piece].bends_around[motion.tool] {
                 return;
             }
-            let is_in = face.points(motion.now.radius).any(|k| {
-                let point = number * POINTS + k;
-                let moved = points[point].displacement(&state.displacements);
-                from_axis(&axis, &(self.shaft_skin.places[point] + moved)).0 < motion.now.radius
-            });
-            if is_in {
+            let mut points = face.points(motion.now.radius);
+            let place = |k: usize| self.place(number * POINTS + k, state);
+            if points.any(|k| from_axis(&axis, &place(k)).0 < motion.now.radius) {
                 pierced |= bit(face.piece);
             }
         });
@@ -344,10 +343,7 @@ impl NonlinearOrgan {
             }
             let face = &self.shaft_skin.faces[number];
             let set = face.points(shaft.radius);
-            let place = |k: usize| {
-                let point = number * POINTS + k;
-                self.shaft_skin.places[point] + points[point].displacement(&state.displacements)
-            };
+            let place = |k: usize| self.place(number * POINTS + k, state);
             let outward = outward(set.clone(), place);
             for point in set.map(|k| number * POINTS + k) {
                 let rest = &self.shaft_skin.places[point];
@@ -418,12 +414,7 @@ impl NonlinearOrgan {
         (contacts, state): (&[UnilateralContact], &NonlinearState),
         solver: &mut Workspace,
     ) -> Option<Pushed> {
-        let points = self.model.tool_points();
-        let at = |contact: &UnilateralContact| {
-            let point = contact.point as usize;
-            let moved = points[point].displacement(&state.displacements);
-            shaft.at(&(self.shaft_skin.places[point] + moved))
-        };
+        let at = |contact: &UnilateralContact| shaft.at(&self.place(contact.point as usize, state));
         // With this vector a, a place of the rod moves by a · x along `direction` where the tip moves by x; of a force there,
         // what is felt at the tip.
         let at_tip = |contact: &UnilateralContact, direction: &Vec3| match shaft.is_in_trocar {

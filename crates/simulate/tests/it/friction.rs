@@ -48,7 +48,7 @@ fn a_dragged_tip_slides_against_its_friction() {
     for (kind, model) in [
         ("local", ""),
         ("hybrid", "mechanical_triangles = 600"),
-        ("nonlinear", "nodes = 700"),
+        ("nonlinear", "nodes = 1500"),
     ] {
         let setting = Setting {
             contact: "stick",
