@@ -106,8 +106,8 @@ impl Net {
             {
                 continue;
             }
-            let places = self.places(edge).into_iter();
-            let Some(place) = places.clone().find(|place| self.is_sound(edge, place)) else {
+            let mut places = self.places(edge).into_iter();
+            let Some(place) = places.find(|place| self.is_sound(edge, place)) else {
                 continue;
             };
             let real = ordered::Length(self.cost(edge, &place, detail));
@@ -117,16 +117,14 @@ impl Net {
                 continue;
             }
             self.collapse(edge, &place);
-            {
-                let kept = edge[0];
-                for other in self.neighbours(kept) {
-                    // What could not collapse may now.
-                    self.versions[other as usize] += 1;
-                }
-                for vertex in self.neighbours(kept) {
-                    let neighbours = self.neighbours(vertex).into_iter();
-                    queue.extend(neighbours.map(|other| self.entry([vertex, other], detail)));
-                }
+            let around = self.neighbours(edge[0]);
+            for &other in &around {
+                // What could not collapse may now.
+                self.versions[other as usize] += 1;
+            }
+            for vertex in around {
+                let neighbours = self.neighbours(vertex).into_iter();
+                queue.extend(neighbours.map(|other| self.entry([vertex, other], detail)));
             }
         }
     }

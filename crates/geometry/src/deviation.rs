@@ -64,24 +64,24 @@ pub(crate) fn deviation_with_tree(
 }
 
 /// The middles of the `rows` × `rows` equal parts of a triangle.
-fn for_each_middle(
+pub(crate) fn for_each_middle(
     mesh: &TriangleMesh,
     triangle: TriangleId,
     rows: usize,
     mut visit: impl FnMut(Vec3),
 ) {
     let [a, b, c] = mesh.positions(triangle);
-    let part = 1.0 / (3.0 * rows as f64);
+    let count = rows as f64;
     for i in 0..rows {
         for j in 0..rows - i {
-            let mut at = |more: usize| {
-                let (u, v) = (part * (3 * i + more) as f64, part * (3 * j + more) as f64);
-                visit(a + u * (b - a) + v * (c - a));
+            let mut at = |more: f64| {
+                let (u, v) = (i as f64 + more, j as f64 + more);
+                visit(a + ((b - a) * u + (c - a) * v) / count);
             };
-            at(1);
+            at(1.0 / 3.0);
             // The part that points the other way.
             if i + j + 1 < rows {
-                at(2);
+                at(2.0 / 3.0);
             }
         }
     }

@@ -28,8 +28,9 @@ pub(crate) struct Walls {
 impl Walls {
     pub(crate) fn new(surface: &Surface, touchable: &[TriangleId]) -> Self {
         let mesh = surface.mesh();
+        let tree = AabbTree::new(mesh);
         let edge = |triangle| (2.0 * mesh.area_vector(triangle).norm()).sqrt();
-        let under: Vec<_> = thicknesses(surface, touchable.iter().copied())
+        let under: Vec<_> = thicknesses(surface, &tree, touchable.iter().copied())
             .map(|(triangle, thickness)| (edge(triangle), thickness))
             .collect();
         let thin = under.iter().copied();
@@ -76,18 +77,19 @@ impl Walls {
 /// How thick the organ is under each of `triangles` [m].
 pub(crate) fn thicknesses(
     surface: &Surface,
+    tree: &AabbTree,
     triangles: impl Iterator<Item = TriangleId>,
 ) -> impl Iterator<Item = (TriangleId, f64)> {
-    through_each(surface, triangles).map(|(triangle, hit)| (triangle, hit.distance))
+    through_each(surface, tree, triangles).map(|(triangle, hit)| (triangle, hit.distance))
 }
 
 /// Where the inward normal of each of `triangles` leaves the organ.
 fn through_each(
     surface: &Surface,
+    tree: &AabbTree,
     triangles: impl Iterator<Item = TriangleId>,
 ) -> impl Iterator<Item = (TriangleId, Hit)> {
     let mesh = surface.mesh();
-    let tree = AabbTree::new(mesh);
     let (low, high) = mesh.bounds();
     let reach = (high - low).norm();
     triangles.filter_map(move |triangle| {
@@ -111,8 +113,9 @@ pub(crate) struct Thickness<'a> {
 impl<'a> Thickness<'a> {
     pub(crate) fn new(surface: &'a Surface) -> Self {
         let mesh = surface.mesh();
+        let tree = AabbTree::new(mesh);
         let mut through = vec![f64::INFINITY; mesh.triangles().len()];
-        for (triangle, hit) in through_each(surface, mesh.triangle_ids()) {
+        for (triangle, hit) in through_each(surface, &tree, mesh.triangle_ids()) {
             let [here, there] = [triangle, hit.triangle].map(|id| mesh.area_vector(id).normalize());
             // The faces of a wedge that is no rim are not two sides of a wall.
             if here.dot(&there) < FACES {
@@ -129,7 +132,7 @@ impl<'a> Thickness<'a> {
         };
         Self {
             surface,
-            tree: AabbTree::new(mesh),
+            tree,
             under: mesh.triangle_ids().map(around).collect(),
         }
     }

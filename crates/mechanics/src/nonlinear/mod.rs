@@ -4,7 +4,7 @@
 //! quasi-static equilibrium with rigid tools, each of which moves a few nodes through its own compliance
 //! ([`Coupling`]). One step per period:
 //!
-//! 1. continue the last displacement as far as the tools continue their paths;
+//! 1. continue the last motion as far as the tools continue their paths; in contact the mean of two, with friction none;
 //! 2. forces of the elements, rotations of the nodes;
 //! 3. one step of Newton's method by a few conjugate gradients, projected onto the conditions of the tools and contacts and
 //!    preconditioned by the factors of the stiffness at rest, turned with the nodes, Q K⁻¹ Qᵀ;

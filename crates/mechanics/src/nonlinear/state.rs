@@ -218,9 +218,9 @@ impl NonlinearState {
 
     /// Whether there is friction at a point of the boundary.
     pub fn has_friction(&self) -> bool {
-        let on_tools = self.on_tools.iter().take_while(|own| !own.is_none());
-        let mut all = self.rubbed.iter().chain(on_tools.map(|own| &own.rubbed));
-        all.any(|rubbed| rubbed.force != Vec3::zeros())
+        let rubs = |rubbed: &Rubbed| rubbed.force != Vec3::zeros();
+        let mut on_tools = self.on_tools.iter().take_while(|own| !own.is_none());
+        on_tools.any(|own| rubs(&own.rubbed)) || (self.touches() && self.rubbed.iter().any(rubs))
     }
 
     /// Whether no node is displaced from rest by more than `most` [m] along any axis, and no force fades.

@@ -1,4 +1,4 @@
-use palpate_geometry::{SimplifySettings, Surface, simplify_graded};
+use palpate_geometry::{AabbTree, SimplifySettings, Surface, simplify_graded};
 
 use crate::Error;
 use crate::walls::thicknesses;
@@ -56,7 +56,8 @@ fn sizes(shown: &Surface, triangles: usize) -> Vec<f64> {
         .sum();
     let even = (2.0 * area / triangles as f64).sqrt();
     let mut sizes = vec![even; mesh.vertices().len()];
-    for (triangle, thickness) in thicknesses(shown, mesh.triangle_ids()) {
+    let tree = AabbTree::new(mesh);
+    for (triangle, thickness) in thicknesses(shown, &tree, mesh.triangle_ids()) {
         for node in mesh.corners(triangle) {
             let size = &mut sizes[node.index()];
             *size = size.min((OF_A_WALL * thickness).max(FINEST * even));

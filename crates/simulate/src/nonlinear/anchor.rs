@@ -1,21 +1,20 @@
 use palpate_geometry::{AabbTree, Surface, Vec3};
 
-/// The anchor of a body as the boundary of its mesh knows it, which is beside the surface by a part of an edge: a place of the
-/// boundary is fixed where the nearest point of the surface is.
+/// The anchor of a body on the boundary of its mesh, which differs from the surface by a part of an edge: a place of the boundary is
+/// fixed where the nearest point of the surface is.
 pub(super) struct Anchor<'a> {
     surface: &'a Surface,
     tree: AabbTree,
-    holds: &'a dyn Fn(&Vec3) -> bool,
+    holds: Box<dyn Fn(&Vec3) -> bool + 'a>,
 }
 
 impl<'a> Anchor<'a> {
     /// That of the body within `surface`, of which `holds` says whether a place [m] is fixed.
-    pub(super) fn new(surface: &'a Surface, holds: &'a dyn Fn(&Vec3) -> bool) -> Self {
-        let tree = AabbTree::new(surface.mesh());
+    pub(super) fn new(surface: &'a Surface, holds: impl Fn(&Vec3) -> bool + 'a) -> Self {
         Self {
             surface,
-            tree,
-            holds,
+            tree: AabbTree::new(surface.mesh()),
+            holds: Box::new(holds),
         }
     }
 
@@ -25,6 +24,6 @@ impl<'a> Anchor<'a> {
         let nearest = self.tree.nearest(mesh, place);
         // An anchor that ends in the plane of a triangle holds it, which rounding of a point on it would hide.
         let corners = mesh.positions(nearest.triangle);
-        (self.holds)(&nearest.on.position) || corners.iter().all(self.holds)
+        (self.holds)(&nearest.on.position) || corners.iter().all(&self.holds)
     }
 }

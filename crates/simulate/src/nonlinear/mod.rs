@@ -188,18 +188,12 @@ impl NonlinearOrgan {
             .map(|body| tetrahedra(&body.surface, body.nodes, &body.regions, |_| 1.0));
         let filled = filled.collect::<Result<Vec<_>, _>>()?;
         let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
-        let holds = |place: &Vec3| anchor.holds((*place).into());
-        let anchor = Anchor::new(surface, &holds);
+        let anchor = Anchor::new(surface, |place| anchor.holds((*place).into()));
         let mut of_meshes = mesh_warnings(surface, nodes, &organ, &anchor);
-        let of_soft: Vec<_> = soft
+        let of_soft = soft
             .iter()
-            .map(|body| |place: &Vec3| body.holds(place))
-            .collect();
-        let of_soft: Vec<_> = soft
-            .iter()
-            .zip(&of_soft)
-            .map(|(body, holds)| Anchor::new(&body.surface, holds))
-            .collect();
+            .map(|body| Anchor::new(&body.surface, |place| body.holds(place)));
+        let of_soft: Vec<_> = of_soft.collect();
         for ((body, mesh), anchor) in soft.iter().zip(&filled).zip(&of_soft) {
             of_meshes.extend(mesh_warnings(&body.surface, body.nodes, mesh, anchor));
         }

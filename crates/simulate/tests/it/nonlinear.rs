@@ -95,25 +95,43 @@ fn a_press_does_not_depend_on_the_number_of_nodes() {
     }
 }
 
-/// A grasper that holds the organ at the place nearest to `at`, upright on it; with where its tip is.
-pub(crate) fn holding<'a>(
-    simulation: &'a Simulation,
-    at: &Vec3,
-) -> (Hands<'a>, Vec3, UnitQuaternion<f64>) {
+/// Where a tip that holds an organ is [m], and how it is turned.
+pub(crate) type Held = (Vec3, UnitQuaternion<f64>);
+
+/// Graspers that hold the organ at the places nearest to `at`, upright on it; with where their tips are.
+pub(crate) fn all_holding<'a>(simulation: &'a Simulation, at: &[Vec3]) -> (Hands<'a>, Vec<Held>) {
     let tree = AabbTree::new(simulation.surface().mesh());
-    let (point, normal) = nearest(simulation, &tree, at);
-    let turned = UnitQuaternion::rotation_between(&Vec3::z(), &normal).unwrap_or_default();
+    let places = at.iter().map(|at| nearest(simulation, &tree, at));
+    let places = places.map(|(point, normal)| {
+        let turned = UnitQuaternion::rotation_between(&Vec3::z(), &normal).unwrap_or_default();
+        (point, normal, turned)
+    });
+    let places: Vec<_> = places.collect();
     let mut hands = Hands::new(simulation);
-    let mut go =
-        |height: f64, grip: f64| hands.go(&[pose(&(point + normal * height), &turned, grip)]);
+    let mut go = |height: f64, grip: f64| {
+        let poses = places.iter();
+        let poses =
+            poses.map(|(point, normal, turned)| pose(&(point + normal * height), turned, grip));
+        hands.go(&poses.collect::<Vec<_>>());
+    };
     for step in 0..=10 {
         go(1e-3 - 1e-4 * f64::from(step), 0.0);
     }
     for step in 0..=10 {
         go(0.0, 0.1 * f64::from(step));
     }
-    assert!(hands.state.tools[0].holds());
-    (hands, point, turned)
+    assert!(hands.state.tools.iter().all(|tool| tool.holds()));
+    let tips = places.into_iter().map(|(point, _, turned)| (point, turned));
+    (hands, tips.collect())
+}
+
+/// One of them.
+pub(crate) fn holding<'a>(
+    simulation: &'a Simulation,
+    at: &Vec3,
+) -> (Hands<'a>, Vec3, UnitQuaternion<f64>) {
+    let (hands, tips) = all_holding(simulation, &[*at]);
+    (hands, tips[0].0, tips[0].1)
 }
 
 pub(crate) const STRONG: Jaws = Jaws {

@@ -1,12 +1,11 @@
 //! Organs at large deformation beside finer meshes of themselves.
 
-use nalgebra::UnitQuaternion;
-use palpate_geometry::{AabbTree, Vec3};
+use palpate_geometry::Vec3;
 use palpate_simulate::Simulation;
 
 use crate::grip::{Hands, grasping, pose};
-use crate::nonlinear::{LIVER, STRONG};
-use crate::scenes::{Hand, Setting, YOUNGS_MODULUS, nearest};
+use crate::nonlinear::{LIVER, STRONG, all_holding};
+use crate::scenes::{Hand, Setting, YOUNGS_MODULUS};
 
 /// Force on the hands [N] and displacements of the surface that is seen [m].
 struct Outcome {
@@ -26,34 +25,14 @@ fn outcome(simulation: &Simulation, hands: &Hands<'_>) -> Outcome {
 /// Moves what graspers hold near each of `at` by its way [m], at 200 mm/s.
 fn pulled(setting: &Setting<'_>, at: &[Hold]) -> Outcome {
     let simulation = Simulation::new(&grasping(setting, STRONG, at.len())).unwrap();
-    let tree = AabbTree::new(simulation.surface().mesh());
-    let places: Vec<_> = at
-        .iter()
-        .map(|(at, way)| {
-            let (point, normal) = nearest(&simulation, &tree, at);
-            let turned = UnitQuaternion::rotation_between(&Vec3::z(), &normal).unwrap_or_default();
-            (point, normal, turned, *way)
-        })
-        .collect();
-    let mut hands = Hands::new(&simulation);
-    let mut go = |height: f64, part: f64, grip: f64| {
-        let poses: Vec<_> = places
-            .iter()
-            .map(|(point, normal, turned, way)| {
-                pose(&(point + normal * height + way * part), turned, grip)
-            })
-            .collect();
-        hands.go(&poses);
-    };
-    for step in 0..=10 {
-        go(1e-3 - 1e-4 * f64::from(step), 0.0, 0.0);
-    }
-    for step in 0..=10 {
-        go(0.0, 0.0, 0.1 * f64::from(step));
-    }
+    let places: Vec<Vec3> = at.iter().map(|(place, _)| *place).collect();
+    let (mut hands, tips) = all_holding(&simulation, &places);
     let steps = (at[0].1.norm() / 1e-3).ceil() as usize;
     for step in 0..=steps {
-        go(0.0, step as f64 / steps as f64, 1.0);
+        let part = step as f64 / steps as f64;
+        let poses = tips.iter().zip(at);
+        let poses = poses.map(|((tip, turned), (_, way))| pose(&(tip + way * part), turned, 1.0));
+        hands.go(&poses.collect::<Vec<_>>());
     }
     outcome(&simulation, &hands)
 }

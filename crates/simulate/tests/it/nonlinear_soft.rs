@@ -44,18 +44,20 @@ fn scene(beside: Beside, friction: f64) -> Scene {
     }
 }
 
-/// How it went: the force at the end of the pull [N], its work [J], how far the ball moved [m], how deep what is seen of the tube lies in it at
+/// How it went: the force at the end of the pull [N], its work and that of the first part [J], how far the ball moved [m], how deep what is seen of the tube lies in it at
 /// most, and what is left once the tube is let go.
 struct Pulled {
     force: Vec3,
     work: f64,
+    early: f64,
     ball: f64,
     deepest: f64,
     left: f64,
 }
 
-/// How far the esophagus is pulled aside [m], and what a period adds.
+/// How far the esophagus is pulled aside [m], the first part of it, and what a period adds.
 const ASIDE: f64 = 0.02;
+const EARLY: f64 = 0.012;
 const STEP: f64 = 2.5e-4;
 
 /// The esophagus is pulled aside, past the ball, in steps of this length [m], held for a moment, and let go.
@@ -72,6 +74,7 @@ fn pull(beside: Beside, friction: f64, length: f64) -> Pulled {
     let mut pulled = Pulled {
         force: Vec3::zeros(),
         work: 0.0,
+        early: 0.0,
         ball: 0.0,
         deepest: 0.0,
         left: 0.0,
@@ -81,7 +84,11 @@ fn pull(beside: Beside, friction: f64, length: f64) -> Pulled {
         let way = (length * f64::from(step)).min(ASIDE);
         hands.go(&[pose(&(point - Vec3::y() * way), &turned, 1.0)]);
         let force = hands.state.tools[0].force;
-        pulled.work += 0.5 * (pulled.force + force).y * (way - before);
+        let work = 0.5 * (pulled.force + force).y * (way - before);
+        pulled.work += work;
+        if way <= EARLY {
+            pulled.early += work;
+        }
         (pulled.force, before) = (force, way);
     }
     let seen = hands.state.deformed.vertices();
@@ -150,6 +157,7 @@ fn a_pulled_tube_pushes_a_neighbour_that_bends() {
     assert!((stiff.work / rigid.work - 1.0).abs() < 0.1, "{falls:?}");
     assert!(soft.ball > 5e-4, "{}", soft.ball);
     assert!(rubbed.work > 1.02 * soft.work, "{}", rubbed.work);
+    assert!(rubbed.early > 1.005 * soft.early, "{}", rubbed.early);
     assert!(firm_rubbed.work > 1.02 * firm.work, "{}", firm_rubbed.work);
     assert!((slowly.work / rubbed.work - 1.0).abs() < 0.02);
     for pulled in [&stiff, &firm, &soft, &firm_rubbed, &rubbed] {
