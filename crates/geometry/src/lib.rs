@@ -36,6 +36,7 @@ mod patch_field;
 mod proximity;
 mod refine;
 mod simplify;
+mod slit;
 mod surface;
 mod weld;
 mod wrap;
@@ -75,6 +76,7 @@ pub use refine::{Level, Resolved, refine_to, resolve_levels};
 pub use simplify::{
     Simplified, SimplifyError, SimplifySettings, simplify, simplify_graded, simplify_with_progress,
 };
+pub use slit::{SlitPoint, SlitTetrahedra};
 pub use surface::{SHARP_EDGE, Surface};
 pub use weld::{Repairs, repair, weld_exactly};
 pub use wrap::{WrapError, WrapSettings, Wrapped, wrap, wrap_with_progress};

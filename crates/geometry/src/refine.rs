@@ -21,3 +21,5 @@ mod shell;
 
 pub use level::{Level, Resolved, resolve_levels};
 pub use near::refine_to;
+pub(crate) use relax::{FLAT, SWEEPS, open_around};
+pub(crate) use shell::{dihedral_quality, move_if_sound};

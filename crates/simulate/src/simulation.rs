@@ -1,4 +1,5 @@
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use palpate_files::scene::{Enhancement, HandOver, ModelKind, Nodule};
 use palpate_files::{Scene, SessionHeader};
@@ -25,7 +26,7 @@ pub struct Simulation {
     /// How the whole organ answers, if the scene wants that.
     pub(crate) global: Option<GlobalModel>,
     /// How it bends, if the scene wants that.
-    pub(crate) nonlinear: Option<NonlinearOrgan>,
+    pub(crate) nonlinear: Option<Arc<NonlinearOrgan>>,
     /// How it is cut, if anything can.
     pub(crate) cutting: Option<CuttingModel>,
     /// The bodies at which tools stop.
@@ -175,7 +176,7 @@ impl Simulation {
                 };
                 let (organ, more) = NonlinearOrgan::new(scene, shown, organ, beside, watch)?;
                 warnings.extend(more);
-                Some(organ)
+                Some(Arc::new(organ))
             }
         };
         if scene.model.kind == ModelKind::Local {
@@ -193,11 +194,6 @@ impl Simulation {
             let _ = watch(Progress { work, part });
         })?);
         let cutting = CuttingModel::new(scene, &surface)?;
-        if nonlinear.is_some() && cutting.as_ref().is_some_and(|model| model.changes_force) {
-            warnings.push(
-                "cuts are seen, and do not change the force of the nonlinear model".to_owned(),
-            );
-        }
         warnings.extend(cutting.iter().filter_map(CuttingModel::warning));
         if !scene.organ.layers.is_empty() && nonlinear.is_none() {
             warnings.push(
@@ -257,7 +253,7 @@ impl Simulation {
 
     /// The surface that nothing touches, and its boxes: that at rest, or as the organ hangs under its weight.
     pub(crate) fn untouched(&self) -> (&TriangleMesh, &AabbTree) {
-        let organ = self.nonlinear.as_ref();
+        let organ = self.nonlinear.as_deref();
         organ
             .and_then(NonlinearOrgan::hangs)
             .unwrap_or((self.surface.mesh(), &self.tree))

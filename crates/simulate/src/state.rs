@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use palpate_files::Pose;
 use palpate_files::scene::Nodule;
 use palpate_files::session::{Events, SessionRow};
@@ -13,7 +15,7 @@ use crate::global::{GlobalWorkspace, OrganField};
 use crate::grip::Grip;
 use crate::limits::LimitCounts;
 use crate::neighbour::Stopped;
-use crate::nonlinear::{Body, Moved, NonlinearWorkspace, Pushed};
+use crate::nonlinear::{Body, Moved, NonlinearOrgan, NonlinearWorkspace, Pushed};
 use crate::{Contact, Error, Simulation, nodule};
 
 /// All that a step changes.
@@ -166,7 +168,7 @@ impl SimulationState {
             body: simulation
                 .nonlinear
                 .as_ref()
-                .map(|organ| organ.at_rest(simulation.tools.len())),
+                .map(|organ| Body::at_rest(organ, simulation.tools.len())),
             nodules: simulation.nodules.clone(),
             tree: boxes.clone(),
             moved: MovedVertices::with_room(simulation.surface.mesh().vertices().len()),
@@ -248,6 +250,12 @@ impl SimulationState {
         tools
             .flat_map(|(tool, state)| state.limits.warnings(&tool.name))
             .collect()
+    }
+
+    /// The organ that bends, with its cuts.
+    pub(crate) fn bent_organ(&self) -> Option<Arc<NonlinearOrgan>> {
+        let body = self.body.as_ref();
+        body.map(|body| Arc::clone(&body.organ))
     }
 
     /// Closes the last cut again. Whether there was one; while a blade is in the tissue there is none.
@@ -336,8 +344,9 @@ impl ToolState {
 impl SimulationWorkspace {
     /// What to be careful about in the forces of the cuts that the last step followed, as sentences.
     pub fn warnings(&self) -> Vec<String> {
-        let global = self.global.as_ref();
-        global.map_or_else(Vec::new, GlobalWorkspace::warnings)
+        let global = self.global.iter().flat_map(GlobalWorkspace::warnings);
+        let nonlinear = self.nonlinear.iter().flat_map(NonlinearWorkspace::warnings);
+        global.chain(nonlinear).collect()
     }
 
     /// Scratch for `simulation`.
@@ -355,7 +364,7 @@ impl SimulationWorkspace {
             nonlinear: simulation
                 .nonlinear
                 .as_ref()
-                .map(|organ| organ.workspace(simulation.tools.len())),
+                .map(|organ| NonlinearWorkspace::new(organ, simulation)),
             seen: vec![0; mesh.vertices().len()],
             seen_triangles: vec![0; mesh.triangles().len()],
             turn: 0,

@@ -7,6 +7,7 @@ use palpate_geometry::Vec3;
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::{ForceHistory, Limits};
 
+use crate::nonlinear::Body;
 use crate::shaft::Shaft;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, SimulationWorkspace, ToolState};
@@ -45,6 +46,9 @@ pub fn touch(
         &mut workspace.global,
     ) {
         global.follow_cuts(model, cuts, workspace);
+    }
+    if let Some(workspace) = &mut workspace.nonlinear {
+        workspace.follow_cuts(simulation, elapsed, state);
     }
     for (number, tool) in simulation.tools.iter().enumerate() {
         let pose = poses.get(number).copied().flatten();
@@ -119,8 +123,7 @@ fn move_surface(
 ) {
     if let (Some(global), Some(workspace)) = (&simulation.global, &mut workspace.global) {
         global.deform(simulation, time, state, workspace);
-    } else if let (Some(organ), Some(workspace)) = (&simulation.nonlinear, &mut workspace.nonlinear)
-    {
+    } else if let (Some(organ), Some(workspace)) = (state.bent_organ(), &mut workspace.nonlinear) {
         organ.deform((simulation, time), state, workspace);
     } else {
         deform::deform(simulation, time, state, workspace);
@@ -223,7 +226,7 @@ pub(crate) fn respond(
         return global.press(simulation, &mut state.tools, workspace);
     }
     if let (Some(organ), Some(body), Some(workspace)) = (
-        &simulation.nonlinear,
+        state.bent_organ(),
         &mut state.body,
         &mut workspace.nonlinear,
     ) {
@@ -400,7 +403,8 @@ fn show_cuts(simulation: &Simulation, time: f64, state: &mut SimulationState) {
     };
     if cuts.is_behind() || due && cuts.are_there() {
         state.cuts_shown_at = time;
-        cuts.follow(simulation, state.deformed.vertices(), model.width);
+        let rims = state.body.iter().flat_map(Body::rims);
+        cuts.follow(simulation, (state.deformed.vertices(), rims), model.width);
     }
 }
 

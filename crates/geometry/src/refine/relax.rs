@@ -9,10 +9,10 @@ use super::shell::{SearchedSurface, dihedral_quality};
 use crate::Vec3;
 
 /// Tetrahedra less open than this are worked on [rad].
-const FLAT: f64 = 0.25;
+pub(crate) const FLAT: f64 = 0.25;
 
 /// Sweeps over all flat tetrahedra.
-const SWEEPS: usize = 6;
+pub(crate) const SWEEPS: usize = 6;
 
 /// Steps of the search, as parts of the shortest edge at the vertex [-].
 const STEPS: [f64; 4] = [0.3, 0.15, 0.07, 0.03];
@@ -48,7 +48,18 @@ fn open(bisection: &mut Bisection, node: u32, shell: Option<&SearchedSurface<'_>
         .iter()
         .map(|&t| bisection.nodes(t))
         .collect();
-    let vertices = &mut bisection.vertices;
+    open_around(&mut bisection.vertices, (node, &star), |target| {
+        shell.map_or(target, |shell| shell.nearest(&target))
+    })
+}
+
+/// Moves `node` to where the flattest of the tetrahedra around it, `star`, is more open, on what `onto` takes a place to; whether
+/// there was such a place.
+pub(crate) fn open_around(
+    vertices: &mut [Vec3],
+    (node, star): (u32, &[[u32; 4]]),
+    onto: impl Fn(Vec3) -> Vec3,
+) -> bool {
     let start = vertices[node as usize];
     let worst = |vertices: &[Vec3]| {
         star.iter()
@@ -63,8 +74,7 @@ fn open(bisection: &mut Bisection, node: u32, shell: Option<&SearchedSurface<'_>
     for step in STEPS {
         let from = best.1;
         for direction in directions() {
-            let target = from + direction * (step * reach);
-            let target = shell.map_or(target, |shell| shell.nearest(&target));
+            let target = onto(from + direction * (step * reach));
             vertices[node as usize] = target;
             let open = worst(vertices);
             if open > best.0 + 1e-6 {

@@ -23,7 +23,7 @@ impl<'a> SearchedSurface<'a> {
 
 /// How far its angles are from flat: the smallest of all angles between faces and of their
 /// supplements [rad]; negative when it is inverted.
-pub(super) fn dihedral_quality(positions: &[Vec3; 4]) -> f64 {
+pub(crate) fn dihedral_quality(positions: &[Vec3; 4]) -> f64 {
     if six_fold_volume(positions) <= 0.0 {
         return -1.0;
     }
@@ -35,7 +35,7 @@ pub(super) fn dihedral_quality(positions: &[Vec3; 4]) -> f64 {
 
 /// Moves `node` to `target` [m], unless one of the tetrahedra around it would then be less open than
 /// both `floor` [rad] and the worst of them before. Whether it moved.
-pub(super) fn move_if_sound<'a>(
+pub(crate) fn move_if_sound<'a>(
     vertices: &mut [Vec3],
     star: impl Iterator<Item = [u32; 4]> + Clone + 'a,
     node: u32,

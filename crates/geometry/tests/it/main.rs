@@ -25,6 +25,7 @@ mod readers;
 mod refine;
 mod shapes;
 mod simplify;
+mod slit;
 mod tetrahedra;
 mod volumes;
 mod wrap;

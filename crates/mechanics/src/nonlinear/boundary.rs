@@ -25,6 +25,8 @@ pub struct Boundary {
     tree: AabbTree,
     /// Mean of √(2 A) of the faces around each vertex [m]; zero inside.
     sizes: Vec<f64>,
+    /// The faces around each vertex.
+    around: Vec<Vec<u32>>,
 }
 
 #[derive(Debug, Clone)]
@@ -37,8 +39,6 @@ struct BoundaryFace {
     extent: f64,
     /// Its area along its outward normal [m²].
     area: Vec3,
-    /// Which of the connected parts of the body it belongs to.
-    piece: u32,
 }
 
 /// A load that is spread over the boundary around a place.
@@ -52,6 +52,9 @@ pub struct SpreadLoad {
     pub normal: Vec3,
     /// Place of each node in `nodes`; scratch.
     places: Vec<u32>,
+    /// The faces that it takes, and marks while they are found; scratch.
+    faces: Vec<u32>,
+    is_reached: Vec<bool>,
 }
 
 const NOWHERE: u32 = u32::MAX;
@@ -66,7 +69,12 @@ impl Boundary {
             vec![0.0; mesh.vertices().len()],
             vec![0_u32; mesh.vertices().len()],
         );
-        let pieces = pieces(mesh);
+        let mut around = vec![Vec::new(); mesh.vertices().len()];
+        for (number, face) in numbers.iter().enumerate() {
+            for node in face.corners {
+                around[node.index()].push(number as u32);
+            }
+        }
         let faces = numbers.iter().map(|&Face { corners, nodes, .. }| {
             let places = corners.map(|node| mesh.vertices()[node.index()]);
             let [a, b, c] = places;
@@ -85,7 +93,6 @@ impl Boundary {
                     .map(|corner| (corner - centroid).norm())
                     .fold(0.0, f64::max),
                 area,
-                piece: pieces[corners[0].index()],
             }
         });
         let faces = faces.collect();
@@ -97,6 +104,7 @@ impl Boundary {
             tree: AabbTree::new(&triangles),
             mesh: triangles,
             sizes,
+            around,
         })
     }
 
@@ -113,7 +121,7 @@ impl Boundary {
         self.faces.iter().map(|face| face.area.norm())
     }
 
-    /// Spreads a load around `place` [m], on what is one piece with the nearest face and faces as `normal` [-] does:
+    /// Spreads a load around `place` [m], on what hangs together there and faces as `normal` [-] does, such as one side of a slit:
     /// (1 − (r/R)²)² with R no less than `radius` [m] nor than the faces resolve.
     pub fn spread(&self, place: &Vec3, normal: &Vec3, radius: f64, load: &mut SpreadLoad) {
         let nearest = self.tree.nearest(&self.mesh, place);
@@ -128,13 +136,10 @@ impl Boundary {
         load.normal = *normal;
         let square = load.radius * load.radius;
         let mut all = 0.0;
-        let piece = self.faces[nearest.triangle.index()].piece;
-        for face in self.faces.iter().filter(|face| face.piece == piece) {
+        self.reach(nearest.triangle.0, place, load);
+        for k in 0..load.faces.len() {
+            let face = &self.faces[load.faces[k] as usize];
             let facing = face.area.dot(normal);
-            let apart = (face.centroid - place).norm();
-            if facing <= 0.0 || apart > load.radius + face.extent {
-                continue;
-            }
             let [a, b, c] = face.corners;
             for_each_part(ROWS, |[u, v, w]| {
                 let near = 1.0 - (a * u + b * v + c * w - place).norm_squared() / square;
@@ -154,16 +159,47 @@ impl Boundary {
             }
         }
     }
+
+    /// Finds the faces that a load takes, from `first` on over the corners of those that it takes, in their order.
+    fn reach(&self, first: u32, place: &Vec3, load: &mut SpreadLoad) {
+        let takes = |face: &BoundaryFace| {
+            let apart = (face.centroid - place).norm();
+            face.area.dot(&load.normal) > 0.0 && apart <= load.radius + face.extent
+        };
+        load.faces.clear();
+        load.faces.push(first);
+        load.is_reached[first as usize] = true;
+        let mut next = 0;
+        while let Some(&number) = load.faces.get(next) {
+            next += 1;
+            for node in self.mesh.triangles()[number as usize] {
+                for &other in &self.around[node.index()] {
+                    if !load.is_reached[other as usize] && takes(&self.faces[other as usize]) {
+                        load.is_reached[other as usize] = true;
+                        load.faces.push(other);
+                    }
+                }
+            }
+        }
+        for &number in &load.faces {
+            load.is_reached[number as usize] = false;
+        }
+        load.faces
+            .retain(|&number| takes(&self.faces[number as usize]));
+        load.faces.sort_unstable();
+    }
 }
 
 impl SpreadLoad {
-    /// Room for loads on any of `nodes` nodes.
-    pub(super) fn with_room(nodes: usize) -> Self {
+    /// Room for loads on any of `nodes` nodes and `faces` faces.
+    pub(super) fn with_room(nodes: usize, faces: usize) -> Self {
         Self {
             nodes: Vec::with_capacity(nodes),
             radius: 0.0,
             normal: Vec3::z(),
             places: vec![NOWHERE; nodes],
+            faces: Vec::with_capacity(faces),
+            is_reached: vec![false; faces],
         }
     }
 
@@ -202,26 +238,6 @@ impl SpreadLoad {
         let mean = MEAN_INVERSE_DISTANCE / (self.radius * PI * law.youngs_modulus());
         [(1.0 + nu) * (1.0 - 0.5 * nu) * mean, (1.0 - nu * nu) * mean]
     }
-}
-
-/// Which connected part of the body each vertex belongs to, as the number of one of its vertices.
-fn pieces(mesh: &TetrahedronMesh) -> Vec<u32> {
-    fn root(pieces: &mut [u32], vertex: u32) -> u32 {
-        let mut at = vertex;
-        while pieces[at as usize] != at {
-            pieces[at as usize] = pieces[pieces[at as usize] as usize];
-            at = pieces[at as usize];
-        }
-        at
-    }
-    let mut pieces: Vec<u32> = (0..mesh.vertices().len() as u32).collect();
-    for [from, to] in mesh.edges() {
-        let [one, other] = [from, to].map(|vertex| root(&mut pieces, vertex.0));
-        pieces[one.max(other) as usize] = one.min(other);
-    }
-    (0..pieces.len() as u32)
-        .map(|vertex| root(&mut pieces, vertex))
-        .collect()
 }
 
 /// Shape functions of the six nodes of a face, at barycentric coordinates.

@@ -15,8 +15,8 @@ const MIDDLE: [[usize; 4]; 4] = [[0, 4, 6, 7], [4, 0, 5, 8], [6, 5, 0, 9], [7, 8
 pub(super) const POINTS: usize = 4;
 
 /// Barycentric coordinates of a point: of the corner near it, and of the others [-].
-const NEAR: f64 = 0.585_410_196_624_968_5;
-const FAR: f64 = 0.138_196_601_125_010_5;
+pub(super) const NEAR: f64 = 0.585_410_196_624_968_5;
+pub(super) const FAR: f64 = 0.138_196_601_125_010_5;
 
 /// Displacements of, or forces on, the nodes of each element.
 pub(super) type Nodal<T> = [Vector<T>; NODES];

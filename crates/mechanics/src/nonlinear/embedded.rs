@@ -142,13 +142,13 @@ impl EmbeddedPoint {
 }
 
 /// Tetrahedra, with the maps to their barycentric coordinates.
-struct InElements {
+pub(super) struct InElements {
     first: usize,
     frames: Vec<(Vec3, Matrix3<f64>)>,
 }
 
 impl InElements {
-    fn new(mesh: &TetrahedronMesh, range: Range<usize>) -> Self {
+    pub(super) fn new(mesh: &TetrahedronMesh, range: Range<usize>) -> Self {
         let first = range.start;
         let frames = range.map(|tetrahedron| {
             let [a, b, c, d] = mesh.positions(tetrahedron);
@@ -162,8 +162,8 @@ impl InElements {
         }
     }
 
-    /// A point inside one of them.
-    fn of(&self, elements: &[u32], point: &Vec3) -> Option<EmbeddedPoint> {
+    /// The first that a point is in, and its barycentric coordinates but for the first.
+    fn find(&self, point: &Vec3) -> Option<(usize, [f64; 3])> {
         let mut frames = self.frames.iter();
         let mut at = [0.0; 3];
         let number = frames.position(|(corner, inverse)| {
@@ -171,6 +171,20 @@ impl InElements {
             let [x, y, z] = at;
             (1.0 - x - y - z).min(x).min(y).min(z) >= -OUTSIDE
         })?;
+        Some((number, at))
+    }
+
+    /// The tetrahedron that a point is in, and which of its integration points is nearest: that near its nearest corner.
+    pub(super) fn nearest_point(&self, point: &Vec3) -> Option<(usize, usize)> {
+        let (number, [x, y, z]) = self.find(point)?;
+        let shares = [1.0 - x - y - z, x, y, z].into_iter().enumerate();
+        let (nearest, _) = shares.max_by(|one, other| one.1.total_cmp(&other.1))?;
+        Some((self.first + number, nearest))
+    }
+
+    /// A point inside one of them.
+    fn of(&self, elements: &[u32], point: &Vec3) -> Option<EmbeddedPoint> {
+        let (number, at) = self.find(point)?;
         let own = &elements[(self.first + number) * NODES..][..NODES];
         let mut shape = [0.0; NODES];
         ElementKind::Tet10.shape(at, &mut shape);

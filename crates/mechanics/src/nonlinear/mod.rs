@@ -19,6 +19,7 @@
 //! `docs/theory/large_deformation.md`.
 
 mod boundary;
+mod carried;
 mod complementarity;
 mod constraints;
 mod contact;
@@ -42,6 +43,7 @@ mod touching;
 mod touching_search;
 
 pub use boundary::{Boundary, SpreadLoad};
+pub use carried::Carrying;
 pub use constraints::Conditions;
 pub use contact::{Against, BoundaryPoint, MOST_CONTACTS, TOOL_POINTS, UnilateralContact};
 pub use coupling::Coupling;

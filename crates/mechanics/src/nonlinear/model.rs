@@ -167,6 +167,11 @@ impl NonlinearModel {
         &self.mesh
     }
 
+    /// Ten nodes for each tetrahedron.
+    pub(super) fn elements(&self) -> &[u32] {
+        &self.elements
+    }
+
     /// Where tools load it.
     pub fn boundary(&self) -> &Boundary {
         &self.boundary
@@ -184,7 +189,7 @@ impl NonlinearModel {
 
     /// Room for a load on its boundary.
     pub fn spread_load(&self) -> SpreadLoad {
-        SpreadLoad::with_room(self.nodes.len())
+        SpreadLoad::with_room(self.nodes.len(), self.boundary.areas().count())
     }
 
     /// Embeds `points` [m] in the tetrahedra of a range.

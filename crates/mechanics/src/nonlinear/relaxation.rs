@@ -35,6 +35,7 @@ pub(super) struct Relaxation {
     of_lanes: Vec<[usize; LANES]>,
     /// Most terms of a series.
     terms: usize,
+    elements: usize,
 }
 
 /// What becomes of the branches of each series in a step: series × terms, and the share γ of each series.
@@ -69,6 +70,7 @@ impl Relaxation {
             series: series.to_vec(),
             of_lanes: of_lanes.collect(),
             terms,
+            elements,
         }))
     }
 
@@ -81,6 +83,36 @@ impl Relaxation {
         StepShares {
             terms: vec![Share::default(); self.series.len() * self.terms],
             follows: vec![1.0; self.series.len()],
+        }
+    }
+
+    /// Takes what points of another body remember over to those of this one: `place` says which element and point there an element
+    /// and point here is at.
+    pub(super) fn carry(
+        &self,
+        (from, before): (&Self, &[Remembered<f32>]),
+        memory: &mut [Remembered<f32>],
+        place: impl Fn(usize, usize) -> Option<(usize, usize)>,
+    ) {
+        let terms = 1 + self.terms.min(from.terms);
+        for (pack, own) in memory
+            .chunks_exact_mut(POINTS * (1 + self.terms))
+            .enumerate()
+        {
+            for (lane, point) in (0..LANES * POINTS).map(|k| (k / POINTS, k % POINTS)) {
+                let element = (pack * LANES + lane).min(self.elements - 1);
+                let Some((other, there)) = place(element, point) else {
+                    continue;
+                };
+                let first = (other / LANES * POINTS + there) * (1 + from.terms);
+                let others = &before[first..][..terms];
+                let own = &mut own[point * (1 + self.terms)..][..terms];
+                for (own, other_values) in own.iter_mut().zip(others) {
+                    for (value, other_value) in own.iter_mut().zip(other_values) {
+                        value.0[lane] = other_value.0[other % LANES];
+                    }
+                }
+            }
         }
     }
 

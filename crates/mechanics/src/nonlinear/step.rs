@@ -278,6 +278,12 @@ fn stay(state: &mut NonlinearState, workspace: &mut Workspace) {
 }
 
 impl Workspace {
+    /// Finds the rotations of the nodes where the body is in `state`.
+    pub(super) fn turn(&mut self, model: &NonlinearModel, state: &mut NonlinearState) {
+        self.deform(model, GuessOrEnd::End, state);
+        self.rotate(model, state);
+    }
+
     #[inline(always)]
     fn begin(&mut self, model: &NonlinearModel, elapsed: f64, state: &NonlinearState) {
         if let (Some(relaxation), Some(shares)) = (&model.relaxation, &mut self.shares) {

@@ -43,6 +43,7 @@ mod nonlinear_friction;
 mod nonlinear_judges;
 mod nonlinear_regions;
 mod nonlinear_relaxation;
+mod nonlinear_slit;
 mod nonlinear_touching;
 mod orders;
 mod patch_on_hemisphere;

@@ -1,5 +1,5 @@
 use palpate_files::session::Event;
-use palpate_geometry::{CutSurface, TriangleMesh, Vec3};
+use palpate_geometry::{CutSurface, NodeId, TriangleMesh, Vec3};
 
 use super::CuttingModel;
 use super::cut_path::LEAVES;
@@ -136,6 +136,28 @@ impl Cuts {
         &self.parts
     }
 
+    /// Whether a blade is in the tissue.
+    pub(crate) fn is_being_made(&self) -> bool {
+        self.cut_path.is_some()
+    }
+
+    /// The vertices of the openings: their numbers, where they are at rest [m], and where to they open [-].
+    pub(crate) fn openings(
+        &self,
+        simulation: &Simulation,
+    ) -> impl Iterator<Item = (u32, Vec3, Vec3)> {
+        let of_surface = simulation.surface.mesh().vertices().len();
+        let vertices = self.mesh().vertices().iter().enumerate();
+        vertices.filter_map(move |(number, place)| {
+            let opens = self.surface.opening(NodeId(number as u32));
+            (number >= of_surface || opens != Vec3::zeros()).then_some((
+                number as u32,
+                *place,
+                opens,
+            ))
+        })
+    }
+
     /// Whether the surface is being opened.
     pub(crate) fn goes_on(&self) -> bool {
         self.cut_path.is_some_and(|cut_path| cut_path.opens)
@@ -160,7 +182,7 @@ impl Cuts {
 
     /// Closes the last cut again. Whether there was one; while one is being made there is none.
     pub(crate) fn undo(&mut self) -> bool {
-        if self.cut_path.is_some() {
+        if self.is_being_made() {
             return false;
         }
         let Some(mark) = self.before.pop() else {
@@ -177,15 +199,24 @@ impl Cuts {
         true
     }
 
-    /// Follows the organ to where its vertices are moved [m]. It allocates where
+    /// Follows the organ to where its vertices are moved [m], and those of the openings in `rims` by so much. It allocates where
     /// the triangles are more than there is room for.
-    pub(crate) fn follow(&mut self, simulation: &Simulation, moved: &[Vec3], width: f64) {
+    pub(crate) fn follow(
+        &mut self,
+        simulation: &Simulation,
+        (moved, rims): (&[Vec3], impl Iterator<Item = (u32, Vec3)>),
+        width: f64,
+    ) {
         if self.gapes != self.version {
             self.gapes = self.version;
             self.gape.follow(&self.surface, width);
         }
         self.surface
             .place(&simulation.surface, moved, 0.0, &mut self.places);
+        let rest = self.surface.mesh().vertices();
+        for (number, by) in rims {
+            self.places[number as usize] = rest[number as usize] + by;
+        }
         for (place, way) in self.places.iter_mut().zip(self.gape.ways()) {
             *place += way;
         }

@@ -9,6 +9,11 @@ use crate::walls::typical_wall;
 const DEPTH: f64 = 0.002;
 const OF_THE_WALL: f64 = 0.5;
 
+/// A cut through this part of the wall is one through all of it, which parts to so many times the wall's thickness: a wall is not
+/// everywhere as thick [-].
+const THROUGH: f64 = 0.9;
+const BEYOND: f64 = 1.5;
+
 /// Rounding of depths that are sums of decimal numbers [m].
 const ROUNDING: f64 = 1e-9;
 
@@ -26,6 +31,8 @@ pub(crate) struct CuttingModel {
     pub(crate) names: Vec<String>,
     /// No blade goes deeper [m].
     deepest: f64,
+    /// Thickness of the organ's wall [m].
+    wall: f64,
     /// How far an opening gapes [m].
     pub(crate) width: f64,
 }
@@ -91,6 +98,7 @@ impl CuttingModel {
             layers: cut_layers,
             names: layers.iter().map(|layer| layer.name.clone()).collect(),
             deepest: settings.depth_m.unwrap_or(wall),
+            wall,
             width: settings.width_m,
         };
         Ok(wanted.then_some(model))
@@ -125,6 +133,15 @@ impl CuttingModel {
         match layers.checked_sub(1).and_then(|last| self.layers.get(last)) {
             Some(layer) => layer.bottom,
             None => 0.0,
+        }
+    }
+
+    /// How deep the sides of a cut through `layers` of them part [m]: beyond the wall where nearly all of it is cut.
+    pub(crate) fn slit_depth(&self, layers: usize) -> f64 {
+        let depth = self.depth_of(layers);
+        match depth > THROUGH * self.wall {
+            true => BEYOND * self.wall,
+            false => depth,
         }
     }
 

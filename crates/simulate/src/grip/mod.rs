@@ -167,7 +167,7 @@ fn take_hold(
     let took = if let (Some(global), Some(workspace)) = (&simulation.global, &mut workspace.global)
     {
         global.take_hold(simulation, number, &mut state.tools, workspace)
-    } else if let Some(organ) = &simulation.nonlinear {
+    } else if let Some(organ) = state.bent_organ() {
         organ.take_hold(simulation, number, state)
     } else {
         let tool = &simulation.tools[number];

@@ -36,7 +36,7 @@ impl NonlinearOrgan {
             return false;
         };
         let Body { loads, on, .. } = body;
-        on[number] = Piece::with(&self.pieces, contact.place.triangle.0);
+        on[number] = Piece::with(&self.composition.pieces, contact.place.triangle.0);
         let (point, frame) = (contact.point(), contact.place.frame);
         let reach = REACH_IN_RADII * radius;
         let boundary = self.model.boundary();

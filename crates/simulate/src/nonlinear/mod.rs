@@ -22,91 +22,70 @@
 //!
 //! Shafts are in contact with what bends (`shafts`).
 //!
+//! Cuts are slits in the elements (`slits`), which another thread makes (`cut_body`).
+//!
 //! *Limits*: quasi-static. A body that is nearly incompressible is taken with a Poisson's ratio of 0.49.
 //!
 //! [`TipField`]: palpate_mechanics::surface_response::TipField
 
 mod anchor;
+mod composition;
+mod cut_body;
+mod filling;
 mod hold;
 mod mesh_warnings;
 mod neighbours;
 mod regions;
 mod shafts;
 mod shape;
+mod slits;
 mod soft;
 mod target;
 mod touch;
 
-use anchor::Anchor;
-use mesh_warnings::mesh_warnings;
+use composition::{Composition, Filled};
+use cut_body::{CutThread, FollowedCuts};
 use neighbours::{Candidates, Skin};
-use regions::Elements;
 pub(crate) use regions::Regions;
 pub(crate) use shafts::Pushed;
 use shafts::{Pierced, ShaftMotion, ShaftSkin};
+use soft::Merged;
 pub(crate) use soft::SoftBody;
-use soft::{Merged, Piece, touching};
 pub(crate) use touch::Moved;
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use nalgebra::Rotation3;
 use palpate_files::Scene;
-use palpate_geometry::{
-    AabbTree, FillSettings, NodeId, Surface, TetrahedronError, TetrahedronMesh, TriangleMesh, Vec3,
-    coarsen, fill, refine_to,
-};
+use palpate_geometry::{AabbTree, Surface, TriangleMesh, Vec3};
 use palpate_mechanics::contact::{Tip, hertz_force};
 use palpate_mechanics::nonlinear::{
     EmbeddedPoints, NonlinearModel, NonlinearState, SpreadLoad, TouchingBoundary, Workspace,
 };
 use palpate_mechanics::{ForceHistory, LinearElastic};
 
+use crate::Error;
 use crate::grip::Swept;
 use crate::neighbour::Neighbour;
 use crate::preparation::{Progress, Work, tell};
 use crate::shaft::Shaft;
+use crate::simulation::Simulation;
 use crate::tool::Tool;
-use crate::walls::Thickness;
-use crate::{Error, held_region};
-
-/// About so many nodes, if the scene does not say.
-const NODES: usize = 1_500;
-
-/// Tetrahedra of the first filling for each node that is wanted, and by how much they become more where walls are lost.
-const TETRAHEDRA_PER_NODE: usize = 8;
-const MORE: usize = 3;
 
 /// Part of the time to make it that the tetrahedra take [-].
 const FILLED: f64 = 0.5;
 
-/// Edges that are made coarser, in those that are wanted [-].
-const OF_EDGE: f64 = 0.6;
-
-/// Where a body is thinner than so many edges, they are shorter in proportion [-], by a factor of [`MOST_GRADED`] at most: rims and
-/// lobes bend within their thickness. With twice as much grading the bulk becomes too coarse for a tip. A body that is a wall of
-/// one element is not graded, nor are neighbours, whose short edges at a rim fold where a stiffer organ presses them.
-const THIN: f64 = 3.0;
-const MOST_GRADED: f64 = 3.0;
-
-/// Fillings to try.
-const FILLINGS: usize = 5;
-
-/// Iterations in a step: below, and from this Poisson's ratio [-] on more (`docs/theory/large_deformation.md`).
-const ITERATIONS: (usize, usize) = (4, 6);
 /// The same where the body touches itself: bodies push one another until they are in equilibrium.
 const ITERATIONS_TOUCHING: usize = 8;
-const NEARLY_INCOMPRESSIBLE: f64 = 0.46;
-
 /// R of a load over the touching area's radius [-]: it then yields less than the tip itself.
 const REACH_IN_RADII: f64 = 1.7;
 
 /// An organ that bends. Built once.
 #[derive(Debug, Clone)]
 pub(crate) struct NonlinearOrgan {
+    composition: Arc<Composition>,
     pub(crate) model: NonlinearModel,
-    /// The organ, then the neighbours that bend.
-    pieces: Vec<Piece>,
     shown: EmbeddedPoints,
     skin: Skin,
     shaft_skin: ShaftSkin,
@@ -114,9 +93,6 @@ pub(crate) struct NonlinearOrgan {
     touching: Option<TouchingBoundary>,
     /// The shown surface as the organ hangs under its weight, if it has any.
     hangs: Option<(TriangleMesh, AabbTree)>,
-    iterations: usize,
-    /// Of its bounds, across [m]: nothing of it goes farther.
-    size: f64,
 }
 
 /// Where the organ is, and what the tools do to it.
@@ -139,17 +115,84 @@ pub(crate) struct Body {
     shafts: Vec<Option<Shaft>>,
     clear_of_shafts: Vec<f64>,
     pierced: Vec<Pierced>,
+    cuts: FollowedCuts,
+    /// With its cuts.
+    pub(crate) organ: Arc<NonlinearOrgan>,
 }
 
 /// Scratch of its part in a step.
 #[derive(Debug)]
 pub(crate) struct NonlinearWorkspace {
-    solver: Workspace,
+    /// Which organ `own` is for.
+    of: Arc<NonlinearOrgan>,
+    own: OrganWorkspace,
+    /// That for the organ without cuts, while `own` is for one with cuts.
+    whole: Option<OrganWorkspace>,
+    thread: Option<CutThread>,
+    /// Length of the cuts that change no force [m].
+    closed: f64,
     targets: Vec<Option<target::Target>>,
     shafts: Vec<Option<ShaftMotion>>,
-    candidates: Candidates,
     /// Displacements of the shown vertices [m].
     shown: Vec<Vec3>,
+}
+
+/// What of it depends on the elements.
+#[derive(Debug)]
+struct OrganWorkspace {
+    solver: Workspace,
+    candidates: Candidates,
+}
+
+impl Body {
+    /// `organ` at rest, which so many tools may touch.
+    pub(crate) fn at_rest(organ: &Arc<NonlinearOrgan>, tools: usize) -> Self {
+        Self {
+            state: NonlinearState::at_rest(&organ.model, tools),
+            is_at_rest: true,
+            loads: vec![organ.model.spread_load(); tools],
+            on: vec![0; tools],
+            is_loaded: vec![false; tools],
+            lets_go: vec![0; tools],
+            histories: vec![ForceHistory::default(); tools],
+            turns: vec![Rotation3::identity(); tools],
+            shafts: vec![None; tools],
+            clear_of_shafts: vec![0.0; tools],
+            pierced: vec![0; tools],
+            cuts: FollowedCuts::default(),
+            organ: Arc::clone(organ),
+        }
+    }
+}
+
+impl NonlinearWorkspace {
+    pub(crate) fn new(organ: &Arc<NonlinearOrgan>, simulation: &Simulation) -> Self {
+        let tools = simulation.tools.len();
+        let thread = simulation.forces_follow_cuts();
+        let vertices = simulation.surface.mesh().vertices().len();
+        Self {
+            own: organ.workspace_of(tools),
+            of: Arc::clone(organ),
+            whole: None,
+            thread: thread
+                .then(|| CutThread::start(organ, tools, vertices))
+                .flatten(),
+            closed: 0.0,
+            targets: vec![None; tools],
+            shafts: vec![None; tools],
+            shown: vec![Vec3::zeros(); organ.shown.len()],
+        }
+    }
+
+    /// What to be careful about in the forces of cuts, as sentences.
+    pub(crate) fn warnings(&self) -> Option<String> {
+        (self.closed > 0.0).then(|| {
+            format!(
+                "{:.0} mm of the cuts are seen and do not change the force: the elements are too coarse for them (`model.nodes`)",
+                1e3 * self.closed
+            )
+        })
+    }
 }
 
 /// What is beside the organ.
@@ -168,100 +211,46 @@ impl NonlinearOrgan {
     /// that bend; with warnings.
     pub(crate) fn new(
         scene: &Scene,
-        (shown, tree): (&Surface, &AabbTree),
-        (surface, regions): (&Surface, Regions),
+        shown: (&Surface, &AabbTree),
+        own: (&Surface, Regions),
         beside: Beside<'_>,
         watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<(Self, Vec<String>), Error> {
         tell(watch, Progress::begin(Work::Tetrahedra))?;
-        let Beside {
-            tools,
-            soft,
-            neighbours,
-        } = beside;
-        let nodes = scene.model.nodes.unwrap_or(NODES);
-        let organ = tetrahedra(surface, nodes, &regions, grading(surface, nodes))?;
-        let mut series = regions.series();
-        let own = regions.of_elements(&organ);
-        let filled = soft
-            .iter()
-            .map(|body| tetrahedra(&body.surface, body.nodes, &body.regions, |_| 1.0));
-        let filled = filled.collect::<Result<Vec<_>, _>>()?;
-        let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
-        let anchor = Anchor::new(surface, |place| anchor.holds((*place).into()));
-        let mut of_meshes = mesh_warnings(surface, nodes, &organ, &anchor);
-        let of_soft = soft
-            .iter()
-            .map(|body| Anchor::new(&body.surface, |place| body.holds(place)));
-        let of_soft: Vec<_> = of_soft.collect();
-        for ((body, mesh), anchor) in soft.iter().zip(&filled).zip(&of_soft) {
-            of_meshes.extend(mesh_warnings(&body.surface, body.nodes, mesh, anchor));
-        }
-        let mut elements = own;
-        for (body, mesh) in soft.iter().zip(&filled) {
-            elements.extend(body.regions.of_elements(mesh), series.len());
-            series.extend(body.regions.series());
-        }
-        let merged = Merged::new(organ, filled)?;
-        let Elements {
-            moduli,
-            numbers,
-            densities,
-            mut warnings,
-        } = elements;
-        warnings.extend(of_meshes);
-        warnings.extend(regions.warnings.iter().cloned());
-        let is_fixed = |tetrahedron: usize, place: &Vec3| {
-            let number = merged.pieces[tetrahedron].checked_sub(1);
-            match number {
-                None => anchor.fixes(place),
-                Some(number) => of_soft[number as usize].fixes(place),
-            }
-        };
+        let (composition, warnings) = Composition::new(scene, shown, own, beside)?;
         let (work, part) = (Work::Factors, FILLED);
         tell(watch, Progress { work, part })?;
-        let mut model = NonlinearModel::on_boundary(&merged.mesh, &moduli, is_fixed)?
-            .relaxing(&series, &numbers)?;
-        if let Some(gravity) = scene.model.gravity_m_per_s2 {
-            model = model.under_gravity(&densities, &gravity.into())?;
-        }
-        let mut embedded = EmbeddedPoints::default();
-        let mut vertices = shown.mesh().vertices();
-        let surfaces = std::iter::once(surface).chain(soft.iter().map(|body| &body.surface));
-        for (surface, range) in surfaces.zip(&merged.ranges) {
-            let (own, others) = vertices.split_at(surface.mesh().vertices().len());
-            embedded.extend(model.embed(own, range.clone())?);
-            vertices = others;
-        }
-        let hangs = scene.model.gravity_m_per_s2.map(|_| {
-            let rest = NonlinearState::at_rest(&model, 0);
-            let mut mesh = shown.mesh().clone();
-            let moved = embedded.displacements(&rest);
-            for (number, (from, by)) in shown.mesh().vertices().iter().zip(moved).enumerate() {
-                mesh.move_vertex(NodeId(number as u32), from + by);
-            }
-            let tree = AabbTree::new(&mesh);
-            (mesh, tree)
-        });
-        let (low, high) = shown.mesh().bounds();
-        let ratios = soft.iter().map(|body| body.regions.largest_ratio());
-        let ratio = ratios.fold(regions.largest_ratio(), f64::max);
-        let pieces = Piece::all((surface, regions), soft, tools);
-        let organ = Self {
-            shaft_skin: ShaftSkin::new(&model, (shown, tree), &pieces),
-            size: (high - low).norm(),
-            shown: embedded,
-            skin: Skin::new(&model, (shown, tree), neighbours),
-            hangs,
-            iterations: match ratio < NEARLY_INCOMPRESSIBLE {
-                true => ITERATIONS.0,
-                false => ITERATIONS.1,
-            },
-            pieces,
-            touching: touching(scene, &model, (&merged, soft))?,
-            model,
-        };
+        let composition = Arc::new(composition);
+        let organ = Self::of_pieces(&composition, &composition.filled, |place| *place)?;
         Ok((organ, warnings))
+    }
+
+    /// That of the elements of its pieces: those of its composition, or what cuts made of them; vertices of the shown surface go with
+    /// the elements `aside` of cuts.
+    fn of_pieces(
+        composition: &Arc<Composition>,
+        filled: &[Filled],
+        aside: impl Fn(&Vec3) -> Vec3,
+    ) -> Result<Self, Error> {
+        let merged = Merged::new(filled)?;
+        let model = composition.model(filled, &merged)?;
+        let Composition {
+            shown,
+            tree,
+            neighbours,
+            pieces,
+            ..
+        } = &**composition;
+        let embedded = composition.embed(&model, &merged, aside)?;
+        Ok(Self {
+            shaft_skin: ShaftSkin::new(&model, (shown, tree), pieces),
+            skin: Skin::new(&model, (shown, tree), neighbours),
+            hangs: composition.hangs(&model, &embedded),
+            touching: composition.touching(&model, &merged)?,
+            shown: embedded,
+            model,
+            composition: Arc::clone(composition),
+        })
     }
 
     /// The shown surface and its boxes as the organ hangs under its weight, if it has any.
@@ -269,30 +258,11 @@ impl NonlinearOrgan {
         self.hangs.as_ref().map(|(mesh, tree)| (mesh, tree))
     }
 
-    /// The organ at rest, which so many tools may touch.
-    pub(crate) fn at_rest(&self, tools: usize) -> Body {
-        Body {
-            state: NonlinearState::at_rest(&self.model, tools),
-            is_at_rest: true,
-            loads: vec![self.model.spread_load(); tools],
-            on: vec![0; tools],
-            is_loaded: vec![false; tools],
-            lets_go: vec![0; tools],
-            histories: vec![ForceHistory::default(); tools],
-            turns: vec![Rotation3::identity(); tools],
-            shafts: vec![None; tools],
-            clear_of_shafts: vec![0.0; tools],
-            pierced: vec![0; tools],
-        }
-    }
-
-    pub(crate) fn workspace(&self, tools: usize) -> NonlinearWorkspace {
-        NonlinearWorkspace {
+    /// Scratch of this organ for so many tools.
+    fn workspace_of(&self, tools: usize) -> OrganWorkspace {
+        OrganWorkspace {
             solver: self.model.workspace(tools),
-            targets: vec![None; tools],
-            shafts: vec![None; tools],
             candidates: Candidates::new(self, tools),
-            shown: vec![Vec3::zeros(); self.shown.len()],
         }
     }
 
@@ -314,68 +284,4 @@ impl NonlinearOrgan {
 fn jaws_radius(tool: &Tool) -> Option<f64> {
     let face = Swept::face(&tool.jaws?);
     Some((face / std::f64::consts::PI).sqrt())
-}
-
-/// A filling of about `wanted` tetrahedra, or of more where walls are lost. Where it has other holes than `surface`, as
-/// across a thin wall, one finer filling is tried.
-fn filled(surface: &Surface, mut wanted: usize) -> Result<TetrahedronMesh, TetrahedronError> {
-    let of = |wanted| fill(surface, &FillSettings::with_about(surface, wanted));
-    let mut filling = of(wanted);
-    for _ in 1..FILLINGS {
-        if filling.is_ok() {
-            break;
-        }
-        wanted *= MORE;
-        filling = of(wanted);
-    }
-    let is_faithful = |mesh: &TetrahedronMesh| has_topology_of(surface, mesh);
-    if filling.as_ref().is_ok_and(|mesh| !is_faithful(mesh)) {
-        let finer = of(MORE * wanted);
-        if finer.as_ref().is_ok_and(is_faithful) {
-            return finer;
-        }
-    }
-    filling
-}
-
-/// Whether the boundary of `filling` is a closed surface with the Euler characteristic of `surface`.
-fn has_topology_of(surface: &Surface, filling: &TetrahedronMesh) -> bool {
-    let euler = |of: &Surface| {
-        let mesh = of.mesh();
-        2 * mesh.vertices().len() as i64 - mesh.triangles().len() as i64
-    };
-    filling
-        .boundary_surface()
-        .is_ok_and(|boundary| euler(&boundary) == euler(surface))
-}
-
-/// By what factor edges are shorter where the body within `surface` is thin, if it has so many nodes [-].
-fn grading(surface: &Surface, nodes: usize) -> impl Fn(&Vec3) -> f64 {
-    let edge = FillSettings::with_about(surface, nodes).edge;
-    let thickness = Thickness::new(surface);
-    let is_wall = thickness.typical() < edge;
-    move |place| match is_wall {
-        true => 1.0,
-        false => (THIN * edge / thickness.at(place)).clamp(1.0, MOST_GRADED),
-    }
-}
-
-/// About so many nodes in the body within `surface`: a filling that has all of its walls, made coarser; its edges are shorter
-/// at inclusions, and by the factor `finer` [-].
-fn tetrahedra(
-    surface: &Surface,
-    nodes: usize,
-    regions: &Regions,
-    finer: impl Fn(&Vec3) -> f64,
-) -> Result<TetrahedronMesh, Error> {
-    let edge = FillSettings::with_about(surface, nodes).edge;
-    let longest = |place: &Vec3| regions.longest_edge(place).min(edge);
-    let mut filling = filled(surface, TETRAHEDRA_PER_NODE * nodes);
-    if regions.has_inclusions() {
-        filling = filling
-            .and_then(|coarse| refine_to(&coarse, Some(surface), |place| OF_EDGE * longest(place)));
-    }
-    let detail = |place: &Vec3| finer(place) * edge / longest(place);
-    let mesh = filling.and_then(|fine| coarsen(&fine, surface, nodes, detail));
-    mesh.map_err(|error| palpate_mechanics::Error::from(error).into())
 }

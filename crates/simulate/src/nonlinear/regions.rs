@@ -60,7 +60,7 @@ pub(crate) struct Regions {
 }
 
 /// What the elements are made of.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Elements {
     pub(super) moduli: Vec<Moduli<f64>>,
     /// The tissue that each relaxes as.
@@ -69,6 +69,14 @@ pub(super) struct Elements {
     pub(super) densities: Vec<f64>,
     /// Warnings.
     pub(super) warnings: Vec<String>,
+}
+
+impl Elements {
+    /// The same, whose tissues relax as the series after so many do.
+    pub(super) fn numbered_from(mut self, series: usize) -> Self {
+        self.numbers.iter_mut().for_each(|number| *number += series);
+        self
+    }
 }
 
 impl Regions {

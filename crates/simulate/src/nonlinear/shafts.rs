@@ -25,7 +25,7 @@ use palpate_mechanics::nonlinear::{
 use palpate_mechanics::{Limit, Reached};
 
 use super::soft::Piece;
-use super::{Body, NonlinearOrgan, NonlinearWorkspace};
+use super::{Body, NonlinearOrgan, NonlinearWorkspace, OrganWorkspace};
 use crate::shaft::Shaft;
 use crate::state::ToolState;
 use crate::tool::Tool;
@@ -221,7 +221,7 @@ impl NonlinearOrgan {
     /// How far behind its tip a shaft begins at a piece [m].
     fn shaft_begins(&self, motion: &ShaftMotion, piece: usize) -> f64 {
         let is_loaded = motion.loaded.is_none_or(|(loaded, ..)| loaded == piece);
-        let is_dimple = is_loaded && !self.pieces[piece].bends_around[motion.tool];
+        let is_dimple = is_loaded && !self.composition.pieces[piece].bends_around[motion.tool];
         motion.begins[usize::from(!is_dimple)]
     }
 
@@ -292,7 +292,7 @@ impl NonlinearOrgan {
         self.for_each_near_face(motion, &motion.now, state, |number, axis, bound| {
             let face = &self.shaft_skin.faces[number];
             // What bends around a tip meets it wherever that appears, as a tip with a law of its own.
-            if bound > 0.0 || self.pieces[face.piece].bends_around[motion.tool] {
+            if bound > 0.0 || self.composition.pieces[face.piece].bends_around[motion.tool] {
                 return;
             }
             let mut points = face.points(motion.now.radius);
@@ -351,7 +351,7 @@ impl NonlinearOrgan {
                 let (distance, normal) = from_axis(&axis, &(rest + moved));
                 let gap = distance - shaft.radius;
                 let is_active = gap < NEAR && normal.dot(&outward) < FACES;
-                let is_wrapped = self.pieces[face.piece].bends_around[motion.tool];
+                let is_wrapped = self.composition.pieces[face.piece].bends_around[motion.tool];
                 if is_active && (is_wrapped || !motion.is_left_out(face.piece, rest)) {
                     let at = shaft.at(&(rest + moved));
                     let moves = shaft.tip - was.tip + (shaft.along - was.along) * at;
@@ -382,8 +382,7 @@ impl NonlinearOrgan {
     ) {
         let NonlinearWorkspace {
             shafts,
-            candidates,
-            solver,
+            own: OrganWorkspace { solver, candidates },
             ..
         } = workspace;
         for motion in shafts.iter().flatten() {

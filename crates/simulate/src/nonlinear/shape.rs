@@ -35,9 +35,10 @@ impl NonlinearOrgan {
             return;
         }
         state.shown_at = time;
-        let Some(body) = &state.body else {
+        let Some(body) = &mut state.body else {
             return;
         };
+        body.move_rims();
         let shown = &mut workspace.shown;
         let mut largest = 0.0_f64;
         let embedded = self.shown.displacements(&body.state);
@@ -53,7 +54,11 @@ impl NonlinearOrgan {
         for (number, (tool, own)) in simulation.tools.iter().zip(&state.tools).enumerate() {
             let (triangle, place) = match (&own.grip.hold, &own.contact) {
                 (Some(hold), _) => (hold.seen.triangle, hold.place()),
-                (None, Some(_)) if self.pieces[body.on[number]].bends_around[number] => continue,
+                (None, Some(_))
+                    if self.composition.pieces[body.on[number]].bends_around[number] =>
+                {
+                    continue;
+                }
                 (None, Some(contact)) => (contact.place.triangle, contact.point()),
                 (None, None) => continue,
             };

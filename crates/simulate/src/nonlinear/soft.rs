@@ -14,7 +14,8 @@ use palpate_mechanics::contact::Tip;
 use palpate_mechanics::nonlinear::{NonlinearModel, TouchingBoundary};
 use palpate_mechanics::{LinearElastic, TipLaw};
 
-use super::regions::{Elements, Regions};
+use super::composition::Filled;
+use super::regions::Regions;
 use crate::Error;
 use crate::organ::{back, held_region, read_neighbour, read_tissue};
 use crate::region_places::read_regions;
@@ -184,18 +185,10 @@ pub(super) struct Merged {
 }
 
 impl Merged {
-    pub(super) fn new(organ: TetrahedronMesh, soft: Vec<TetrahedronMesh>) -> Result<Self, Error> {
-        if soft.is_empty() {
-            let count = organ.tetrahedra().len();
-            return Ok(Self {
-                mesh: organ,
-                pieces: vec![0; count],
-                ranges: std::iter::once(0..count).collect(),
-            });
-        }
+    pub(super) fn new(filled: &[Filled]) -> Result<Self, Error> {
         let (mut vertices, mut tetrahedra) = (Vec::new(), Vec::new());
         let (mut pieces, mut ranges) = (Vec::new(), Vec::new());
-        for (number, piece) in std::iter::once(organ).chain(soft).enumerate() {
+        for (number, Filled { mesh: piece, .. }) in filled.iter().enumerate() {
             let (first, begin) = (vertices.len() as u32, tetrahedra.len());
             vertices.extend_from_slice(piece.vertices());
             let own = piece.tetrahedra().iter();
@@ -212,25 +205,13 @@ impl Merged {
     }
 }
 
-impl Elements {
-    /// Adds those of a further piece, whose tissues relax as the series after so many do.
-    pub(super) fn extend(&mut self, other: Self, series: usize) {
-        self.moduli.extend(other.moduli);
-        self.densities.extend(other.densities);
-        self.warnings.extend(other.warnings);
-        let numbers = other.numbers.into_iter();
-        self.numbers.extend(numbers.map(|number| series + number));
-    }
-}
-
-/// How the pieces touch one another, and the organ itself if the scene says so; none where nothing does.
+/// How the pieces touch one another, and the organ itself with this friction if it does; none where nothing does.
 pub(super) fn touching(
-    scene: &Scene,
+    on_itself: Option<f64>,
     model: &NonlinearModel,
     (merged, soft): (&Merged, &[SoftBody]),
 ) -> Result<Option<TouchingBoundary>, Error> {
-    let organ = &scene.organ;
-    if soft.is_empty() && !organ.self_contact {
+    if soft.is_empty() && on_itself.is_none() {
         return Ok(None);
     }
     let own = |piece: usize| {
@@ -239,7 +220,7 @@ pub(super) fn touching(
             .map_or(0.0, |number| soft[number].friction)
     };
     let friction = |one: usize, other: usize| match one == other {
-        true => (one == 0 && organ.self_contact).then_some(organ.self_friction),
+        true => on_itself.filter(|_| one == 0),
         false => Some(own(one).max(own(other))),
     };
     Ok(Some(TouchingBoundary::new(

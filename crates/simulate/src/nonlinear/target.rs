@@ -50,7 +50,7 @@ impl Now {
     pub(super) fn of(organ: &NonlinearOrgan, body: &Body, number: usize) -> Self {
         let load = &body.loads[number];
         let state = &body.state;
-        let piece = &organ.pieces[body.on[number]];
+        let piece = &organ.composition.pieces[body.on[number]];
         let yields = piece.regions.yields_to_load(load.radius);
         let own = load.own_compliance(piece.law());
         let own = [0, 1].map(|axis| own[axis] * yields[axis]);

@@ -18,6 +18,7 @@
 //! under a tip relaxes as that at the surface does, and the elements each as their own.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use nalgebra::{Matrix3, Rotation3};
 use palpate_files::session::Event;
@@ -105,8 +106,12 @@ struct Ended {
 }
 
 impl Body {
-    /// At rest, and touched by nothing; nothing is allocated.
-    pub(crate) fn reset(&mut self, organ: &NonlinearOrgan) {
+    /// The whole organ at rest, touched by nothing; nothing is allocated.
+    pub(crate) fn reset(&mut self, organ: &Arc<NonlinearOrgan>) {
+        if let Some((state, loads)) = self.cuts.reset() {
+            (self.state, self.loads) = (state, loads);
+            self.organ = Arc::clone(organ);
+        }
         self.state.reset(&organ.model);
         self.is_at_rest = true;
         self.is_loaded.fill(false);
@@ -167,7 +172,7 @@ impl NonlinearOrgan {
         let before = body.state.largest(&self.model);
         let ended = self.go((simulation, elapsed), body, workspace);
         if ended.has_no_answer
-            || body.state.largest(&self.model) > self.size
+            || body.state.largest(&self.model) > self.composition.size
             || self.is_unsound(body)
         {
             body.state.reset(&self.model);
@@ -188,7 +193,7 @@ impl NonlinearOrgan {
             if let (Some(target), false) = (target, body.lets_go[number] > 0) {
                 own.elastic = -body.histories[number].elastic();
                 target.tell_pace(body, number, own);
-                workspace.candidates.report(own);
+                workspace.own.candidates.report(own);
             }
             own.solved = own.elastic;
             if let Some(hold) = &own.grip.hold {
@@ -200,7 +205,7 @@ impl NonlinearOrgan {
     /// Whether the force of a tool is more than any tissue withstands: the step had no answer.
     fn is_unsound(&self, body: &Body) -> bool {
         body.loads.iter().enumerate().any(|(number, load)| {
-            let law = self.pieces[body.on[number]].law();
+            let law = self.composition.pieces[body.on[number]].law();
             let most = MOST_PRESSURE * law.youngs_modulus() * PI * load.radius.powi(2);
             body.is_loaded[number] && body.state.force(number).norm() > most
         })
@@ -278,7 +283,7 @@ impl NonlinearOrgan {
             .chain(shafts().map(ShaftMotion::way));
         let way = reach * way.fold(0.0, f64::max);
         let mut pace = Pace {
-            iterations: self.iterations,
+            iterations: self.composition.iterations,
             elapsed: elapsed / parts as f64,
         };
         let mut ended = Ended::default();
@@ -286,7 +291,7 @@ impl NonlinearOrgan {
             // What bends moves under what it touches.
             let has_shafts = workspace.shafts.iter().any(Option::is_some);
             if part == 1 || self.touching.is_some() || has_shafts {
-                let candidates = &mut workspace.candidates;
+                let candidates = &mut workspace.own.candidates;
                 let motion = StepMotion {
                     shafts: &workspace.shafts,
                     parts: [part - 1, part].map(|part| reach * part as f64),
@@ -296,7 +301,7 @@ impl NonlinearOrgan {
                 let is_hard = candidates.touches_itself() || candidates.touches_shafts();
                 pace.iterations = match is_hard {
                     true => ITERATIONS_TOUCHING,
-                    false => self.iterations,
+                    false => self.composition.iterations,
                 };
             }
             let left = 1.0 - reach * part as f64;
@@ -313,9 +318,9 @@ impl NonlinearOrgan {
             });
             let conditions = Conditions {
                 couplings: &couplings[..targets.len().min(MOST_TOOLS)],
-                contacts: &workspace.candidates.contacts,
+                contacts: &workspace.own.candidates.contacts,
             };
-            let (state, solver) = (&mut body.state, &mut workspace.solver);
+            let (state, solver) = (&mut body.state, &mut workspace.own.solver);
             let advance = advance(&self.model, conditions, pace, state, solver);
             ended.has_no_answer |= advance.has_no_answer();
             ended.is_inverted = advance.is_inverted;
@@ -352,8 +357,8 @@ impl NonlinearOrgan {
     ) -> Option<Target> {
         let (pose, contact) = (own.pose?, own.contact.as_mut()?);
         let place = contact.place;
-        body.on[number] = Piece::with(&self.pieces, place.triangle.0);
-        let piece = &self.pieces[body.on[number]];
+        body.on[number] = Piece::with(&self.composition.pieces, place.triangle.0);
+        let piece = &self.composition.pieces[body.on[number]];
         let is_wrapped = piece.bends_around[number];
         let force = match is_wrapped {
             true => own.pushed.force.norm(),
@@ -381,7 +386,7 @@ impl NonlinearOrgan {
             return None;
         }
         let further = frame.tr_mul(&now.yields) * frame - self.of_load(&now);
-        let law = self.pieces[body.on[number]].tip_law((number, tool));
+        let law = self.composition.pieces[body.on[number]].tip_law((number, tool));
         let law = law.beside(place.mean_curvature());
         let answer = law.force_in_series(&moved, &further);
         own.stiffness = answer.stiffness;
@@ -471,7 +476,7 @@ impl NonlinearOrgan {
         (frame, now): (&Matrix3<f64>, &Now),
     ) -> Option<Matrix3<f64>> {
         let radius = super::jaws_radius(tool)?;
-        let piece = &self.pieces[piece];
+        let piece = &self.composition.pieces[piece];
         let [along, normal] = piece.regions.yields_to_tip(radius);
         let law = piece.law();
         let along = along / half_space_tangential_stiffness(law, radius);

@@ -1,0 +1,225 @@
+//! Tetrahedra whose edges are split, whose vertices move and whose faces part.
+
+use std::collections::{HashMap, HashSet};
+
+use super::SlitPoint;
+use crate::mesh::tetrahedra::{faces, find, matched};
+use crate::refine::move_if_sound;
+use crate::{AabbTree, NodeId, TetrahedronMesh, TriangleMesh, Vec3};
+
+pub(super) type Edge = [u32; 2];
+
+/// Angles below this are not made by moving a vertex [rad].
+const MOVED_FLOOR: f64 = 0.17;
+
+/// A vertex of the boundary moves no farther out of a face there than this part of its way [-].
+const OFF_BOUNDARY: f64 = 0.2;
+
+pub(super) struct Net {
+    pub(super) vertices: Vec<Vec3>,
+    pub(super) tetrahedra: Vec<[u32; 4]>,
+    /// Of which tetrahedron of the body each is a part.
+    pub(super) parents: Vec<u32>,
+    /// The tetrahedra around each vertex.
+    pub(super) around: Vec<Vec<u32>>,
+    /// Vertices on the sides of a slit, which stay.
+    is_locked: Vec<bool>,
+}
+
+impl Net {
+    pub(super) fn new(mesh: &TetrahedronMesh) -> Self {
+        let tetrahedra = mesh.tetrahedra().iter();
+        let tetrahedra: Vec<_> = tetrahedra.map(|nodes| nodes.map(|node| node.0)).collect();
+        let count = mesh.vertices().len();
+        let mut around = vec![Vec::new(); count];
+        for (number, nodes) in tetrahedra.iter().enumerate() {
+            for &node in nodes {
+                around[node as usize].push(number as u32);
+            }
+        }
+        Self {
+            vertices: mesh.vertices().to_vec(),
+            parents: (0..tetrahedra.len() as u32).collect(),
+            tetrahedra,
+            around,
+            is_locked: vec![false; count],
+        }
+    }
+
+    pub(super) fn positions(&self, tetrahedron: u32) -> [Vec3; 4] {
+        self.tetrahedra[tetrahedron as usize].map(|node| self.vertices[node as usize])
+    }
+
+    /// The edges of a tetrahedron, the lower vertex first.
+    pub(super) fn edges(&self, tetrahedron: u32) -> [Edge; 6] {
+        let [a, b, c, d] = self.tetrahedra[tetrahedron as usize];
+        [[a, b], [a, c], [a, d], [b, c], [b, d], [c, d]].map(sorted)
+    }
+
+    /// The faces of the boundary with their outward area vectors [m²], and the edges of these.
+    pub(super) fn boundary(&self) -> Boundary {
+        let nodes: Vec<_> = self.tetrahedra.iter().map(|t| t.map(NodeId)).collect();
+        let sorted_faces = faces(&nodes);
+        let mut boundary = Boundary {
+            normals: vec![Vec::new(); self.vertices.len()],
+            edges: HashSet::new(),
+            area: 0.0,
+        };
+        for alike in matched(&sorted_faces).filter(|alike| alike.len() == 1) {
+            let corners = alike[0].corners.map(|node| node.0);
+            let [a, b, c] = corners.map(|node| self.vertices[node as usize]);
+            let inner = self.tetrahedra[alike[0].tetrahedron as usize][alike[0].opposite as usize];
+            let double = (b - a).cross(&(c - a));
+            boundary.area += 0.5 * double.norm();
+            let normal = double.normalize();
+            let outward = normal.dot(&(a - self.vertices[inner as usize])).signum() * normal;
+            for (k, node) in corners.into_iter().enumerate() {
+                boundary.normals[node as usize].push(outward);
+                boundary.edges.insert(sorted([node, corners[(k + 1) % 3]]));
+            }
+        }
+        boundary
+    }
+
+    /// The points of a path, each at the nearest place of the boundary.
+    pub(super) fn onto_boundary(&self, path: &[SlitPoint]) -> Vec<SlitPoint> {
+        let nodes: Vec<_> = self.tetrahedra.iter().map(|t| t.map(NodeId)).collect();
+        let sorted_faces = faces(&nodes);
+        let corners = matched(&sorted_faces).filter(|alike| alike.len() == 1);
+        let corners = corners.map(|alike| alike[0].corners).collect();
+        let Ok(mesh) = TriangleMesh::new(self.vertices.clone(), corners) else {
+            return Vec::new();
+        };
+        let tree = AabbTree::new(&mesh);
+        let each = path.iter().map(|point| SlitPoint {
+            place: tree.nearest(&mesh, &point.place).on.position,
+            ..*point
+        });
+        each.collect()
+    }
+
+    /// Moves a vertex by `way` [m] if the shapes around it allow for that, along the boundary if it is on it; whether it did.
+    pub(super) fn shift(&mut self, vertex: u32, way: &Vec3, boundary: &Boundary) -> bool {
+        let number = vertex as usize;
+        let out = |normal: &Vec3| normal.dot(way).abs() > OFF_BOUNDARY * way.norm();
+        if self.is_locked[number] || boundary.normals[number].iter().any(out) {
+            return false;
+        }
+        let star = self.around[number].iter();
+        let star = star.map(|&t| self.tetrahedra[t as usize]);
+        let target = self.vertices[number] + way;
+        move_if_sound(&mut self.vertices, star, vertex, target, MOVED_FLOOR)
+    }
+
+    /// Whether a vertex is on the side of a slit that is open already.
+    pub(super) fn is_locked(&self, vertex: u32) -> bool {
+        self.is_locked[vertex as usize]
+    }
+
+    /// Splits an edge at `place` [m] on it; the new vertex.
+    pub(super) fn split(&mut self, [a, b]: Edge, place: Vec3) -> u32 {
+        let new = self.vertices.len() as u32;
+        self.vertices.push(place);
+        self.is_locked.push(false);
+        let shared: Vec<u32> = self.around[a as usize].iter().copied().collect();
+        let shared = shared
+            .into_iter()
+            .filter(|t| self.around[b as usize].contains(t));
+        let shared: Vec<u32> = shared.collect();
+        self.around.push(shared.clone());
+        for parent in shared {
+            let child = self.tetrahedra.len() as u32;
+            let nodes = self.tetrahedra[parent as usize];
+            // The parent keeps a, the child b.
+            self.tetrahedra[parent as usize] = nodes.map(|node| if node == b { new } else { node });
+            self.tetrahedra
+                .push(nodes.map(|node| if node == a { new } else { node }));
+            self.parents.push(self.parents[parent as usize]);
+            self.around[new as usize].push(child);
+            self.around[b as usize].retain(|t| *t != parent);
+            for node in nodes.into_iter().filter(|node| *node != a) {
+                self.around[node as usize].push(child);
+            }
+        }
+        new
+    }
+
+    /// Parts the tetrahedra on both sides of `faces`: a vertex around which they leave several pieces becomes one for each.
+    pub(super) fn part(&mut self, faces: &HashSet<[u32; 3]>) {
+        let on: HashSet<u32> = faces.iter().flatten().copied().collect();
+        let mut on: Vec<u32> = on.into_iter().collect();
+        on.sort_unstable();
+        // All vertices are looked at before any becomes two.
+        let pieces: Vec<_> = on
+            .iter()
+            .map(|&vertex| self.pieces_around(vertex, faces))
+            .collect();
+        for (&vertex, pieces) in on.iter().zip(pieces) {
+            self.is_locked[vertex as usize] = true;
+            for piece in pieces.into_iter().skip(1) {
+                let copy = self.vertices.len() as u32;
+                self.vertices.push(self.vertices[vertex as usize]);
+                self.is_locked.push(true);
+                self.around[vertex as usize].retain(|t| !piece.contains(t));
+                for &tetrahedron in &piece {
+                    for node in &mut self.tetrahedra[tetrahedron as usize] {
+                        if *node == vertex {
+                            *node = copy;
+                        }
+                    }
+                }
+                self.around.push(piece);
+            }
+        }
+    }
+
+    /// The tetrahedra around a vertex, in the pieces that `faces` leave of them.
+    fn pieces_around(&self, vertex: u32, faces: &HashSet<[u32; 3]>) -> Vec<Vec<u32>> {
+        let own = &self.around[vertex as usize];
+        let mut root: Vec<u32> = (0..own.len() as u32).collect();
+        let mut seen: HashMap<[u32; 3], u32> = HashMap::new();
+        for (place, &tetrahedron) in own.iter().enumerate() {
+            let nodes = self.tetrahedra[tetrahedron as usize];
+            for left_out in nodes.into_iter().filter(|node| *node != vertex) {
+                let face = face_without(nodes, left_out);
+                if faces.contains(&face) {
+                    continue;
+                }
+                if let Some(other) = seen.insert(face, place as u32) {
+                    let [one, other] = [place as u32, other].map(|at| find(&mut root, at));
+                    root[one.max(other) as usize] = one.min(other);
+                }
+            }
+        }
+        let mut pieces: Vec<(u32, Vec<u32>)> = Vec::new();
+        for (place, &tetrahedron) in own.iter().enumerate() {
+            let root = find(&mut root, place as u32);
+            match pieces.iter_mut().find(|(known, _)| *known == root) {
+                Some((_, piece)) => piece.push(tetrahedron),
+                None => pieces.push((root, vec![tetrahedron])),
+            }
+        }
+        pieces.into_iter().map(|(_, piece)| piece).collect()
+    }
+}
+
+/// Of the boundary, as it is before anything is split.
+pub(super) struct Boundary {
+    /// Unit outward normals of the faces around each vertex; none inside.
+    pub(super) normals: Vec<Vec<Vec3>>,
+    pub(super) edges: HashSet<Edge>,
+    /// Of all faces [m²].
+    pub(super) area: f64,
+}
+
+pub(super) fn sorted([a, b]: Edge) -> Edge {
+    [a.min(b), a.max(b)]
+}
+
+/// The corners of a face, ascending.
+pub(super) fn face_without(nodes: [u32; 4], left_out: u32) -> [u32; 3] {
+    let mut rest = nodes.into_iter().filter(|node| *node != left_out);
+    let mut face = [0; 3].map(|_: u32| rest.next().unwrap_or_default());
+    face.sort_unstable();
+    face
+}

@@ -1,0 +1,217 @@
+//! What an organ and the bodies that bend beside it are made of, whatever becomes of their elements.
+
+use palpate_files::Scene;
+use palpate_files::scene::Region;
+use palpate_geometry::{AabbTree, NodeId, Surface, TetrahedronMesh, TriangleMesh, Vec3};
+use palpate_mechanics::PronySeries;
+use palpate_mechanics::nonlinear::{
+    EmbeddedPoints, NonlinearModel, NonlinearState, TouchingBoundary,
+};
+
+use super::Beside;
+use super::anchor::Anchor;
+use super::filling::{grading, tetrahedra};
+use super::mesh_warnings::mesh_warnings;
+use super::regions::{Elements, Regions};
+use super::soft::{Merged, Piece, SoftBody, touching};
+use crate::neighbour::Neighbour;
+use crate::{Error, held_region};
+
+/// About so many nodes, if the scene does not say.
+const NODES: usize = 1_500;
+
+/// Iterations in a step: below, and from this Poisson's ratio [-] on more (`docs/theory/large_deformation.md`).
+const ITERATIONS: (usize, usize) = (4, 6);
+const NEARLY_INCOMPRESSIBLE: f64 = 0.46;
+
+/// What an organ is made of.
+#[derive(Debug, Clone)]
+pub(super) struct Composition {
+    /// The organ, and all that bends as it is seen.
+    surface: Surface,
+    pub(super) shown: Surface,
+    pub(super) tree: AabbTree,
+    /// Where the organ is held.
+    anchor: Region,
+    soft: Vec<SoftBody>,
+    pub(super) neighbours: Vec<Neighbour>,
+    /// The organ, then the neighbours that bend: as tools meet them, and their elements where nothing is cut.
+    pub(super) pieces: Vec<Piece>,
+    pub(super) filled: Vec<Filled>,
+    /// Relaxation of the tissues of all of them.
+    series: Vec<PronySeries>,
+    /// [m/s²]
+    gravity: Option<Vec3>,
+    /// Coulomb's coefficient of the organ on itself, if it stays out of itself [-].
+    on_itself: Option<f64>,
+    /// About how many nodes all of them have.
+    pub(super) nodes: usize,
+    pub(super) iterations: usize,
+    /// Of its bounds, across [m]: nothing of it goes farther.
+    pub(super) size: f64,
+}
+
+/// The elements of a piece.
+#[derive(Debug, Clone)]
+pub(super) struct Filled {
+    pub(super) mesh: TetrahedronMesh,
+    pub(super) elements: Elements,
+}
+
+impl Composition {
+    /// That of the organ of `scene` with this surface and its tissues, which is seen as `shown` together with the neighbours
+    /// that bend; with warnings.
+    pub(super) fn new(
+        scene: &Scene,
+        (shown, tree): (&Surface, &AabbTree),
+        (surface, regions): (&Surface, Regions),
+        beside: Beside<'_>,
+    ) -> Result<(Self, Vec<String>), Error> {
+        let Beside {
+            tools,
+            soft,
+            neighbours,
+        } = beside;
+        let nodes = scene.model.nodes.unwrap_or(NODES);
+        let organ = tetrahedra(surface, nodes, &regions, grading(surface, nodes))?;
+        let mut filled = vec![Filled {
+            elements: regions.of_elements(&organ),
+            mesh: organ,
+        }];
+        let mut series = regions.series();
+        for body in soft {
+            let mesh = tetrahedra(&body.surface, body.nodes, &body.regions, |_| 1.0)?;
+            let elements = body.regions.of_elements(&mesh).numbered_from(series.len());
+            filled.push(Filled { elements, mesh });
+            series.extend(body.regions.series());
+        }
+        let mut warnings: Vec<String> = filled
+            .iter_mut()
+            .flat_map(|own| std::mem::take(&mut own.elements.warnings))
+            .collect();
+        let ratios = soft.iter().map(|body| body.regions.largest_ratio());
+        let ratio = ratios.fold(regions.largest_ratio(), f64::max);
+        let (low, high) = shown.mesh().bounds();
+        let composition = Self {
+            surface: surface.clone(),
+            shown: shown.clone(),
+            tree: tree.clone(),
+            anchor: held_region(&scene.organ.shape, scene.organ.anchor.as_ref()),
+            soft: soft.to_vec(),
+            neighbours: neighbours.to_vec(),
+            series,
+            gravity: scene.model.gravity_m_per_s2.map(Vec3::from),
+            on_itself: scene
+                .organ
+                .self_contact
+                .then_some(scene.organ.self_friction),
+            iterations: match ratio < NEARLY_INCOMPRESSIBLE {
+                true => ITERATIONS.0,
+                false => ITERATIONS.1,
+            },
+            nodes: nodes + soft.iter().map(|body| body.nodes).sum::<usize>(),
+            size: (high - low).norm(),
+            pieces: Vec::new(),
+            filled,
+        };
+        let meshes = composition.filled.iter().map(|own| &own.mesh);
+        let wanted = std::iter::once(nodes).chain(soft.iter().map(|body| body.nodes));
+        let anchors = composition.anchors();
+        let surfaces = composition.surfaces();
+        for (((mesh, nodes), anchor), surface) in meshes.zip(wanted).zip(&anchors).zip(surfaces) {
+            warnings.extend(mesh_warnings(surface, nodes, mesh, anchor));
+        }
+        drop(anchors);
+        warnings.extend(regions.warnings.iter().cloned());
+        let pieces = Piece::all((surface, regions), soft, tools);
+        Ok((
+            Self {
+                pieces,
+                ..composition
+            },
+            warnings,
+        ))
+    }
+
+    /// The surfaces of the pieces.
+    fn surfaces(&self) -> impl Iterator<Item = &Surface> {
+        let soft = self.soft.iter().map(|body| &body.surface);
+        std::iter::once(&self.surface).chain(soft)
+    }
+
+    /// Where the pieces are held.
+    fn anchors(&self) -> Vec<Anchor<'_>> {
+        let organ = Anchor::new(&self.surface, |place| self.anchor.holds((*place).into()));
+        let soft = self.soft.iter();
+        let soft = soft.map(|body| Anchor::new(&body.surface, |place| body.holds(place)));
+        std::iter::once(organ).chain(soft).collect()
+    }
+
+    /// The model of its pieces with these elements.
+    pub(super) fn model(
+        &self,
+        filled: &[Filled],
+        merged: &Merged,
+    ) -> Result<NonlinearModel, Error> {
+        let anchors = self.anchors();
+        let is_fixed = |tetrahedron: usize, place: &Vec3| {
+            anchors[merged.pieces[tetrahedron] as usize].fixes(place)
+        };
+        let all = || filled.iter().map(|own| &own.elements);
+        let moduli: Vec<_> = all().flat_map(|own| own.moduli.iter().copied()).collect();
+        let numbers: Vec<_> = all().flat_map(|own| own.numbers.iter().copied()).collect();
+        let model = NonlinearModel::on_boundary(&merged.mesh, &moduli, is_fixed)?
+            .relaxing(&self.series, &numbers)?;
+        let Some(gravity) = &self.gravity else {
+            return Ok(model);
+        };
+        let densities: Vec<_> = all()
+            .flat_map(|own| own.densities.iter().copied())
+            .collect();
+        Ok(model.under_gravity(&densities, gravity)?)
+    }
+
+    /// The vertices of the shown surface, each in the elements of its piece, `aside` of cuts.
+    pub(super) fn embed(
+        &self,
+        model: &NonlinearModel,
+        merged: &Merged,
+        aside: impl Fn(&Vec3) -> Vec3,
+    ) -> Result<EmbeddedPoints, Error> {
+        let mut embedded = EmbeddedPoints::default();
+        let mut vertices = self.shown.mesh().vertices();
+        for (surface, range) in self.surfaces().zip(&merged.ranges) {
+            let (own, others) = vertices.split_at(surface.mesh().vertices().len());
+            let own: Vec<Vec3> = own.iter().map(&aside).collect();
+            embedded.extend(model.embed(&own, range.clone())?);
+            vertices = others;
+        }
+        Ok(embedded)
+    }
+
+    /// The shown surface and its boxes as all of it hangs under its weight, if it has any.
+    pub(super) fn hangs(
+        &self,
+        model: &NonlinearModel,
+        embedded: &EmbeddedPoints,
+    ) -> Option<(TriangleMesh, AabbTree)> {
+        self.gravity?;
+        let rest = NonlinearState::at_rest(model, 0);
+        let mut mesh = self.shown.mesh().clone();
+        let vertices = self.shown.mesh().vertices().iter();
+        for (number, (from, by)) in vertices.zip(embedded.displacements(&rest)).enumerate() {
+            mesh.move_vertex(NodeId(number as u32), from + by);
+        }
+        let tree = AabbTree::new(&mesh);
+        Some((mesh, tree))
+    }
+
+    /// How the pieces touch one another, and the organ itself if the scene says so; none where nothing does.
+    pub(super) fn touching(
+        &self,
+        model: &NonlinearModel,
+        merged: &Merged,
+    ) -> Result<Option<TouchingBoundary>, Error> {
+        touching(self.on_itself, model, (merged, &self.soft))
+    }
+}

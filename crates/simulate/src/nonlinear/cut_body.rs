@@ -1,0 +1,406 @@
+//! The organ follows its cuts: another thread makes the elements of the organ that is cut, and the body goes over to them.
+//!
+//! ```text
+//! cuts ──lifted blade──▶ CutPaths ──▶ thread: slits, factors at rest ──▶ Ready ──after the delay──▶ body, workspace
+//! ```
+//!
+//! The body goes over a stated time after the blade was lifted, whatever a computer needs for it: a motion has the same forces
+//! on all of them. A step waits for the other thread if that is not ready by then.
+
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+
+use palpate_geometry::Vec3;
+use palpate_mechanics::nonlinear::{Carrying, EmbeddedPoints, NonlinearState, SpreadLoad};
+
+use super::slits::{ASIDE, CutPaths, key};
+use super::target::Now;
+use super::{
+    Body, NonlinearOrgan, NonlinearWorkspace, OrganWorkspace, REACH_IN_RADII, jaws_radius,
+};
+use crate::Error;
+use crate::cutting::Cuts;
+use crate::grip::Held;
+use crate::simulation::Simulation;
+use crate::state::{SimulationState, ToolState};
+
+/// From a blade that is lifted to an organ that yields more, for one of a thousand nodes [s]. The time to make its factors grows
+/// with the power of their number.
+const DELAY: f64 = 0.25;
+const POWER: f64 = 1.5;
+
+/// Room for the points of the cuts: beyond, a step in which a blade is lifted allocates.
+const ROOM: usize = 1024;
+
+/// Cuts that the organ does not follow yet.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pending {
+    key: u64,
+    /// Until it does [s].
+    left: f64,
+}
+
+/// Which cuts a body has, and which it is to have.
+#[derive(Debug, Clone, Default)]
+pub(super) struct FollowedCuts {
+    /// Those that it has: zero without any.
+    key: u64,
+    pending: Option<Pending>,
+    /// Of the cuts when they were looked at last.
+    version: u64,
+    /// Vertices of the openings, and how far each has moved [m].
+    rims: Option<Arc<Rims>>,
+    pub(super) rims_moved: Vec<Vec3>,
+    /// What the body was before it was cut: a reset allocates nothing.
+    whole: Option<(NonlinearState, Vec<SpreadLoad>)>,
+}
+
+/// The vertices that openings have added to the shown surface, in the elements.
+#[derive(Debug)]
+struct Rims {
+    numbers: Vec<u32>,
+    embedded: EmbeddedPoints,
+    /// How many cuts there were.
+    cuts: usize,
+}
+
+/// An organ that is made while steps go on.
+struct Job {
+    key: u64,
+    whole: Arc<NonlinearOrgan>,
+    now: Arc<NonlinearOrgan>,
+    paths: CutPaths,
+    /// The vertices of the openings with their places at rest, away from the opening [m], and how many cuts there are.
+    rims: Vec<(u32, Vec3)>,
+    cuts: usize,
+    tools: usize,
+    ready: Option<Result<Ready, Error>>,
+}
+
+/// A cut organ, and all that a body needs to go over to it.
+struct Ready {
+    organ: Arc<NonlinearOrgan>,
+    carrying: Carrying,
+    state: NonlinearState,
+    loads: Vec<SpreadLoad>,
+    workspace: OrganWorkspace,
+    rims: Arc<Rims>,
+    rims_moved: Vec<Vec3>,
+    /// What a body and a workspace have of the whole organ, for a reset.
+    whole: Option<(NonlinearState, Vec<SpreadLoad>)>,
+    whole_workspace: Option<OrganWorkspace>,
+    /// Length of cuts that stay closed [m].
+    closed: f64,
+}
+
+/// The thread that makes cut organs. It ends with what holds this.
+pub(super) struct CutThread {
+    jobs: SyncSender<Box<Job>>,
+    done: Receiver<Box<Job>>,
+    /// None while it is on its way.
+    job: Option<Box<Job>>,
+}
+
+impl std::fmt::Debug for CutThread {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("CutThread").finish_non_exhaustive()
+    }
+}
+
+impl CutThread {
+    /// For an organ with so many tools; none where no thread can be had.
+    pub(super) fn start(
+        whole: &Arc<NonlinearOrgan>,
+        tools: usize,
+        vertices: usize,
+    ) -> Option<Self> {
+        let (jobs, queue) = sync_channel::<Box<Job>>(1);
+        let (results, done) = sync_channel(1);
+        let make = move || {
+            for mut job in queue {
+                // What it replaced is freed here.
+                job.ready = None;
+                job.ready = Some(job.make());
+                if results.send(job).is_err() {
+                    break;
+                }
+            }
+        };
+        let thread = std::thread::Builder::new().name("palpate-cuts".to_owned());
+        thread.spawn(make).ok()?;
+        Some(Self {
+            jobs,
+            done,
+            job: Some(Box::new(Job {
+                key: 0,
+                whole: Arc::clone(whole),
+                now: Arc::clone(whole),
+                paths: CutPaths::with_room(ROOM),
+                rims: Vec::with_capacity(vertices),
+                cuts: 0,
+                tools,
+                ready: None,
+            })),
+        })
+    }
+}
+
+impl Job {
+    fn make(&self) -> Result<Ready, Error> {
+        let (organ, closed) = match self.key {
+            0 => (Arc::clone(&self.whole), 0.0),
+            _ => {
+                let (organ, closed) = self.whole.slit(&self.paths)?;
+                (Arc::new(organ), closed)
+            }
+        };
+        let places: Vec<Vec3> = self.rims.iter().map(|(_, place)| *place).collect();
+        let all = 0..organ.model.mesh().tetrahedra().len();
+        let rims = Rims {
+            numbers: self.rims.iter().map(|(number, _)| *number).collect(),
+            embedded: organ.model.embed(&places, all)?,
+            cuts: self.cuts,
+        };
+        Ok(Ready {
+            carrying: Carrying::new(&self.now.model, &organ.model)?,
+            state: NonlinearState::at_rest(&organ.model, self.tools),
+            loads: vec![organ.model.spread_load(); self.tools],
+            workspace: organ.workspace_of(self.tools),
+            rims_moved: vec![Vec3::zeros(); self.rims.len()],
+            whole: Some((
+                NonlinearState::at_rest(&self.whole.model, self.tools),
+                vec![self.whole.model.spread_load(); self.tools],
+            )),
+            whole_workspace: Some(self.whole.workspace_of(self.tools)),
+            rims: Arc::new(rims),
+            organ,
+            closed,
+        })
+    }
+}
+
+impl FollowedCuts {
+    /// Forgets the cuts; what the body was without them, if it has any.
+    pub(super) fn reset(&mut self) -> Option<(NonlinearState, Vec<SpreadLoad>)> {
+        self.key = 0;
+        self.pending = None;
+        self.rims = None;
+        self.rims_moved.clear();
+        self.whole.take()
+    }
+}
+
+impl Body {
+    /// The vertices of the openings that the elements move, and how far [m].
+    pub(crate) fn rims(&self) -> impl Iterator<Item = (u32, Vec3)> {
+        let own = self.cuts.rims.iter();
+        let own = own.flat_map(|rims| rims.numbers.iter().zip(&self.cuts.rims_moved));
+        own.map(|(number, by)| (*number, *by))
+    }
+
+    /// Moves the vertices of the openings with the elements.
+    pub(super) fn move_rims(&mut self) {
+        if let Some(rims) = &self.cuts.rims {
+            let displacements = rims.embedded.displacements(&self.state);
+            for (own, by) in self.cuts.rims_moved.iter_mut().zip(displacements) {
+                *own = by;
+            }
+        }
+    }
+}
+
+impl NonlinearWorkspace {
+    /// Takes the organ over to its cuts when it is time.
+    pub(crate) fn follow_cuts(
+        &mut self,
+        simulation: &Simulation,
+        elapsed: f64,
+        state: &mut SimulationState,
+    ) {
+        let SimulationState {
+            tools, body, cuts, ..
+        } = state;
+        let Some(body) = body else {
+            return;
+        };
+        self.fit(simulation, body);
+        let Some(cuts) = cuts.as_ref().filter(|_| simulation.forces_follow_cuts()) else {
+            return;
+        };
+        body.look_at(cuts);
+        let Some(pending) = &mut body.cuts.pending else {
+            return;
+        };
+        pending.left -= elapsed;
+        let Pending { key, left } = *pending;
+        if left > 0.0 {
+            self.begin(simulation, key, (body, cuts));
+            return;
+        }
+        let made = self.finished(simulation, key, (body, cuts));
+        body.cuts.pending = None;
+        body.cuts.key = key;
+        let Some(mut job) = made else {
+            self.closed = cuts.length();
+            return;
+        };
+        match &mut job.ready {
+            Some(Ok(ready)) => {
+                self.closed = ready.closed;
+                ready.replace(simulation, tools, body);
+                std::mem::swap(&mut self.own, &mut ready.workspace);
+                if self.whole.is_none() {
+                    self.whole = ready.whole_workspace.take();
+                }
+                self.of = Arc::clone(&body.organ);
+                state.energy.close();
+            }
+            _ => self.closed = cuts.length(),
+        }
+        if let Some(thread) = &mut self.thread {
+            thread.job = Some(job);
+        }
+    }
+
+    /// Begins to make the organ with these cuts, if its thread is free.
+    fn begin(&mut self, simulation: &Simulation, key: u64, (body, cuts): (&Body, &Cuts)) {
+        let (Some(thread), Some(model), Some(whole)) =
+            (&mut self.thread, &simulation.cutting, &simulation.nonlinear)
+        else {
+            return;
+        };
+        if let Ok(job) = thread.done.try_recv() {
+            thread.job = Some(job);
+        }
+        let is_made = |job: &Job| job.key == key && Arc::ptr_eq(&job.now, &body.organ);
+        let Some(mut job) = thread
+            .job
+            .take_if(|job| job.ready.is_none() || !is_made(job))
+        else {
+            return;
+        };
+        job.key = key;
+        job.whole = Arc::clone(whole);
+        job.now = Arc::clone(&body.organ);
+        job.paths.follow(model, cuts);
+        job.cuts = cuts.count();
+        job.rims.clear();
+        let rims = cuts.openings(simulation);
+        job.rims
+            .extend(rims.map(|(number, place, opens)| (number, place + ASIDE * opens)));
+        // A thread that has ended gives nothing back: the organ stays as it is.
+        let _ = thread.jobs.send(job);
+    }
+
+    /// Waits for the organ with these cuts; none without a thread.
+    fn finished(
+        &mut self,
+        simulation: &Simulation,
+        key: u64,
+        (body, cuts): (&Body, &Cuts),
+    ) -> Option<Box<Job>> {
+        loop {
+            self.begin(simulation, key, (body, cuts));
+            let thread = self.thread.as_mut()?;
+            let job = match thread.job.take() {
+                Some(job) => job,
+                None => thread.done.recv().ok()?,
+            };
+            if job.key == key && Arc::ptr_eq(&job.now, &body.organ) && job.ready.is_some() {
+                return Some(job);
+            }
+            thread.job = Some(job);
+        }
+    }
+
+    /// Becomes scratch for the organ as `body` has it.
+    fn fit(&mut self, simulation: &Simulation, body: &Body) {
+        if Arc::ptr_eq(&self.of, &body.organ) {
+            return;
+        }
+        let is_whole = simulation.nonlinear.as_ref();
+        let is_whole = is_whole.is_some_and(|whole| Arc::ptr_eq(whole, &body.organ));
+        self.own = match self.whole.take_if(|_| is_whole) {
+            Some(own) => own,
+            None => body.organ.workspace_of(body.loads.len()),
+        };
+        self.of = Arc::clone(&body.organ);
+    }
+}
+
+impl Body {
+    /// Finds whether the organ has other cuts than its elements.
+    fn look_at(&mut self, cuts: &Cuts) {
+        let own = &mut self.cuts;
+        if own
+            .rims
+            .as_ref()
+            .is_some_and(|rims| rims.cuts > cuts.count())
+        {
+            own.rims = None;
+        }
+        // A cut that is being made counts once its blade is lifted.
+        if own.version == cuts.version() || cuts.is_being_made() {
+            return;
+        }
+        own.version = cuts.version();
+        let key = key(cuts);
+        let nodes = self.organ.composition.nodes as f64 / 1e3;
+        let left = DELAY * nodes.powf(POWER);
+        own.pending = match own.pending {
+            Some(pending) if pending.key == key => Some(pending),
+            _ => (key != own.key).then_some(Pending { key, left }),
+        };
+    }
+}
+
+impl Ready {
+    /// Takes a body over to the organ that is ready; what it replaced is left in place of that.
+    fn replace(&mut self, simulation: &Simulation, tools: &mut [ToolState], body: &mut Body) {
+        let (before, after) = (&body.organ.model, &self.organ.model);
+        let workspace = &mut self.workspace.solver;
+        self.carrying
+            .carry((before, &body.state), (after, &mut self.state), workspace);
+        std::mem::swap(&mut body.organ, &mut self.organ);
+        std::mem::swap(&mut body.state, &mut self.state);
+        std::mem::swap(&mut body.loads, &mut self.loads);
+        if body.cuts.whole.is_none() {
+            body.cuts.whole = self.whole.take();
+        }
+        body.cuts.rims = Some(Arc::clone(&self.rims));
+        std::mem::swap(&mut body.cuts.rims_moved, &mut self.rims_moved);
+        for (number, own) in tools.iter_mut().enumerate() {
+            body.hold_on(simulation, number, own);
+        }
+    }
+}
+
+impl Body {
+    /// Jaws that hold go on holding the same place of other elements with the same force.
+    fn hold_on(&mut self, simulation: &Simulation, number: usize, own: &mut ToolState) {
+        let tool = &simulation.tools[number];
+        let (Some(hold), Some(radius)) = (&mut own.grip.hold, jaws_radius(tool)) else {
+            return;
+        };
+        let displaced = hold.displaced();
+        let turned = *hold.turned();
+        let place = hold.seen.place;
+        let Held::Area(area) = &mut hold.held else {
+            return;
+        };
+        let organ = Arc::clone(&self.organ);
+        let normal = area.frame.column(2).into_owned();
+        let boundary = organ.model.boundary();
+        boundary.spread(
+            &place,
+            &normal,
+            REACH_IN_RADII * radius,
+            &mut self.loads[number],
+        );
+        let now = Now::of(&organ, self, number);
+        if let Some(compliance) = organ.of_jaws((tool, self.on[number]), (&area.frame, &now)) {
+            let offset = displaced - now.mean - compliance * now.force;
+            area.offset = turned.inverse() * offset;
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! The tetrahedra of a body: a filling that has all of its walls, made coarser.
+
+use palpate_geometry::{
+    FillSettings, Surface, TetrahedronError, TetrahedronMesh, Vec3, coarsen, fill, refine_to,
+};
+
+use super::regions::Regions;
+use crate::Error;
+use crate::walls::Thickness;
+
+/// Tetrahedra of the first filling for each node that is wanted, and by how much they become more where walls are lost.
+const TETRAHEDRA_PER_NODE: usize = 8;
+const MORE: usize = 3;
+
+/// Edges that are made coarser, in those that are wanted [-].
+const OF_EDGE: f64 = 0.6;
+
+/// Where a body is thinner than so many edges, they are shorter in proportion [-], by a factor of [`MOST_GRADED`] at most: rims and
+/// lobes bend within their thickness. With twice as much grading the bulk becomes too coarse for a tip. A body that is a wall of
+/// one element is not graded, nor are neighbours, whose short edges at a rim fold where a stiffer organ presses them.
+const THIN: f64 = 3.0;
+const MOST_GRADED: f64 = 3.0;
+
+/// Fillings to try.
+const FILLINGS: usize = 5;
+
+/// A filling of about `wanted` tetrahedra, or of more where walls are lost. Where it has other holes than `surface`, as
+/// across a thin wall, one finer filling is tried.
+fn filled(surface: &Surface, mut wanted: usize) -> Result<TetrahedronMesh, TetrahedronError> {
+    let of = |wanted| fill(surface, &FillSettings::with_about(surface, wanted));
+    let mut filling = of(wanted);
+    for _ in 1..FILLINGS {
+        if filling.is_ok() {
+            break;
+        }
+        wanted *= MORE;
+        filling = of(wanted);
+    }
+    let is_faithful = |mesh: &TetrahedronMesh| has_topology_of(surface, mesh);
+    if filling.as_ref().is_ok_and(|mesh| !is_faithful(mesh)) {
+        let finer = of(MORE * wanted);
+        if finer.as_ref().is_ok_and(is_faithful) {
+            return finer;
+        }
+    }
+    filling
+}
+
+/// Whether the boundary of `filling` is a closed surface with the Euler characteristic of `surface`.
+fn has_topology_of(surface: &Surface, filling: &TetrahedronMesh) -> bool {
+    let euler = |of: &Surface| {
+        let mesh = of.mesh();
+        2 * mesh.vertices().len() as i64 - mesh.triangles().len() as i64
+    };
+    filling
+        .boundary_surface()
+        .is_ok_and(|boundary| euler(&boundary) == euler(surface))
+}
+
+/// By what factor edges are shorter where the body within `surface` is thin, if it has so many nodes [-].
+pub(super) fn grading(surface: &Surface, nodes: usize) -> impl Fn(&Vec3) -> f64 {
+    let edge = FillSettings::with_about(surface, nodes).edge;
+    let thickness = Thickness::new(surface);
+    let is_wall = thickness.typical() < edge;
+    move |place| match is_wall {
+        true => 1.0,
+        false => (THIN * edge / thickness.at(place)).clamp(1.0, MOST_GRADED),
+    }
+}
+
+/// About so many nodes in the body within `surface`: a filling that has all of its walls, made coarser; its edges are shorter
+/// at inclusions, and by the factor `finer` [-].
+pub(super) fn tetrahedra(
+    surface: &Surface,
+    nodes: usize,
+    regions: &Regions,
+    finer: impl Fn(&Vec3) -> f64,
+) -> Result<TetrahedronMesh, Error> {
+    let edge = FillSettings::with_about(surface, nodes).edge;
+    let longest = |place: &Vec3| regions.longest_edge(place).min(edge);
+    let mut filling = filled(surface, TETRAHEDRA_PER_NODE * nodes);
+    if regions.has_inclusions() {
+        filling = filling
+            .and_then(|coarse| refine_to(&coarse, Some(surface), |place| OF_EDGE * longest(place)));
+    }
+    let detail = |place: &Vec3| finer(place) * edge / longest(place);
+    let mesh = filling.and_then(|fine| coarsen(&fine, surface, nodes, detail));
+    mesh.map_err(|error| palpate_mechanics::Error::from(error).into())
+}

@@ -1,0 +1,186 @@
+//! Cuts as slits in the elements, whose sides bear nothing.
+//!
+//! *How we know*: `nonlinear_cuts::…`.
+//!
+//! *Limits*: a cut that turns back within the length of an edge, as over a rim, stays closed there, with a warning.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use palpate_geometry::{SlitPoint, SlitTetrahedra, Vec3};
+
+use super::NonlinearOrgan;
+use super::composition::Filled;
+use super::regions::Elements;
+use super::soft::Piece;
+use crate::Error;
+use crate::cutting::{CutPart, Cuts, CuttingModel};
+
+/// Points of a path closer to the one before than this are left out [m].
+const SPACING: f64 = 1e-3;
+
+/// A path that parts less than this of the area that it should is not felt [-].
+const PARTED: f64 = 0.4;
+
+/// Places closer to a cut than this count as this far from it [m]: the sides of a slit are not exactly below it.
+pub(super) const ASIDE: f64 = 1.5e-3;
+
+/// The cuts of an organ as paths of slits.
+#[derive(Debug, Clone, Default)]
+pub(super) struct CutPaths {
+    points: Vec<SlitPoint>,
+    /// Where each path begins in `points`.
+    begins: Vec<usize>,
+}
+
+/// What tells the cuts that are felt from others; zero without any.
+pub(super) fn key(cuts: &Cuts) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    let mut any = false;
+    for part in felt(cuts) {
+        any = true;
+        for end in part.ends {
+            let place: [f64; 3] = end.into();
+            place.map(f64::to_bits).hash(&mut hasher);
+        }
+        part.felt.hash(&mut hasher);
+    }
+    if any { hasher.finish().max(1) } else { 0 }
+}
+
+/// The parts of cuts whose sides part.
+fn felt(cuts: &Cuts) -> impl Iterator<Item = &CutPart> {
+    let parts = cuts.parts().iter();
+    parts.filter(|part| part.felt > 0 && part.length() > 0.0)
+}
+
+impl CutPaths {
+    /// With room for so many points.
+    pub(super) fn with_room(points: usize) -> Self {
+        Self {
+            points: Vec::with_capacity(points),
+            begins: Vec::with_capacity(points),
+        }
+    }
+
+    /// Becomes those of `cuts`.
+    pub(super) fn follow(&mut self, model: &CuttingModel, cuts: &Cuts) {
+        self.points.clear();
+        self.begins.clear();
+        let mut end = None;
+        for part in felt(cuts) {
+            let depth = model.slit_depth(part.felt);
+            let point = |place| SlitPoint {
+                place,
+                normal: part.normal,
+                depth,
+            };
+            let [from, to] = part.ends;
+            if end != Some(from) {
+                self.begins.push(self.points.len());
+                self.points.push(point(from));
+            } else if let Some(last) = self.points.last_mut() {
+                // Where a cut becomes deeper it is as deep as it becomes.
+                last.depth = last.depth.max(depth);
+                last.normal = (last.normal + part.normal).normalize();
+            }
+            self.points.push(point(to));
+            end = Some(to);
+        }
+    }
+
+    /// The points of each path.
+    fn each(&self) -> impl Iterator<Item = &[SlitPoint]> {
+        let ends = self.begins.iter().skip(1).copied();
+        let ends = ends.chain([self.points.len()]);
+        let ranges = self.begins.iter().zip(ends);
+        ranges.map(|(begin, end)| &self.points[*begin..end])
+    }
+
+    /// A place [m] as far from every cut as its sides may be off it.
+    fn aside(&self, place: &Vec3) -> Vec3 {
+        let pairs = self.each().flat_map(|path| path.windows(2));
+        let nearest = pairs.map(|pair| {
+            let [from, to] = [&pair[0], &pair[1]];
+            let by = to.place - from.place;
+            let part = (place - from.place).dot(&by) / by.norm_squared();
+            let off = place - from.place - by * part.clamp(0.0, 1.0);
+            (off.norm(), off, from.normal.cross(&by).normalize())
+        });
+        let nearest = nearest.min_by(|one, other| one.0.total_cmp(&other.0));
+        match nearest {
+            Some((distance, off, across)) if distance < ASIDE => {
+                let side = off.dot(&across);
+                place + across * (side.signum() * (ASIDE - side.abs()))
+            }
+            _ => *place,
+        }
+    }
+}
+
+impl NonlinearOrgan {
+    /// This organ, which is whole, with slits along `paths`; and the length of them that stays closed [m].
+    pub(super) fn slit(&self, paths: &CutPaths) -> Result<(Self, f64), Error> {
+        let composition = &self.composition;
+        let (mut filled, mut closed) = (Vec::new(), 0.0);
+        for (number, whole) in composition.filled.iter().enumerate() {
+            let own = paths
+                .each()
+                .filter(|path| self.piece_at(&path[0].place) == number);
+            let mut slit = SlitTetrahedra::new(&whole.mesh);
+            for path in own {
+                closed += open(&mut slit, path);
+            }
+            let (mesh, parents) = slit.into_mesh().map_err(palpate_mechanics::Error::from)?;
+            let elements = whole.elements.parts(&parents);
+            filled.push(Filled { mesh, elements });
+        }
+        let organ = Self::of_pieces(composition, &filled, |place| paths.aside(place))?;
+        Ok((organ, closed))
+    }
+
+    /// Which piece has the place of the shown surface nearest to a place [m].
+    fn piece_at(&self, place: &Vec3) -> usize {
+        let composition = &self.composition;
+        let nearest = composition.tree.nearest(composition.shown.mesh(), place);
+        Piece::with(&composition.pieces, nearest.triangle.0)
+    }
+}
+
+/// Opens a slit along a path; how much of its length stays closed [m].
+fn open(slit: &mut SlitTetrahedra, path: &[SlitPoint]) -> f64 {
+    let mut thinned: Vec<SlitPoint> = Vec::with_capacity(path.len());
+    for (number, point) in path.iter().enumerate() {
+        let is_last = number + 1 == path.len();
+        let apart = thinned.last().map(|last| (point.place - last.place).norm());
+        if is_last && thinned.len() > 1 && apart.is_some_and(|apart| apart < SPACING) {
+            thinned.pop();
+        }
+        if is_last || apart.is_none_or(|apart| apart >= SPACING) {
+            thinned.push(*point);
+        }
+    }
+    let parted = slit.open(&thinned);
+    let lengths = path.windows(2).map(|pair| {
+        let length = (pair[1].place - pair[0].place).norm();
+        [length, length * 0.5 * (pair[0].depth + pair[1].depth)]
+    });
+    let [length, area] = lengths.fold([0.0; 2], |sum, own| [sum[0] + own[0], sum[1] + own[1]]);
+    if parted < PARTED * area {
+        length * (1.0 - (parted / area).max(0.0))
+    } else {
+        0.0
+    }
+}
+
+impl Elements {
+    /// Those that are parts of these: each of the one with its number.
+    fn parts(&self, parents: &[u32]) -> Self {
+        let parents = || parents.iter().map(|&parent| parent as usize);
+        Self {
+            moduli: parents().map(|parent| self.moduli[parent]).collect(),
+            numbers: parents().map(|parent| self.numbers[parent]).collect(),
+            densities: parents().map(|parent| self.densities[parent]).collect(),
+            warnings: Vec::new(),
+        }
+    }
+}
