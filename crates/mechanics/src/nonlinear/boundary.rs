@@ -46,6 +46,8 @@ struct BoundaryFace {
 pub struct SpreadLoad {
     /// Nodes with their weights [-], whose sum is one.
     pub nodes: Vec<(u32, f64)>,
+    /// Its middle, at rest [m].
+    pub place: Vec3,
     /// R, beyond which nothing is loaded [m].
     pub radius: f64,
     /// Outward normal at its middle, at rest [-].
@@ -134,6 +136,7 @@ impl Boundary {
         load.clear();
         load.radius = radius.max(REACH_IN_SIZES * size);
         load.normal = *normal;
+        load.place = *place;
         let square = load.radius * load.radius;
         let mut all = 0.0;
         self.reach(nearest.triangle.0, place, load);
@@ -195,6 +198,7 @@ impl SpreadLoad {
     pub(super) fn with_room(nodes: usize, faces: usize) -> Self {
         Self {
             nodes: Vec::with_capacity(nodes),
+            place: Vec3::zeros(),
             radius: 0.0,
             normal: Vec3::z(),
             places: vec![NOWHERE; nodes],
@@ -209,7 +213,7 @@ impl SpreadLoad {
         for &(node, weight) in &other.nodes {
             self.add(node, weight);
         }
-        (self.radius, self.normal) = (other.radius, other.normal);
+        (self.place, self.radius, self.normal) = (other.place, other.radius, other.normal);
     }
 
     fn clear(&mut self) {

@@ -49,6 +49,8 @@ pub(crate) struct HeldArea {
     pub(crate) frame: Matrix3<f64>,
     /// What the jaws were beyond what they held when they took hold of it under the tip's force [m], in the tool's frame.
     pub(crate) offset: Vec3,
+    /// That force, on what they hold [N], in the tool's frame.
+    pub(crate) force: Vec3,
 }
 
 /// Triangles of the mechanical surface, in a few parts: where triangles are small, several in one, each of which

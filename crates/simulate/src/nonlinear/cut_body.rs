@@ -26,16 +26,17 @@ use crate::state::{SimulationState, ToolState};
 
 /// From a blade that is lifted to an organ that yields more, for one of a thousand nodes [s]. The time to make its factors grows
 /// with the power of their number.
-const DELAY: f64 = 0.25;
+const DELAY: f64 = 0.4;
 const POWER: f64 = 1.5;
 
 /// Room for the points of the cuts: beyond, a step in which a blade is lifted allocates.
 const ROOM: usize = 1024;
 
-/// Cuts that the organ does not follow yet.
+/// Cuts that the organ does not follow yet: so many parts of them.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pending {
     key: u64,
+    parts: usize,
     /// Until it does [s].
     left: f64,
 }
@@ -232,14 +233,14 @@ impl NonlinearWorkspace {
             return;
         };
         pending.left -= elapsed;
-        let Pending { key, left } = *pending;
-        if left > 0.0 {
-            self.begin(simulation, key, (body, cuts));
+        let pending = *pending;
+        if pending.left > 0.0 {
+            self.begin(simulation, &pending, (body, cuts));
             return;
         }
-        let made = self.finished(simulation, key, (body, cuts));
+        let made = self.finished(simulation, &pending, (body, cuts));
         body.cuts.pending = None;
-        body.cuts.key = key;
+        body.cuts.key = pending.key;
         let Some(mut job) = made else {
             self.closed = cuts.length();
             return;
@@ -263,7 +264,7 @@ impl NonlinearWorkspace {
     }
 
     /// Begins to make the organ with these cuts, if its thread is free.
-    fn begin(&mut self, simulation: &Simulation, key: u64, (body, cuts): (&Body, &Cuts)) {
+    fn begin(&mut self, simulation: &Simulation, cut: &Pending, (body, cuts): (&Body, &Cuts)) {
         let (Some(thread), Some(model), Some(whole)) =
             (&mut self.thread, &simulation.cutting, &simulation.nonlinear)
         else {
@@ -272,17 +273,17 @@ impl NonlinearWorkspace {
         if let Ok(job) = thread.done.try_recv() {
             thread.job = Some(job);
         }
-        let is_made = |job: &Job| job.key == key && Arc::ptr_eq(&job.now, &body.organ);
+        let is_made = |job: &Job| job.key == cut.key && Arc::ptr_eq(&job.now, &body.organ);
         let Some(mut job) = thread
             .job
             .take_if(|job| job.ready.is_none() || !is_made(job))
         else {
             return;
         };
-        job.key = key;
+        job.key = cut.key;
         job.whole = Arc::clone(whole);
         job.now = Arc::clone(&body.organ);
-        job.paths.follow(model, cuts);
+        job.paths.follow(model, cuts, cut.parts);
         job.cuts = cuts.count();
         job.rims.clear();
         let rims = cuts.openings(simulation);
@@ -296,17 +297,17 @@ impl NonlinearWorkspace {
     fn finished(
         &mut self,
         simulation: &Simulation,
-        key: u64,
+        cut: &Pending,
         (body, cuts): (&Body, &Cuts),
     ) -> Option<Box<Job>> {
         loop {
-            self.begin(simulation, key, (body, cuts));
+            self.begin(simulation, cut, (body, cuts));
             let thread = self.thread.as_mut()?;
             let job = match thread.job.take() {
                 Some(job) => job,
                 None => thread.done.recv().ok()?,
             };
-            if job.key == key && Arc::ptr_eq(&job.now, &body.organ) && job.ready.is_some() {
+            if job.key == cut.key && Arc::ptr_eq(&job.now, &body.organ) && job.ready.is_some() {
                 return Some(job);
             }
             thread.job = Some(job);
@@ -339,18 +340,16 @@ impl Body {
         {
             own.rims = None;
         }
-        // A cut that is being made counts once its blade is lifted.
-        if own.version == cuts.version() || cuts.is_being_made() {
+        // A cut that is being made counts when its blade has been lifted, and after those before it.
+        if own.version == cuts.version() || cuts.is_being_made() || own.pending.is_some() {
             return;
         }
         own.version = cuts.version();
-        let key = key(cuts);
+        let parts = cuts.parts().len();
+        let key = key(cuts, parts);
         let nodes = self.organ.composition.nodes as f64 / 1e3;
         let left = DELAY * nodes.powf(POWER);
-        own.pending = match own.pending {
-            Some(pending) if pending.key == key => Some(pending),
-            _ => (key != own.key).then_some(Pending { key, left }),
-        };
+        own.pending = (key != own.key).then_some(Pending { key, parts, left });
     }
 }
 
@@ -376,13 +375,12 @@ impl Ready {
 }
 
 impl Body {
-    /// Jaws that hold go on holding the same place of other elements with the same force.
+    /// Jaws that hold go on holding the same place, in other elements.
     fn hold_on(&mut self, simulation: &Simulation, number: usize, own: &mut ToolState) {
         let tool = &simulation.tools[number];
         let (Some(hold), Some(radius)) = (&mut own.grip.hold, jaws_radius(tool)) else {
             return;
         };
-        let displaced = hold.displaced();
         let turned = *hold.turned();
         let place = hold.seen.place;
         let Held::Area(area) = &mut hold.held else {
@@ -398,9 +396,9 @@ impl Body {
             &mut self.loads[number],
         );
         let now = Now::of(&organ, self, number);
-        if let Some(compliance) = organ.of_jaws((tool, self.on[number]), (&area.frame, &now)) {
-            let offset = displaced - now.mean - compliance * now.force;
-            area.offset = turned.inverse() * offset;
+        let compliance = organ.of_jaws((tool, number), &area.frame, (self, &now));
+        if let Some(compliance) = compliance {
+            area.offset = turned.inverse() * -(compliance * (turned * area.force));
         }
     }
 }

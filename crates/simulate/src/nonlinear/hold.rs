@@ -42,13 +42,14 @@ impl NonlinearOrgan {
         let boundary = self.model.boundary();
         boundary.spread(&point, &contact.rest_normal(), reach, &mut loads[number]);
         let now = Now::of(self, body, number);
-        let Some(compliance) = self.of_jaws((tool, body.on[number]), (&frame, &now)) else {
+        let Some(compliance) = self.of_jaws((tool, number), &frame, (body, &now)) else {
             return false;
         };
         let offset = -(compliance * now.force);
         let held = Held::Area(HeldArea {
             frame,
             offset: swept.turned.inverse() * offset,
+            force: swept.turned.inverse() * now.force,
         });
         let seen = SeenHold {
             triangle: contact.place.triangle,

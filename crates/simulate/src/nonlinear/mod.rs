@@ -36,6 +36,7 @@ mod hold;
 mod mesh_warnings;
 mod neighbours;
 mod regions;
+mod rim;
 mod shafts;
 mod shape;
 mod slits;
@@ -49,6 +50,7 @@ use neighbours::{Candidates, Skin};
 pub(crate) use regions::Regions;
 pub(crate) use shafts::Pushed;
 use shafts::{Pierced, ShaftMotion, ShaftSkin};
+use slits::CutPaths;
 use soft::Merged;
 pub(crate) use soft::SoftBody;
 pub(crate) use touch::Moved;
@@ -93,6 +95,7 @@ pub(crate) struct NonlinearOrgan {
     touching: Option<TouchingBoundary>,
     /// The shown surface as the organ hangs under its weight, if it has any.
     hangs: Option<(TriangleMesh, AabbTree)>,
+    cuts: CutPaths,
 }
 
 /// Where the organ is, and what the tools do to it.
@@ -221,16 +224,16 @@ impl NonlinearOrgan {
         let (work, part) = (Work::Factors, FILLED);
         tell(watch, Progress { work, part })?;
         let composition = Arc::new(composition);
-        let organ = Self::of_pieces(&composition, &composition.filled, |place| *place)?;
+        let organ = Self::of_pieces(&composition, &composition.filled, CutPaths::default())?;
         Ok((organ, warnings))
     }
 
     /// That of the elements of its pieces: those of its composition, or what cuts made of them; vertices of the shown surface go with
-    /// the elements `aside` of cuts.
+    /// the elements beside `cuts`.
     fn of_pieces(
         composition: &Arc<Composition>,
         filled: &[Filled],
-        aside: impl Fn(&Vec3) -> Vec3,
+        cuts: CutPaths,
     ) -> Result<Self, Error> {
         let merged = Merged::new(filled)?;
         let model = composition.model(filled, &merged)?;
@@ -241,7 +244,7 @@ impl NonlinearOrgan {
             pieces,
             ..
         } = &**composition;
-        let embedded = composition.embed(&model, &merged, aside)?;
+        let embedded = composition.embed(&model, &merged, |place| cuts.aside(place))?;
         Ok(Self {
             shaft_skin: ShaftSkin::new(&model, (shown, tree), pieces),
             skin: Skin::new(&model, (shown, tree), neighbours),
@@ -250,6 +253,7 @@ impl NonlinearOrgan {
             shown: embedded,
             model,
             composition: Arc::clone(composition),
+            cuts,
         })
     }
 

@@ -32,11 +32,11 @@ pub(super) struct CutPaths {
     begins: Vec<usize>,
 }
 
-/// What tells the cuts that are felt from others; zero without any.
-pub(super) fn key(cuts: &Cuts) -> u64 {
+/// What tells the first `count` parts of the cuts from others; zero where none is felt.
+pub(super) fn key(cuts: &Cuts, count: usize) -> u64 {
     let mut hasher = DefaultHasher::new();
     let mut any = false;
-    for part in felt(cuts) {
+    for part in felt(cuts, count) {
         any = true;
         for end in part.ends {
             let place: [f64; 3] = end.into();
@@ -47,9 +47,9 @@ pub(super) fn key(cuts: &Cuts) -> u64 {
     if any { hasher.finish().max(1) } else { 0 }
 }
 
-/// The parts of cuts whose sides part.
-fn felt(cuts: &Cuts) -> impl Iterator<Item = &CutPart> {
-    let parts = cuts.parts().iter();
+/// Those of the first `count` parts of cuts whose sides part.
+fn felt(cuts: &Cuts, count: usize) -> impl Iterator<Item = &CutPart> {
+    let parts = cuts.parts().iter().take(count);
     parts.filter(|part| part.felt > 0 && part.length() > 0.0)
 }
 
@@ -62,12 +62,12 @@ impl CutPaths {
         }
     }
 
-    /// Becomes those of `cuts`.
-    pub(super) fn follow(&mut self, model: &CuttingModel, cuts: &Cuts) {
+    /// Becomes those of the first `count` parts of `cuts`.
+    pub(super) fn follow(&mut self, model: &CuttingModel, cuts: &Cuts, count: usize) {
         self.points.clear();
         self.begins.clear();
         let mut end = None;
-        for part in felt(cuts) {
+        for part in felt(cuts, count) {
             let depth = model.slit_depth(part.felt);
             let point = |place| SlitPoint {
                 place,
@@ -89,7 +89,7 @@ impl CutPaths {
     }
 
     /// The points of each path.
-    fn each(&self) -> impl Iterator<Item = &[SlitPoint]> {
+    pub(super) fn each(&self) -> impl Iterator<Item = &[SlitPoint]> {
         let ends = self.begins.iter().skip(1).copied();
         let ends = ends.chain([self.points.len()]);
         let ranges = self.begins.iter().zip(ends);
@@ -97,7 +97,7 @@ impl CutPaths {
     }
 
     /// A place [m] as far from every cut as its sides may be off it.
-    fn aside(&self, place: &Vec3) -> Vec3 {
+    pub(super) fn aside(&self, place: &Vec3) -> Vec3 {
         let pairs = self.each().flat_map(|path| path.windows(2));
         let nearest = pairs.map(|pair| {
             let [from, to] = [&pair[0], &pair[1]];
@@ -134,7 +134,7 @@ impl NonlinearOrgan {
             let elements = whole.elements.parts(&parents);
             filled.push(Filled { mesh, elements });
         }
-        let organ = Self::of_pieces(composition, &filled, |place| paths.aside(place))?;
+        let organ = Self::of_pieces(composition, &filled, paths.clone())?;
         Ok((organ, closed))
     }
 

@@ -115,6 +115,8 @@ pub(super) struct Piece {
     triangles: Range<u32>,
     /// Its tissues.
     pub(super) regions: Regions,
+    /// How thick it typically is [m].
+    pub(super) wall: f64,
     /// The force of its tissue on the tip of each tool; those of the tools themselves for the organ.
     laws: Vec<TipLaw>,
     /// Of each tool, whether it bends around its tip, rather than that makes a dimple in it.
@@ -132,14 +134,13 @@ impl Piece {
             let end = first + surface.mesh().triangles().len() as u32;
             let triangles = first..end;
             first = end;
+            let wall = typical_wall(surface);
             Self {
                 triangles,
                 regions,
                 laws: laws.to_vec(),
-                bends_around: {
-                    let wall = typical_wall(surface);
-                    tools.iter().map(|tool| wraps(tool, wall)).collect()
-                },
+                bends_around: tools.iter().map(|tool| wraps(tool, wall)).collect(),
+                wall,
             }
         };
         let mut all = vec![piece(surface, regions, &[])];

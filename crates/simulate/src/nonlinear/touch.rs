@@ -385,7 +385,9 @@ impl NonlinearOrgan {
         if is_wrapped {
             return None;
         }
-        let further = frame.tr_mul(&now.yields) * frame - self.of_load(&now);
+        let rim = self.rim(body, number, tool.typical_radius);
+        let rim = place.frame.tr_mul(&rim) * place.frame;
+        let further = frame.tr_mul(&now.yields) * frame - self.of_load(&now) + rim;
         let law = self.composition.pieces[body.on[number]].tip_law((number, tool));
         let law = law.beside(place.mean_curvature());
         let answer = law.force_in_series(&moved, &further);
@@ -427,7 +429,7 @@ impl NonlinearOrgan {
             return None;
         };
         let now = Now::of(self, body, number);
-        let compliance = self.of_jaws((tool, body.on[number]), (&area.frame, &now))?;
+        let compliance = self.of_jaws((tool, number), &area.frame, (body, &now))?;
         own.stiffness = (compliance + now.yields).try_inverse()?;
         let displacement = hold.displaced();
         let offset = hold.in_scene(&area.offset);
@@ -468,20 +470,23 @@ impl NonlinearOrgan {
         Matrix3::from_diagonal(&Vec3::new(along, along, normal))
     }
 
-    /// The compliance of jaws [m/N] beyond that of their load: that of a bonded flat tip of their faces' area on a piece, in
-    /// the `frame` at rest that the organ has turned since.
+    /// The compliance of jaws [m/N] beyond that of their load: that of a bonded flat tip of their faces' area, in the `frame`
+    /// at rest that the organ has turned since.
     pub(super) fn of_jaws(
         &self,
-        (tool, piece): (&Tool, usize),
-        (frame, now): (&Matrix3<f64>, &Now),
+        (tool, number): (&Tool, usize),
+        frame: &Matrix3<f64>,
+        (body, now): (&Body, &Now),
     ) -> Option<Matrix3<f64>> {
         let radius = super::jaws_radius(tool)?;
-        let piece = &self.composition.pieces[piece];
+        let piece = &self.composition.pieces[body.on[number]];
         let [along, normal] = piece.regions.yields_to_tip(radius);
         let law = piece.law();
         let along = along / half_space_tangential_stiffness(law, radius);
         let normal = normal / half_space_stiffness(law, radius, Friction::Bonded);
-        let own = Matrix3::from_diagonal(&Vec3::new(along, along, normal)) - self.of_load(now);
+        let rim = self.rim(body, number, radius);
+        let own = Matrix3::from_diagonal(&Vec3::new(along, along, normal)) - self.of_load(now)
+            + frame.tr_mul(&rim) * frame;
         let frame = now.turn * frame;
         Some(positive(&(frame * own * frame.transpose())))
     }

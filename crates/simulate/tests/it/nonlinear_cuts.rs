@@ -1,27 +1,27 @@
 //! Cuts in an organ at large deformation.
 
+use palpate_files::session::Event;
 use palpate_files::{Pose, Scene};
-use palpate_geometry::Vec3;
+use palpate_geometry::{AabbTree, Vec3};
 use palpate_simulate::{Simulation, SimulationState, SimulationWorkspace, step};
 
-/// An organ that a hook cuts and a probe touches.
+use crate::scenes::{Random, nearest};
+
+const CUBE: &str = "builtin = \"cube\"\ntriangles = 3072";
+const NONLINEAR: &str = "kind = \"nonlinear\"";
+
+/// An organ that a hook cuts and a grasper touches and holds.
 fn simulation(organ: &str, cutting: &str, model: &str) -> Simulation {
-    let tool = |name: &str, kind: &str| {
-        format!(
-            "[[tool]]\nname = \"{name}\"\nkind = \"{kind}\"\n\
-             tip = {{ shape = \"flat\", radius_m = 0.001, contact = \"stick\" }}\n"
-        )
-    };
     let text = format!(
         "format = 1\n[organ]\n{organ}\n[organ.tissue]\nlaw = \"linear\"\nyoungs_modulus_pa = 10000.0\n\
-         poissons_ratio = 0.45\n[cutting]\ntoughness_j_per_m2 = 1.0\n{cutting}\n[model]\n{model}\n{}{}",
-        tool("right", "hook"),
-        tool("left", "probe")
+         poissons_ratio = 0.45\n[cutting]\ntoughness_j_per_m2 = 1.0\n{cutting}\n[model]\n{model}\n\
+         [[tool]]\nname = \"right\"\nkind = \"hook\"\n\
+         tip = {{ shape = \"flat\", radius_m = 0.001, contact = \"stick\" }}\n\
+         [[tool]]\nname = \"left\"\nkind = \"grasper\"\njaws = {{ force_n = 2.0 }}\n\
+         tip = {{ shape = \"flat\", radius_m = 0.001, contact = \"stick\" }}\n"
     );
     Simulation::new(&Scene::parse(&text, "cut.toml").unwrap()).unwrap()
 }
-
-const CUBE: &str = "builtin = \"cube\"\ntriangles = 3072";
 
 struct Hands<'a> {
     simulation: &'a Simulation,
@@ -29,6 +29,9 @@ struct Hands<'a> {
     workspace: SimulationWorkspace,
     steps: u32,
 }
+
+/// The grasper: where its tip is [m], and whether it is closed.
+type Grasper = Option<(Vec3, bool)>;
 
 impl<'a> Hands<'a> {
     fn new(simulation: &'a Simulation) -> Self {
@@ -40,17 +43,17 @@ impl<'a> Hands<'a> {
         }
     }
 
-    /// A step with the hook at `hook` [m], cutting, and the probe at `probe` [m], or one of them alone.
-    fn at(&mut self, hook: Option<Vec3>, probe: Option<Vec3>) -> Vec3 {
-        let pose = |place: Vec3, cut| Pose {
+    /// A step with the hook at `hook` [m], cutting; the force on the grasper.
+    fn at(&mut self, hook: Option<Vec3>, grasper: Grasper) -> Vec3 {
+        let pose = |place: Vec3, grip: f64, cut| Pose {
             position_m: place.into(),
-            orientation: None,
-            grip: 0.0,
+            orientation: Some([0.0, 0.0, 0.0, 1.0]),
+            grip,
             cut,
         };
         let poses = [
-            hook.map(|place| pose(place, true)),
-            probe.map(|place| pose(place, false)),
+            hook.map(|place| pose(place, 0.0, true)),
+            grasper.map(|(place, holds)| pose(place, f64::from(u8::from(holds)), false)),
         ];
         let elapsed = self.simulation.step();
         let time = elapsed * f64::from(self.steps);
@@ -62,70 +65,167 @@ impl<'a> Hands<'a> {
             &mut self.state,
             &mut self.workspace,
         );
-        self.state.tools[1].force
+        let force = self.state.tools[1].force;
+        assert!(force.iter().all(|f| f.is_finite()), "{}", self.steps);
+        force
     }
 
     /// From `from` to `to` [m], and up.
-    fn cut(&mut self, from: Vec3, to: Vec3) {
+    fn cut(&mut self, from: Vec3, to: Vec3, grasper: Grasper) {
         for k in 0..=200 {
-            self.at(Some(from + (to - from) * (f64::from(k) / 200.0)), None);
+            self.at(Some(from + (to - from) * (f64::from(k) / 200.0)), grasper);
         }
-        self.at(None, None);
+        self.at(None, grasper);
     }
 
-    fn wait(&mut self, steps: usize) {
-        for _ in 0..steps {
-            self.at(None, None);
-        }
+    /// So many steps; the force on the grasper after them.
+    fn wait(&mut self, steps: usize, grasper: Grasper) -> Vec3 {
+        let each = (0..steps).map(|_| self.at(None, grasper));
+        each.last().unwrap_or_default()
     }
 
-    /// The force of a probe that goes straight in to `place` [m] along the `outward` direction, and stays.
-    fn feel(&mut self, place: Vec3, outward: Vec3) -> Vec3 {
+    /// The force of a tip that comes down to `place` [m] and stays, and leaves again.
+    fn feel(&mut self, place: Vec3) -> Vec3 {
         let mut force = Vec3::zeros();
         for k in 0..40 {
             let up = 2e-3 * (1.0 - f64::from(k) / 10.0).max(0.0);
-            force = self.at(None, Some(place + up * outward));
+            force = self.at(None, Some((place + up * Vec3::z(), false)));
         }
-        self.wait(60);
+        self.wait(60, None);
         force
     }
+
+    /// Holds what is at `place` [m] and pulls it `by` so much [m]; the force then.
+    fn pull(&mut self, place: Vec3, by: Vec3) -> Vec3 {
+        self.wait(5, Some((place, false)));
+        for k in 0..=60 {
+            self.at(None, Some((place + by * (f64::from(k) / 60.0), true)));
+        }
+        assert!(self.state.tools[1].holds());
+        self.wait(60, Some((place + by, true)))
+    }
 }
+
+/// Steps until an organ of 1,500 nodes has followed a cut.
+const FOLLOWED: usize = 160;
 
 /// On the upper side of the cube, 1 mm deep.
 fn top(x: f64, y: f64) -> Vec3 {
     Vec3::new(x, y, 0.049)
 }
 
+/// A cut softens its rim and nothing far away; undone, it leaves no trace. Judge: the uncut organ, and the hybrid model, whose rims
+/// are judged in `mechanics` against finite elements with a slit to a quarter.
 #[test]
-fn a_rim_is_softer_and_the_rest_is_not() {
-    for kind in [
-        "kind = \"hybrid\"\nmechanical_triangles = 1200\nresponse = \"boundary_elements\"",
-        "kind = \"nonlinear\"",
-        "kind = \"nonlinear\"\nnodes = 4000",
-    ] {
-        let simulation = simulation(CUBE, "depth_m = 0.008", kind);
+fn a_rim_is_as_soft_as_that_of_the_hybrid_model() {
+    let hybrid = "kind = \"hybrid\"\nmechanical_triangles = 1200\nresponse = \"boundary_elements\"";
+    let parts = [hybrid, NONLINEAR].map(|model| {
+        let simulation = simulation(CUBE, "depth_m = 0.008", model);
         let mut hands = Hands::new(&simulation);
         let places = [0.0016, 0.003, 0.006, 0.026].map(|y| top(0.0, y));
-        let uncut = places.map(|place| hands.feel(place, Vec3::z()));
-        let began = std::time::Instant::now();
-        hands.cut(top(-0.02, 0.0004), top(0.02, 0.0004));
-        println!("cut in {:?}", began.elapsed());
-        for _ in 0..500 {
-            let began = std::time::Instant::now();
-            hands.wait(1);
-            if began.elapsed().as_secs_f64() > 0.02 {
-                println!("a step of {:?}", began.elapsed());
-            }
-        }
-        println!("{:?}", hands.workspace.warnings());
-        assert!(hands.state.cuts.as_ref().unwrap().length() > 0.015);
-        let cut = places.map(|place| hands.feel(place, Vec3::z()));
-        let parts = [0, 1, 2, 3].map(|k| cut[k].z / uncut[k].z);
-        println!("{kind}: force over that of the uncut organ: {parts:.3?}");
-        println!("{:.4?}", uncut.map(|u| u.z));
+        let uncut = places.map(|place| hands.feel(place));
+        hands.cut(top(-0.02, 0.0004), top(0.02, 0.0004), None);
+        hands.wait(FOLLOWED, None);
+        assert_eq!(hands.workspace.warnings(), Vec::<String>::new());
+        let cut = places.map(|place| hands.feel(place));
         assert!(hands.state.undo_cut());
-        hands.wait(500);
-        let again = places.map(|place| hands.feel(place, Vec3::z()));
-        println!("{:.3e}", (again[0] - uncut[0]).norm());
+        hands.wait(FOLLOWED, None);
+        for (place, force) in places.into_iter().zip(uncut) {
+            assert!((hands.feel(place) - force).norm() < 1e-6, "{place}");
+        }
+        [0, 1, 2, 3].map(|k| cut[k].z / uncut[k].z)
+    });
+    println!("{parts:.3?}");
+    let [hybrid, own] = parts;
+    for (own, hybrid) in own.iter().zip(hybrid) {
+        assert!((own / hybrid - 1.0).abs() < 0.06, "{parts:?}");
+    }
+    assert!((own[3] - 1.0).abs() < 0.01);
+}
+
+/// Judge: the organ that was cut along the same path before it was held: 3 %, for the blade comes along it in other steps. No step
+/// takes the force to another sign or beyond what it was.
+#[test]
+fn a_held_rim_yields_when_it_is_cut() {
+    let simulation = simulation(CUBE, "depth_m = 0.02", NONLINEAR);
+    let (place, by) = (top(0.0, 0.008), Vec3::new(0.0, 8e-3, 6e-3));
+    let mut hands = Hands::new(&simulation);
+    let uncut = hands.pull(place, by);
+    let held = Some((place + by, true));
+    hands.cut(top(-0.03, 3e-3), top(0.03, 3e-3), held);
+    for _ in 0..FOLLOWED {
+        let force = hands.at(None, held);
+        assert!(force.dot(&uncut) > 0.0 && force.norm() < 1.02 * uncut.norm());
+    }
+    let found = hands.wait(60, held);
+    let mut before = Hands::new(&simulation);
+    let cuts = hands.state.cuts.as_ref().unwrap();
+    println!("{:.1} mm", 1e3 * cuts.length());
+    for part in cuts.parts() {
+        for end in part.ends {
+            before.at(Some(end - 1e-3 * part.normal), None);
+        }
+    }
+    before.wait(1 + FOLLOWED, None);
+    let length = before.state.cuts.as_ref().unwrap().length();
+    assert!((length / cuts.length() - 1.0).abs() < 0.03, "{length}");
+    let expected = before.pull(place, by);
+    println!("uncut {uncut:.3?}, cut while held {found:.3?}, cut before {expected:.3?}");
+    assert!(expected.norm() < 0.9 * uncut.norm());
+    assert!((found - expected).norm() < 0.03 * expected.norm());
+    // Let go, it comes back to rest.
+    hands.wait(400, None);
+    let mesh = simulation.surface().mesh();
+    let away = hands.state.deformed.vertices().iter().zip(mesh.vertices());
+    let away = away.fold(0.0_f64, |most, (now, rest)| most.max((now - rest).norm()));
+    assert!(away < 1e-4, "{away}");
+    // A reset makes it whole, at once.
+    hands.state.reset(&simulation);
+    let again = hands.pull(place, by);
+    assert!((again - uncut).norm() < 1e-6, "{again} {uncut}");
+}
+
+/// Judge: itself. Cuts and pulls at random leave no force that is no number; let go, the organ is at rest.
+#[test]
+fn random_cuts_and_pulls_leave_an_organ_at_rest() {
+    for organ in [
+        "builtin = \"esophagus\"\ntriangles = 3000",
+        "builtin = \"liver\"\ntriangles = 3000",
+    ] {
+        let simulation = simulation(organ, "", "kind = \"nonlinear\"\nnodes = 700");
+        let tree = AabbTree::new(simulation.surface().mesh());
+        let mut hands = Hands::new(&simulation);
+        let mut random = Random(11);
+        let (mut largest, mut lost) = (0.0_f64, 0);
+        for _ in 0..10 {
+            let (place, normal, along) = random.place(&simulation);
+            let length = 0.01 + 0.02 * random.unit();
+            let by = 0.02 * (normal * random.unit() + along * (random.unit() - 0.5));
+            for k in 0..100 {
+                let near = place + along * (length * f64::from(k) / 100.0);
+                let (on, normal) = nearest(&simulation, &tree, &near);
+                let grasper = place + 5e-3 * normal.cross(&along) - 5e-4 * normal;
+                let part = f64::from(k) / 100.0;
+                hands.at(Some(on - 1e-3 * normal), Some((grasper + by * part, true)));
+                largest = largest.max(hands.state.tools[1].force.norm());
+                let events = hands.state.tools[1].row.events;
+                lost += u32::from(events.contains(Event::NoEquilibrium));
+            }
+            hands.wait(100, None);
+        }
+        hands.wait(400, None);
+        let mesh = simulation.surface().mesh();
+        let away = hands.state.deformed.vertices().iter().zip(mesh.vertices());
+        let away = away.fold(0.0_f64, |most, (now, rest)| most.max((now - rest).norm()));
+        let cuts = hands.state.cuts.as_ref().unwrap();
+        println!(
+            "{organ}: {} cuts, {:.0} mm, up to {largest:.2} N, lost {lost}, {away:.1e} m off, {:?}",
+            cuts.count(),
+            1e3 * cuts.length(),
+            hands.workspace.warnings()
+        );
+        assert!(cuts.count() > 3 && largest > 0.01);
+        assert!(away < 1e-4, "{away}");
+        assert!(lost < 3);
     }
 }
