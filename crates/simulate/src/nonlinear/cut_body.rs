@@ -8,7 +8,8 @@
 //! on all of them. A step waits for the other thread if that is not ready by then.
 
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
+use std::time::Duration;
 
 use palpate_geometry::Vec3;
 use palpate_mechanics::nonlinear::{Carrying, EmbeddedPoints, NonlinearState, SpreadLoad};
@@ -28,6 +29,9 @@ use crate::state::{SimulationState, ToolState};
 /// with the power of their number.
 const DELAY: f64 = 0.4;
 const POWER: f64 = 1.5;
+
+/// How often a step that waits for the other thread looks whether it is ready.
+const LOOKS_EVERY: Duration = Duration::from_micros(200);
 
 /// Room for the points of the cuts: beyond, a step in which a blade is lifted allocates.
 const ROOM: usize = 1024;
@@ -52,9 +56,16 @@ pub(super) struct FollowedCuts {
     /// Vertices of the openings, and how far each has moved [m].
     rims: Option<Arc<Rims>>,
     pub(super) rims_moved: Vec<Vec3>,
-    /// What the body was before it was cut: a reset allocates nothing.
-    whole: Option<(NonlinearState, Vec<SpreadLoad>)>,
+    /// The body without cuts, while it has some, and with those that it had before a reset: neither allocates or frees.
+    whole: Option<OfElements>,
+    left: Option<Left>,
 }
+
+/// What of a body depends on its elements.
+type OfElements = (NonlinearState, Vec<SpreadLoad>);
+
+/// What a reset leaves, until the other thread frees it.
+type Left = (OfElements, Arc<NonlinearOrgan>, Option<Arc<Rims>>);
 
 /// The vertices that openings have added to the shown surface, in the elements.
 #[derive(Debug)]
@@ -82,14 +93,14 @@ struct Job {
 struct Ready {
     organ: Arc<NonlinearOrgan>,
     carrying: Carrying,
-    state: NonlinearState,
-    loads: Vec<SpreadLoad>,
-    workspace: OrganWorkspace,
-    rims: Arc<Rims>,
+    /// None once they are in use.
+    body: Option<OfElements>,
+    workspace: Option<OrganWorkspace>,
+    rims: Option<Arc<Rims>>,
     rims_moved: Vec<Vec3>,
-    /// What a body and a workspace have of the whole organ, for a reset.
-    whole: Option<(NonlinearState, Vec<SpreadLoad>)>,
-    whole_workspace: Option<OrganWorkspace>,
+    /// What resets have left.
+    left: Option<Left>,
+    left_workspace: Option<OrganWorkspace>,
     /// Length of cuts that stay closed [m].
     closed: f64,
 }
@@ -164,16 +175,15 @@ impl Job {
         };
         Ok(Ready {
             carrying: Carrying::new(&self.now.model, &organ.model)?,
-            state: NonlinearState::at_rest(&organ.model, self.tools),
-            loads: vec![organ.model.spread_load(); self.tools],
-            workspace: organ.workspace_of(self.tools),
-            rims_moved: vec![Vec3::zeros(); self.rims.len()],
-            whole: Some((
-                NonlinearState::at_rest(&self.whole.model, self.tools),
-                vec![self.whole.model.spread_load(); self.tools],
+            body: Some((
+                NonlinearState::at_rest(&organ.model, self.tools),
+                vec![organ.model.spread_load(); self.tools],
             )),
-            whole_workspace: Some(self.whole.workspace_of(self.tools)),
-            rims: Arc::new(rims),
+            workspace: Some(organ.workspace_of(self.tools)),
+            rims_moved: vec![Vec3::zeros(); self.rims.len()],
+            left: None,
+            left_workspace: None,
+            rims: Some(Arc::new(rims)),
             organ,
             closed,
         })
@@ -181,17 +191,26 @@ impl Job {
 }
 
 impl FollowedCuts {
-    /// Forgets the cuts; what the body was without them, if it has any.
-    pub(super) fn reset(&mut self) -> Option<(NonlinearState, Vec<SpreadLoad>)> {
-        self.key = 0;
-        self.pending = None;
-        self.rims = None;
-        self.rims_moved.clear();
-        self.whole.take()
+    fn is_whole(simulation: &Simulation, organ: &Arc<NonlinearOrgan>) -> bool {
+        let whole = simulation.nonlinear.as_ref();
+        whole.is_some_and(|whole| Arc::ptr_eq(whole, organ))
     }
 }
 
 impl Body {
+    /// Forgets the cuts of `organ`, which is whole again.
+    pub(super) fn forget_cuts(&mut self, organ: &Arc<NonlinearOrgan>) {
+        self.cuts.key = 0;
+        self.cuts.pending = None;
+        let rims = self.cuts.rims.take();
+        if let Some((state, loads)) = self.cuts.whole.take() {
+            let before = std::mem::replace(&mut self.organ, Arc::clone(organ));
+            let state = std::mem::replace(&mut self.state, state);
+            let loads = std::mem::replace(&mut self.loads, loads);
+            self.cuts.left = Some(((state, loads), before, rims));
+        }
+    }
+
     /// The vertices of the openings that the elements move, and how far [m].
     pub(crate) fn rims(&self) -> impl Iterator<Item = (u32, Vec3)> {
         let own = self.cuts.rims.iter();
@@ -249,11 +268,7 @@ impl NonlinearWorkspace {
             Some(Ok(ready)) => {
                 self.closed = ready.closed;
                 ready.replace(simulation, tools, body);
-                std::mem::swap(&mut self.own, &mut ready.workspace);
-                if self.whole.is_none() {
-                    self.whole = ready.whole_workspace.take();
-                }
-                self.of = Arc::clone(&body.organ);
+                self.replace(simulation, body, ready);
                 state.energy.close();
             }
             _ => self.closed = cuts.length(),
@@ -303,9 +318,14 @@ impl NonlinearWorkspace {
         loop {
             self.begin(simulation, cut, (body, cuts));
             let thread = self.thread.as_mut()?;
-            let job = match thread.job.take() {
-                Some(job) => job,
-                None => thread.done.recv().ok()?,
+            let Some(job) = thread.job.take() else {
+                match thread.done.try_recv() {
+                    Ok(job) => thread.job = Some(job),
+                    // Waiting in the channel would allocate.
+                    Err(TryRecvError::Empty) => std::thread::sleep(LOOKS_EVERY),
+                    Err(TryRecvError::Disconnected) => return None,
+                }
+                continue;
             };
             if job.key == cut.key && Arc::ptr_eq(&job.now, &body.organ) && job.ready.is_some() {
                 return Some(job);
@@ -314,17 +334,32 @@ impl NonlinearWorkspace {
         }
     }
 
+    /// Becomes scratch for the organ that a body has gone over to.
+    fn replace(&mut self, simulation: &Simulation, body: &Body, ready: &mut Ready) {
+        let before = std::mem::replace(&mut self.of, Arc::clone(&body.organ));
+        let Some(workspace) = ready.workspace.take() else {
+            return;
+        };
+        let own = std::mem::replace(&mut self.own, workspace);
+        if FollowedCuts::is_whole(simulation, &before) {
+            ready.workspace = self.whole.replace(own);
+            ready.left_workspace = self.left.take();
+        } else {
+            ready.workspace = Some(own);
+        }
+    }
+
     /// Becomes scratch for the organ as `body` has it.
     fn fit(&mut self, simulation: &Simulation, body: &Body) {
         if Arc::ptr_eq(&self.of, &body.organ) {
             return;
         }
-        let is_whole = simulation.nonlinear.as_ref();
-        let is_whole = is_whole.is_some_and(|whole| Arc::ptr_eq(whole, &body.organ));
-        self.own = match self.whole.take_if(|_| is_whole) {
+        let is_whole = FollowedCuts::is_whole(simulation, &body.organ);
+        let own = match self.whole.take_if(|_| is_whole) {
             Some(own) => own,
             None => body.organ.workspace_of(body.loads.len()),
         };
+        self.left = Some(std::mem::replace(&mut self.own, own));
         self.of = Arc::clone(&body.organ);
     }
 }
@@ -356,17 +391,25 @@ impl Body {
 impl Ready {
     /// Takes a body over to the organ that is ready; what it replaced is left in place of that.
     fn replace(&mut self, simulation: &Simulation, tools: &mut [ToolState], body: &mut Body) {
+        let (Some((mut state, mut loads)), Some(workspace)) =
+            (self.body.take(), &mut self.workspace)
+        else {
+            return;
+        };
         let (before, after) = (&body.organ.model, &self.organ.model);
-        let workspace = &mut self.workspace.solver;
+        let solver = &mut workspace.solver;
         self.carrying
-            .carry((before, &body.state), (after, &mut self.state), workspace);
+            .carry((before, &body.state), (after, &mut state), solver);
         std::mem::swap(&mut body.organ, &mut self.organ);
-        std::mem::swap(&mut body.state, &mut self.state);
-        std::mem::swap(&mut body.loads, &mut self.loads);
-        if body.cuts.whole.is_none() {
-            body.cuts.whole = self.whole.take();
+        std::mem::swap(&mut body.state, &mut state);
+        std::mem::swap(&mut body.loads, &mut loads);
+        if FollowedCuts::is_whole(simulation, &self.organ) {
+            self.body = body.cuts.whole.replace((state, loads));
+            self.left = body.cuts.left.take();
+        } else {
+            self.body = Some((state, loads));
         }
-        body.cuts.rims = Some(Arc::clone(&self.rims));
+        std::mem::swap(&mut body.cuts.rims, &mut self.rims);
         std::mem::swap(&mut body.cuts.rims_moved, &mut self.rims_moved);
         for (number, own) in tools.iter_mut().enumerate() {
             body.hold_on(simulation, number, own);

@@ -129,8 +129,9 @@ pub(crate) struct NonlinearWorkspace {
     /// Which organ `own` is for.
     of: Arc<NonlinearOrgan>,
     own: OrganWorkspace,
-    /// That for the organ without cuts, while `own` is for one with cuts.
+    /// That for the organ without cuts, while `own` is for one with cuts, and what a reset has left of one with cuts.
     whole: Option<OrganWorkspace>,
+    left: Option<OrganWorkspace>,
     thread: Option<CutThread>,
     /// Length of the cuts that change no force [m].
     closed: f64,
@@ -177,6 +178,7 @@ impl NonlinearWorkspace {
             own: organ.workspace_of(tools),
             of: Arc::clone(organ),
             whole: None,
+            left: None,
             thread: thread
                 .then(|| CutThread::start(organ, tools, vertices))
                 .flatten(),

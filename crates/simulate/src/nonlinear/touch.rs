@@ -108,10 +108,7 @@ struct Ended {
 impl Body {
     /// The whole organ at rest, touched by nothing; nothing is allocated.
     pub(crate) fn reset(&mut self, organ: &Arc<NonlinearOrgan>) {
-        if let Some((state, loads)) = self.cuts.reset() {
-            (self.state, self.loads) = (state, loads);
-            self.organ = Arc::clone(organ);
-        }
+        self.forget_cuts(organ);
         self.state.reset(&organ.model);
         self.is_at_rest = true;
         self.is_loaded.fill(false);

@@ -80,6 +80,13 @@ impl<'a> Hand<'a> {
         all
     }
 
+    /// So many steps with the blade above.
+    pub(crate) fn wait(&mut self, steps: usize) {
+        for _ in 0..steps {
+            self.at(0.02, -0.01, false);
+        }
+    }
+
     fn lengths(&self) -> [f64; 3] {
         let cuts = self.state.cuts.as_ref().unwrap();
         [1, 2, 3].map(|layers| cuts.length_through(layers))
