@@ -103,6 +103,8 @@ pub struct ToolState {
     /// Its elastic force at the last solution of the nonlinear model [N], and how the place that it touches has moved.
     pub(crate) solved: Vec3,
     pub(crate) moved: Moved,
+    /// Where its tip is beside the organ at rest [m], if it touched nothing in the step before.
+    pub(crate) met: Option<Vec3>,
     /// How far its tip moves the organ beside all that others do [m].
     pub(crate) moves: f64,
     /// How it pressed in the last step.
@@ -319,6 +321,7 @@ impl ToolState {
             displaced: Vec3::zeros(),
             solved: Vec3::zeros(),
             moved: Moved::default(),
+            met: None,
             moves: 0.0,
             pressed: None,
             own: Vec3::zeros(),

@@ -56,6 +56,7 @@ pub fn touch(
         let jumps = hand_speed::follow(simulation, pose.as_ref(), elapsed, own);
         let tip = at_rest(simulation, number, pose.as_ref(), state);
         let own = &mut state.tools[number];
+        own.met = tip.filter(|_| own.contact.is_none());
         own.row.events = jumps | detect(simulation, tool, pose, tip, own);
         if let (Some(pose), Some(_)) = (&pose, &simulation.nonlinear) {
             own.tell_whether_shaft_is_known(tool, pose);

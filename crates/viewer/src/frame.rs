@@ -135,7 +135,7 @@ impl Studio {
     fn take(&mut self, state: &SimulationState) {
         let mut opened = std::mem::take(&mut self.opened);
         if let Some(cuts) = &state.cuts {
-            opened.fill(cuts);
+            opened.fill(cuts, state);
         }
         let is_cut = opened.version > 0;
         self.shape(state, is_cut.then_some(&opened));

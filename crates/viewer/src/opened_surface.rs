@@ -37,6 +37,8 @@ impl OpenedSurface {
                     .map(|corners| corners.map(|node| node.0))
                     .collect(),
                 parts: Vec::new(),
+                around: Vec::new(),
+                below: Vec::new(),
                 rims: rims.iter().map(|ends| ends.map(|node| node.0)).collect(),
             },
             places,

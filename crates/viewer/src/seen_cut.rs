@@ -9,7 +9,9 @@
 //!
 //! *How we know*: `golden::a_cut_looks_as_it_did`.
 //!
-//! *Limits*: an inner layer is not moved by the opening, and on a wall thinner than two layers it is the
+//! Where the simulation knows what lies below the surface, as the nonlinear model does, inner layers and the feet of walls are there.
+//!
+//! *Limits*: elsewhere an inner layer is not moved by the opening, and on a wall thinner than two layers it is the
 //! outer side's alone; a slit wider than twice [`AROUND`] shows its end. An opening of an inner layer has a cut
 //! face of a constant width instead of a wall, and the last 128 straight parts of the cuts through it are drawn.
 
@@ -102,6 +104,8 @@ pub(crate) struct SeenCut {
     wall_nodes: Vec<NodeId>,
     /// Unit normals of the uncut surface as it is now, per vertex of the inner layers [-].
     normals: Vec<Vector3<f32>>,
+    /// Where each vertex is among those below which more is known than the surface.
+    known: Vec<Option<usize>>,
     /// Scratch.
     below: Vec<[f32; 3]>,
 }
@@ -130,6 +134,7 @@ impl SeenCut {
             inner_triangles: Vec::new(),
             wall_nodes: Vec::new(),
             below: Vec::new(),
+            known: Vec::new(),
             normals: Vec::new(),
         }
     }
@@ -164,7 +169,8 @@ impl SeenCut {
             self.make(gpu, opening, surface, open);
         }
         self.outer.deform(gpu, &opening.places);
-        self.deform_inner(gpu, moved);
+        self.find_known(opening);
+        self.deform_inner(gpu, opening, moved);
         self.deform_wall(gpu, opening, surface);
     }
 
@@ -264,7 +270,19 @@ impl SeenCut {
         self.wall_nodes.iter().map(on_rim).chain(pierced)
     }
 
-    fn deform_inner(&mut self, gpu: &Gpu, moved: &[[f32; 3]]) {
+    /// Finds the vertices below which more is known than the surface.
+    fn find_known(&mut self, opening: &OpenedSnapshot) {
+        self.known.clear();
+        self.known.resize(opening.places.len(), None);
+        for (place, &vertex) in opening.around.iter().enumerate() {
+            // Of an opening that is gone since.
+            if let Some(known) = self.known.get_mut(vertex as usize) {
+                *known = Some(place);
+            }
+        }
+    }
+
+    fn deform_inner(&mut self, gpu: &Gpu, opening: &OpenedSnapshot, moved: &[[f32; 3]]) {
         let at = |node: NodeId| Vector3::from(moved[self.inner_nodes[node.index()].index()]);
         self.normals.clear();
         self.normals
@@ -279,17 +297,22 @@ impl SeenCut {
         for normal in &mut self.normals {
             *normal = normal.try_normalize(0.0).unwrap_or_else(Vector3::z);
         }
-        for layer in &mut self.inner {
+        let layers = opening.below.chunks(opening.around.len().max(1));
+        let layers = layers.map(Some).chain(std::iter::repeat(None));
+        for (layer, below) in self.inner.iter_mut().zip(layers) {
             self.below.clear();
             for (node, normal) in self.inner_nodes.iter().zip(&self.normals) {
-                let place = Vector3::from(moved[node.index()]) - layer.depth * *normal;
-                self.below.push(place.into());
+                let known = self.known[node.index()].and_then(|known| below?.get(known));
+                let inwards = || Vector3::from(moved[node.index()]) - layer.depth * *normal;
+                self.below
+                    .push(known.copied().unwrap_or_else(|| inwards().into()));
             }
             layer.body.deform(gpu, &self.below);
         }
     }
 
-    /// Walls go down along the normals of the uncut surface: slivers beside a cut have normals of their own.
+    /// Walls go down to what is known to lie below, or along the normals of the uncut surface: slivers beside a cut have normals of
+    /// their own.
     fn deform_wall(&mut self, gpu: &Gpu, opening: &OpenedSnapshot, surface: &Surface) {
         self.below.clear();
         for node in &self.wall_nodes {
@@ -302,9 +325,15 @@ impl SeenCut {
             }
             let normal = normal.try_normalize(0.0).unwrap_or_else(Vector3::z);
             let place = Vector3::from(opening.places[node.index()]);
+            // The outermost layer comes first.
+            let known = self.known[node.index()].and_then(|known| opening.below.get(known));
+            let down = match known {
+                Some(foot) => Vector3::from(*foot) - place,
+                None => -self.thickness * normal,
+            };
             for row in 0..=ROWS {
-                let depth = BELOW * self.thickness * row as f32 / ROWS as f32;
-                self.below.push((place - depth * normal).into());
+                let part = BELOW * row as f32 / ROWS as f32;
+                self.below.push((place + part * down).into());
             }
         }
         self.wall.deform(gpu, &self.below);

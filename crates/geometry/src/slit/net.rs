@@ -56,13 +56,12 @@ impl Net {
         [[a, b], [a, c], [a, d], [b, c], [b, d], [c, d]].map(sorted)
     }
 
-    /// The faces of the boundary with their outward area vectors [m²], and the edges of these.
+    /// What is known of the boundary.
     pub(super) fn boundary(&self) -> Boundary {
         let nodes: Vec<_> = self.tetrahedra.iter().map(|t| t.map(NodeId)).collect();
         let sorted_faces = faces(&nodes);
         let mut boundary = Boundary {
             normals: vec![Vec::new(); self.vertices.len()],
-            edges: HashSet::new(),
             area: 0.0,
         };
         for alike in matched(&sorted_faces).filter(|alike| alike.len() == 1) {
@@ -73,9 +72,8 @@ impl Net {
             boundary.area += 0.5 * double.norm();
             let normal = double.normalize();
             let outward = normal.dot(&(a - self.vertices[inner as usize])).signum() * normal;
-            for (k, node) in corners.into_iter().enumerate() {
+            for node in corners {
                 boundary.normals[node as usize].push(outward);
-                boundary.edges.insert(sorted([node, corners[(k + 1) % 3]]));
             }
         }
         boundary
@@ -121,11 +119,10 @@ impl Net {
         let new = self.vertices.len() as u32;
         self.vertices.push(place);
         self.is_locked.push(false);
-        let shared: Vec<u32> = self.around[a as usize].iter().copied().collect();
-        let shared = shared
-            .into_iter()
-            .filter(|t| self.around[b as usize].contains(t));
-        let shared: Vec<u32> = shared.collect();
+        let with_a = self.around[a as usize].iter().copied();
+        let shared: Vec<u32> = with_a
+            .filter(|t| self.around[b as usize].contains(t))
+            .collect();
         self.around.push(shared.clone());
         for parent in shared {
             let child = self.tetrahedra.len() as u32;
@@ -207,7 +204,6 @@ impl Net {
 pub(super) struct Boundary {
     /// Unit outward normals of the faces around each vertex; none inside.
     pub(super) normals: Vec<Vec<Vec3>>,
-    pub(super) edges: HashSet<Edge>,
     /// Of all faces [m²].
     pub(super) area: f64,
 }

@@ -116,6 +116,14 @@ impl Cuts {
         &self.places
     }
 
+    /// How far a vertex of a rim is moved to gape [m], and with it what lies below; zero elsewhere.
+    pub(crate) fn gape_of_rim(&self, vertex: u32) -> Vec3 {
+        let is_known = (vertex as usize) < self.places.len();
+        let is_on_rim = is_known && self.surface.opening(NodeId(vertex)) != Vec3::zeros();
+        let way = self.gape.ways().get(vertex as usize);
+        way.filter(|_| is_on_rim).copied().unwrap_or_default()
+    }
+
     /// Another number whenever the triangles are others.
     pub fn version(&self) -> u64 {
         self.version

@@ -84,6 +84,10 @@ pub struct OpenedSnapshot {
     pub rims: Vec<[u32; 2]>,
     /// The path of the cuts over the surface at rest, where the organ has layers.
     pub parts: Vec<OpenedPart>,
+    /// Vertices below which more is known than the surface.
+    pub around: Vec<u32>,
+    /// Where what lies below these is [m]: for each depth that a cut can have, one after the other.
+    pub below: Vec<[f32; 3]>,
 }
 
 /// A straight part of a cut through layers.
@@ -152,7 +156,7 @@ impl Snapshot {
             *seen = single(vertex);
         }
         if let (Some(seen), Some(cuts)) = (&mut self.opened, &state.cuts) {
-            seen.fill(cuts);
+            seen.fill(cuts, state);
         }
         if let (Some(seen), Some(whole)) = (&mut self.whole, &state.whole) {
             seen.copy(whole);
@@ -174,13 +178,22 @@ impl Snapshot {
 }
 
 impl OpenedSnapshot {
-    /// Takes over `cuts`.
-    pub fn fill(&mut self, cuts: &Cuts) {
+    /// Takes over the `cuts` of `state`.
+    pub fn fill(&mut self, cuts: &Cuts, state: &SimulationState) {
         if !cuts.are_there() {
             return self.clear();
         }
         self.places.clear();
         self.places.extend(cuts.places().iter().map(single));
+        self.around.clear();
+        self.below.clear();
+        if let Some(body) = &state.body {
+            let (around, below) = body.below();
+            self.around.extend_from_slice(around);
+            let each = below.iter().zip(around.iter().cycle());
+            self.below
+                .extend(each.map(|(place, &vertex)| single(&(place + cuts.gape_of_rim(vertex)))));
+        }
         self.parts.clear();
         self.parts
             .extend(cuts.parts().iter().map(|part| OpenedPart {
@@ -215,6 +228,8 @@ impl OpenedSnapshot {
         self.triangles.clear();
         self.rims.clear();
         self.parts.clear();
+        self.around.clear();
+        self.below.clear();
     }
 }
 

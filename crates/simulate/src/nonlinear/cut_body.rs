@@ -30,6 +30,10 @@ use crate::state::{SimulationState, ToolState};
 const DELAY: f64 = 0.4;
 const POWER: f64 = 1.5;
 
+/// What lies below the surface is known within this distance of a cut [m], or so many times the depth of the deepest one [-].
+const AROUND: f64 = 0.03;
+const OF_DEPTH: f64 = 6.0;
+
 /// How often a step that waits for the other thread looks whether it is ready.
 const LOOKS_EVERY: Duration = Duration::from_micros(200);
 
@@ -56,6 +60,8 @@ pub(super) struct FollowedCuts {
     /// Vertices of the openings, and how far each has moved [m].
     rims: Option<Arc<Rims>>,
     pub(super) rims_moved: Vec<Vec3>,
+    /// Where what lies below the surface around the cuts is [m].
+    below: Vec<Vec3>,
     /// The body without cuts, while it has some, and with those that it had before a reset: neither allocates or frees.
     whole: Option<OfElements>,
     left: Option<Left>,
@@ -72,8 +78,18 @@ type Left = (OfElements, Arc<NonlinearOrgan>, Option<Arc<Rims>>);
 struct Rims {
     numbers: Vec<u32>,
     embedded: EmbeddedPoints,
+    below: Below,
     /// How many cuts there were.
     cuts: usize,
+}
+
+/// What lies below the surface around the cuts, in the elements: at each depth that a cut can have, one depth after the other.
+#[derive(Debug)]
+struct Below {
+    /// The vertices that it is below.
+    numbers: Vec<u32>,
+    rest: Vec<Vec3>,
+    embedded: EmbeddedPoints,
 }
 
 /// An organ that is made while steps go on.
@@ -82,9 +98,11 @@ struct Job {
     whole: Arc<NonlinearOrgan>,
     now: Arc<NonlinearOrgan>,
     paths: CutPaths,
-    /// The vertices of the openings with their places at rest, away from the opening [m], and how many cuts there are.
-    rims: Vec<(u32, Vec3)>,
+    /// The vertices of the openings: their numbers, where they are at rest [m], and where to they open [-]; and how many cuts there are.
+    rims: Vec<(u32, Vec3, Vec3)>,
     cuts: usize,
+    /// Depths that a cut can have [m].
+    depths: Vec<f64>,
     tools: usize,
     ready: Option<Result<Ready, Error>>,
 }
@@ -98,6 +116,7 @@ struct Ready {
     workspace: Option<OrganWorkspace>,
     rims: Option<Arc<Rims>>,
     rims_moved: Vec<Vec3>,
+    below: Vec<Vec3>,
     /// What resets have left.
     left: Option<Left>,
     left_workspace: Option<OrganWorkspace>,
@@ -121,11 +140,7 @@ impl std::fmt::Debug for CutThread {
 
 impl CutThread {
     /// For an organ with so many tools; none where no thread can be had.
-    pub(super) fn start(
-        whole: &Arc<NonlinearOrgan>,
-        tools: usize,
-        vertices: usize,
-    ) -> Option<Self> {
+    pub(super) fn start(whole: &Arc<NonlinearOrgan>, simulation: &Simulation) -> Option<Self> {
         let (jobs, queue) = sync_channel::<Box<Job>>(1);
         let (results, done) = sync_channel(1);
         let make = move || {
@@ -148,9 +163,10 @@ impl CutThread {
                 whole: Arc::clone(whole),
                 now: Arc::clone(whole),
                 paths: CutPaths::with_room(ROOM),
-                rims: Vec::with_capacity(vertices),
+                rims: Vec::with_capacity(simulation.surface.mesh().vertices().len()),
                 cuts: 0,
-                tools,
+                depths: simulation.cut_depths(),
+                tools: simulation.tools.len(),
                 ready: None,
             })),
         })
@@ -166,11 +182,15 @@ impl Job {
                 (Arc::new(organ), closed)
             }
         };
-        let places: Vec<Vec3> = self.rims.iter().map(|(_, place)| *place).collect();
+        let places = self.rims.iter();
+        let places: Vec<Vec3> = places
+            .map(|(_, place, opens)| place + ASIDE * opens)
+            .collect();
         let all = 0..organ.model.mesh().tetrahedra().len();
         let rims = Rims {
-            numbers: self.rims.iter().map(|(number, _)| *number).collect(),
+            numbers: self.rims.iter().map(|(number, ..)| *number).collect(),
             embedded: organ.model.embed(&places, all)?,
+            below: self.below(&organ)?,
             cuts: self.cuts,
         };
         Ok(Ready {
@@ -181,6 +201,7 @@ impl Job {
             )),
             workspace: Some(organ.workspace_of(self.tools)),
             rims_moved: vec![Vec3::zeros(); self.rims.len()],
+            below: vec![Vec3::zeros(); rims.below.rest.len()],
             left: None,
             left_workspace: None,
             rims: Some(Arc::new(rims)),
@@ -188,6 +209,57 @@ impl Job {
             closed,
         })
     }
+}
+
+impl Job {
+    /// What lies below the surface around the cuts of `organ`.
+    fn below(&self, organ: &NonlinearOrgan) -> Result<Below, Error> {
+        let (shown, tree) = (&organ.composition.shown, &organ.composition.tree);
+        let deepest = self.depths.iter().copied().fold(0.0, f64::max);
+        let reach = AROUND.min(OF_DEPTH * deepest);
+        let on_rim = |number: u32| self.rims.iter().any(|(rim, ..)| *rim == number);
+        let vertices = shown.mesh().vertices().iter().enumerate();
+        let near = vertices.filter(|(number, place)| {
+            self.paths.is_within(place, reach) && !on_rim(*number as u32)
+        });
+        let near = near.map(|(number, place)| Deeper {
+            number: number as u32,
+            place: *place,
+            aside: self.paths.aside(place) - place,
+            normal: shown.vertex_normals()[number],
+        });
+        let rims = self.rims.iter().map(|(number, place, opens)| {
+            let nearest = tree.nearest(shown.mesh(), place);
+            Deeper {
+                number: *number,
+                place: *place,
+                aside: ASIDE * opens,
+                normal: shown.mesh().area_vector(nearest.triangle).normalize(),
+            }
+        });
+        let all: Vec<Deeper> = near.chain(rims).collect();
+        let depths = self.depths.iter();
+        let pairs = depths.flat_map(|depth| all.iter().map(move |own| (own, *depth)));
+        let rest: Vec<Vec3> = pairs
+            .map(|(own, depth)| own.place - depth * own.normal)
+            .collect();
+        let asides = all.iter().map(|own| own.aside).cycle();
+        let moved: Vec<Vec3> = rest.iter().zip(asides).map(|(at, by)| at + by).collect();
+        let elements = 0..organ.model.mesh().tetrahedra().len();
+        Ok(Below {
+            numbers: all.iter().map(|own| own.number).collect(),
+            embedded: organ.model.embed(&moved, elements)?,
+            rest,
+        })
+    }
+}
+
+/// A vertex below which there is more: away from the cut by `aside` are the elements that it goes with [m].
+struct Deeper {
+    number: u32,
+    place: Vec3,
+    aside: Vec3,
+    normal: Vec3,
 }
 
 impl FollowedCuts {
@@ -218,12 +290,25 @@ impl Body {
         own.map(|(number, by)| (*number, *by))
     }
 
-    /// Moves the vertices of the openings with the elements.
+    /// The vertices around the cuts, and where what lies below them is [m]: at each depth that a cut can have, one after the other.
+    pub(crate) fn below(&self) -> (&[u32], &[Vec3]) {
+        match &self.cuts.rims {
+            Some(rims) => (&rims.below.numbers, &self.cuts.below),
+            None => (&[], &[]),
+        }
+    }
+
+    /// Moves the vertices of the openings, and what lies below, with the elements.
     pub(super) fn move_rims(&mut self) {
         if let Some(rims) = &self.cuts.rims {
             let displacements = rims.embedded.displacements(&self.state);
             for (own, by) in self.cuts.rims_moved.iter_mut().zip(displacements) {
                 *own = by;
+            }
+            let Below { rest, embedded, .. } = &rims.below;
+            let each = rest.iter().zip(embedded.displacements(&self.state));
+            for (own, (place, by)) in self.cuts.below.iter_mut().zip(each) {
+                *own = place + by;
             }
         }
     }
@@ -301,9 +386,7 @@ impl NonlinearWorkspace {
         job.paths.follow(model, cuts, cut.parts);
         job.cuts = cuts.count();
         job.rims.clear();
-        let rims = cuts.openings(simulation);
-        job.rims
-            .extend(rims.map(|(number, place, opens)| (number, place + ASIDE * opens)));
+        job.rims.extend(cuts.openings(simulation));
         // A thread that has ended gives nothing back: the organ stays as it is.
         let _ = thread.jobs.send(job);
     }
@@ -411,6 +494,7 @@ impl Ready {
         }
         std::mem::swap(&mut body.cuts.rims, &mut self.rims);
         std::mem::swap(&mut body.cuts.rims_moved, &mut self.rims_moved);
+        std::mem::swap(&mut body.cuts.below, &mut self.below);
         for (number, own) in tools.iter_mut().enumerate() {
             body.hold_on(simulation, number, own);
         }

@@ -173,14 +173,13 @@ impl NonlinearWorkspace {
     pub(crate) fn new(organ: &Arc<NonlinearOrgan>, simulation: &Simulation) -> Self {
         let tools = simulation.tools.len();
         let thread = simulation.forces_follow_cuts();
-        let vertices = simulation.surface.mesh().vertices().len();
         Self {
             own: organ.workspace_of(tools),
             of: Arc::clone(organ),
             whole: None,
             left: None,
             thread: thread
-                .then(|| CutThread::start(organ, tools, vertices))
+                .then(|| CutThread::start(organ, simulation))
                 .flatten(),
             closed: 0.0,
             targets: vec![None; tools],

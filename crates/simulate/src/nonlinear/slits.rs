@@ -16,7 +16,7 @@ use crate::Error;
 use crate::cutting::{CutPart, Cuts, CuttingModel};
 
 /// Points of a path closer to the one before than this are left out [m].
-const SPACING: f64 = 1e-3;
+const SPACING: f64 = 2e-3;
 
 /// A path that parts less than this of the area that it should is not felt [-].
 const PARTED: f64 = 0.4;
@@ -94,6 +94,12 @@ impl CutPaths {
         let ends = ends.chain([self.points.len()]);
         let ranges = self.begins.iter().zip(ends);
         ranges.map(|(begin, end)| &self.points[*begin..end])
+    }
+
+    /// Whether a place [m] is closer to a point of the cuts than `reach` [m].
+    pub(super) fn is_within(&self, place: &Vec3, reach: f64) -> bool {
+        let mut points = self.points.iter();
+        points.any(|point| (point.place - place).norm() < reach)
     }
 
     /// A place [m] as far from every cut as its sides may be off it.

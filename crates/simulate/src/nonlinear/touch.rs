@@ -64,6 +64,9 @@ const LEAST_STIFFNESS: f64 = 1e-6;
 pub(crate) struct Moved {
     pub(crate) by: Vec3,
     pub(crate) turn: Rotation3<f64>,
+    /// How far the touched place itself had gone beyond the mean of what is loaded around it, when the touch began [m]; turned back.
+    /// Without it a tip would leave tissue that bends within the load where it has just met it.
+    beyond: Vec3,
 }
 
 impl Default for Moved {
@@ -71,11 +74,27 @@ impl Default for Moved {
         Self {
             by: Vec3::zeros(),
             turn: Rotation3::identity(),
+            beyond: Vec3::zeros(),
         }
     }
 }
 
 impl Moved {
+    /// Of a contact whose load has gone `by` [m] in the mean; `met` is the tip at `tip` [m] carried back to rest, where a touch begins.
+    fn follow(
+        &mut self,
+        now: (Vec3, Rotation3<f64>),
+        rest: &Vec3,
+        (tip, met): (&Vec3, Option<Vec3>),
+    ) {
+        let (by, turn) = now;
+        if let Some(met) = met {
+            self.beyond = turn.inverse() * (tip - rest - turn * (met - rest) - by);
+        }
+        self.by = by + turn * self.beyond;
+        self.turn = turn;
+    }
+
     /// A place of the scene [m], carried back to where it would be around `rest` [m] at rest.
     fn back(&self, rest: &Vec3, place: &Vec3) -> Vec3 {
         rest + self.turn.inverse() * (place - rest - self.by)
@@ -219,7 +238,8 @@ impl NonlinearOrgan {
         self.turn_history(tool, (number, own), body);
         let mut target = match own.holds() {
             true => self.hold(tool, (number, own), body),
-            false if body.lets_go[number] > 0 => None,
+            // A tip that touches again while tissue goes back takes it from there.
+            false if body.lets_go[number] > 0 && own.contact.is_none() => None,
             false => self.touch(tool, (number, own), relaxes, body),
         };
         let steps = &mut body.lets_go[number];
@@ -370,13 +390,13 @@ impl NonlinearOrgan {
             // Its points touch the tip as a shaft.
             now.force = -own.pushed.force;
         }
-        own.moved = Moved {
-            by: now.mean - now.yields * now.force,
-            turn: now.turn,
-        };
+        let tip = Vec3::from(pose.position_m);
+        let free = now.mean - now.yields * now.force;
+        own.moved
+            .follow((free, now.turn), &place.point, (&tip, own.met.take()));
         contact.turn = now.turn;
         let frame = contact.frame();
-        let tip = own.moved.back(&place.point, &Vec3::from(pose.position_m));
+        let tip = own.moved.back(&place.point, &tip);
         let moved = contact.displacement(tool, &tip);
         own.displaced = own.moved.by + frame * moved;
         if is_wrapped {
