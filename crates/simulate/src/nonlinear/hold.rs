@@ -1,8 +1,8 @@
 //! Jaws that take hold of the organ as it is now.
 
+use super::moved::carry_back_anew;
 use super::soft::Piece;
 use super::target::Now;
-use super::touch::carry_back_anew;
 use super::{Body, NonlinearOrgan, REACH_IN_RADII, jaws_radius};
 use crate::contact;
 use crate::grip::{Held, HeldArea, Hold, SeenHold, Swept};

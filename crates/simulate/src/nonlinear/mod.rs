@@ -31,9 +31,11 @@
 mod anchor;
 mod composition;
 mod cut_body;
+mod cut_thread;
 mod filling;
 mod hold;
 mod mesh_warnings;
+mod moved;
 mod neighbours;
 mod regions;
 mod rim;
@@ -45,7 +47,9 @@ mod target;
 mod touch;
 
 use composition::{Composition, Filled};
-use cut_body::{CutThread, FollowedCuts};
+use cut_body::FollowedCuts;
+use cut_thread::CutThread;
+pub(crate) use moved::Moved;
 use neighbours::{Candidates, Skin};
 pub(crate) use regions::Regions;
 pub(crate) use shafts::Pushed;
@@ -53,7 +57,6 @@ use shafts::{Pierced, ShaftMotion, ShaftSkin};
 use slits::CutPaths;
 use soft::Merged;
 pub(crate) use soft::SoftBody;
-pub(crate) use touch::Moved;
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

@@ -20,13 +20,14 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use nalgebra::{Matrix3, Rotation3};
+use nalgebra::Matrix3;
 use palpate_files::session::Event;
 use palpate_geometry::Vec3;
 use palpate_mechanics::contact::{Friction, half_space_stiffness, half_space_tangential_stiffness};
 use palpate_mechanics::nonlinear::{Conditions, NonlinearModel, Pace, advance};
 use palpate_mechanics::{ForceHistory, Limits, PronySeries};
 
+use super::moved::carry_back_anew;
 use super::neighbours::StepMotion;
 use super::shafts::{Pushed, ShaftMotion};
 use super::soft::Piece;
@@ -58,62 +59,6 @@ const MOST_TOOLS: usize = 2;
 
 /// Softer than this part of the organ around it, a contact is none yet [-].
 const LEAST_STIFFNESS: f64 = 1e-6;
-
-/// How the place that a tool touches has moved, without what the tool itself does.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Moved {
-    pub(crate) by: Vec3,
-    pub(crate) turn: Rotation3<f64>,
-    /// How far the touched place itself had gone beyond the mean of what is loaded around it, when the touch began [m]; turned back.
-    /// Without it a tip would leave tissue that bends within the load where it has just met it.
-    beyond: Vec3,
-}
-
-impl Default for Moved {
-    fn default() -> Self {
-        Self {
-            by: Vec3::zeros(),
-            turn: Rotation3::identity(),
-            beyond: Vec3::zeros(),
-        }
-    }
-}
-
-impl Moved {
-    /// Of a contact whose load has gone `by` [m] in the mean; `met` is the tip at `tip` [m] carried back to rest, where a touch begins.
-    fn follow(
-        &mut self,
-        now: (Vec3, Rotation3<f64>),
-        rest: &Vec3,
-        (tip, met): (&Vec3, Option<Vec3>),
-    ) {
-        let (by, turn) = now;
-        if let Some(met) = met {
-            self.beyond = turn.inverse() * (tip - rest - turn * (met - rest) - by);
-        }
-        self.by = by + turn * self.beyond;
-        self.turn = turn;
-    }
-
-    /// A place of the scene [m], carried back to where it would be around `rest` [m] at rest.
-    fn back(&self, rest: &Vec3, place: &Vec3) -> Vec3 {
-        rest + self.turn.inverse() * (place - rest - self.by)
-    }
-}
-
-/// Where a tip that touches nothing yet would be [m] on the organ at rest, by the triangle that is nearest to it now.
-/// None where it is clear of that.
-pub(super) fn carry_back_anew(
-    simulation: &Simulation,
-    (tool, tip): (&Tool, &Vec3),
-    state: &SimulationState,
-) -> Option<Vec3> {
-    let nearest = state.tree.nearest(&state.deformed, tip);
-    let outward = state.deformed.area_vector(nearest.triangle);
-    let is_outside = outward.dot(&(tip - nearest.on.position)) > 0.0;
-    (!is_outside || nearest.distance < tool.overhang())
-        .then(|| state.carry_back_from(simulation.surface.mesh(), &nearest, tip))
-}
 
 /// How the steps of a period ended.
 #[derive(Debug, Clone, Copy, Default)]
@@ -392,8 +337,10 @@ impl NonlinearOrgan {
         }
         let tip = Vec3::from(pose.position_m);
         let free = now.mean - now.yields * now.force;
-        own.moved
-            .follow((free, now.turn), &place.point, (&tip, own.met.take()));
+        own.moved.go(&free, &now.turn);
+        if let Some(met) = own.met.take() {
+            own.moved.meet(&place.point, &tip, &met);
+        }
         contact.turn = now.turn;
         let frame = contact.frame();
         let tip = own.moved.back(&place.point, &tip);
