@@ -14,7 +14,7 @@ mod sheet;
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
-use crate::mesh::tetrahedra::longest_edge;
+use crate::mesh::tetrahedra::{longest_edge, pieces};
 use crate::refine::{FLAT, SWEEPS, dihedral_quality, open_around};
 use crate::{NodeId, TetrahedronError, TetrahedronMesh, Vec3};
 use net::{Boundary, Edge, Net, face_without};
@@ -52,6 +52,7 @@ pub struct SlitPoint {
 }
 
 /// Tetrahedra that are slit.
+#[derive(Clone)]
 pub struct SlitTetrahedra {
     net: Net,
 }
@@ -106,6 +107,23 @@ impl SlitTetrahedra {
         let before = net.boundary().area;
         net.part(&faces);
         0.5 * (net.boundary().area - before)
+    }
+
+    /// Whether every piece that hangs together by faces has a vertex on its boundary that `holds` says so of [m].
+    pub fn is_held(&self, holds: impl Fn(&Vec3) -> bool) -> bool {
+        let tetrahedra = self.net.tetrahedra.iter();
+        let tetrahedra: Vec<_> = tetrahedra.map(|nodes| nodes.map(NodeId)).collect();
+        let boundary = self.net.boundary();
+        let vertices = self.net.vertices.iter().zip(&boundary.normals);
+        let held: Vec<bool> = vertices
+            .map(|(place, normals)| !normals.is_empty() && holds(place))
+            .collect();
+        let pieces = pieces(&tetrahedra);
+        let mut is_held = vec![false; pieces.iter().max().map_or(0, |last| last + 1)];
+        for (piece, nodes) in pieces.iter().zip(&tetrahedra) {
+            is_held[*piece] |= nodes.iter().any(|node| held[node.index()]);
+        }
+        is_held.into_iter().all(|held| held)
     }
 
     /// The tetrahedra, and of which of the whole body each is a part.

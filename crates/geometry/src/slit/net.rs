@@ -15,6 +15,7 @@ const MOVED_FLOOR: f64 = 0.17;
 /// A vertex of the boundary moves no farther out of a face there than this part of its way [-].
 const OFF_BOUNDARY: f64 = 0.2;
 
+#[derive(Clone)]
 pub(super) struct Net {
     pub(super) vertices: Vec<Vec3>,
     pub(super) tetrahedra: Vec<[u32; 4]>,

@@ -140,7 +140,7 @@ impl Composition {
     }
 
     /// Where the pieces are held.
-    fn anchors(&self) -> Vec<Anchor<'_>> {
+    pub(super) fn anchors(&self) -> Vec<Anchor<'_>> {
         let organ = Anchor::new(&self.surface, |place| self.anchor.holds((*place).into()));
         let soft = self.soft.iter();
         let soft = soft.map(|body| Anchor::new(&body.surface, |place| body.holds(place)));

@@ -195,7 +195,8 @@ impl NonlinearWorkspace {
     pub(crate) fn warnings(&self) -> Option<String> {
         (self.closed > 0.0).then(|| {
             format!(
-                "{:.0} mm of the cuts are seen and do not change the force: the elements are too coarse for them (`model.nodes`)",
+                "{:.0} mm of the cuts are seen and do not change the force: they turn back within an element (raise `model.nodes`), or \
+                 would cut a piece off, which nothing holds",
                 1e3 * self.closed
             )
         })

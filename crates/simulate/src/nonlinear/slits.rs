@@ -2,7 +2,8 @@
 //!
 //! *How we know*: `nonlinear_cuts::…`.
 //!
-//! *Limits*: a cut that turns back within the length of an edge, as over a rim, stays closed there, with a warning.
+//! *Limits*: a cut that turns back within the length of an edge, as over a rim, stays closed there, and one that would cut a piece
+//! off stays closed in all, with a warning.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -128,13 +129,22 @@ impl NonlinearOrgan {
     pub(super) fn slit(&self, paths: &CutPaths) -> Result<(Self, f64), Error> {
         let composition = &self.composition;
         let (mut filled, mut closed) = (Vec::new(), 0.0);
+        let anchors = composition.anchors();
         for (number, whole) in composition.filled.iter().enumerate() {
             let own = paths
                 .each()
                 .filter(|path| self.piece_at(&path[0].place) == number);
             let mut slit = SlitTetrahedra::new(&whole.mesh);
             for path in own {
-                closed += open(&mut slit, path);
+                let mut parted = slit.clone();
+                let stays = open(&mut parted, path);
+                // What nothing holds has no place.
+                if parted.is_held(|place| anchors[number].fixes(place)) {
+                    slit = parted;
+                    closed += stays;
+                } else {
+                    closed += length(path);
+                }
             }
             let (mesh, parents) = slit.into_mesh().map_err(palpate_mechanics::Error::from)?;
             let elements = whole.elements.parts(&parents);
@@ -166,16 +176,22 @@ fn open(slit: &mut SlitTetrahedra, path: &[SlitPoint]) -> f64 {
         }
     }
     let parted = slit.open(&thinned);
-    let lengths = path.windows(2).map(|pair| {
-        let length = (pair[1].place - pair[0].place).norm();
-        [length, length * 0.5 * (pair[0].depth + pair[1].depth)]
+    let areas = path.windows(2).map(|pair| {
+        let depth = 0.5 * (pair[0].depth + pair[1].depth);
+        depth * (pair[1].place - pair[0].place).norm()
     });
-    let [length, area] = lengths.fold([0.0; 2], |sum, own| [sum[0] + own[0], sum[1] + own[1]]);
-    if parted < PARTED * area {
-        length * (1.0 - (parted / area).max(0.0))
-    } else {
-        0.0
+    let area: f64 = areas.sum();
+    match parted < PARTED * area {
+        true => length(path) * (1.0 - (parted / area).max(0.0)),
+        false => 0.0,
     }
+}
+
+fn length(path: &[SlitPoint]) -> f64 {
+    let pairs = path.windows(2);
+    pairs
+        .map(|pair| (pair[1].place - pair[0].place).norm())
+        .sum()
 }
 
 impl Elements {

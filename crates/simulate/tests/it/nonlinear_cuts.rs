@@ -229,3 +229,35 @@ fn random_cuts_and_pulls_leave_an_organ_at_rest() {
         assert!(lost < 3);
     }
 }
+
+/// Judge: the warning. What a circle through a wall cuts off has no place in a quasi-static organ: the circle stays closed and the
+/// force what it was. A cut around the tube leaves two pieces that are held, and parts.
+#[test]
+fn a_piece_that_is_cut_off_stays() {
+    let simulation = simulation("builtin = \"esophagus\"", "depth_m = 0.0023", NONLINEAR);
+    let tree = AabbTree::new(simulation.surface().mesh());
+    let on = |beside: Vec3| nearest(&simulation, &tree, &beside);
+    let beside = |angle: f64, up: f64| Vec3::new(0.02 * angle.cos(), 0.02 * angle.sin(), up);
+    let (place, normal) = on(beside(0.0, 0.0));
+    let feel = |hands: &mut Hands<'_>| {
+        let force = hands.pull(place - 1e-3 * normal, 5e-3 * normal);
+        hands.wait(200, None);
+        force
+    };
+    let cut = |at: &dyn Fn(f64) -> Vec3| {
+        let mut hands = Hands::new(&simulation);
+        let uncut = feel(&mut hands);
+        for k in 0..=420 {
+            let (on, normal) = on(at(std::f64::consts::TAU * f64::from(k) / 400.0));
+            hands.at(Some(on - 1e-3 * normal), None);
+        }
+        hands.wait(FOLLOWED, None);
+        let part = feel(&mut hands).norm() / uncut.norm();
+        println!("{part:.3} {:?}", hands.workspace.warnings());
+        (part, hands.workspace.warnings().len())
+    };
+    let (part, warnings) = cut(&|turn| beside(0.7 * turn.cos(), 7e-3 * turn.sin()));
+    assert!((part - 1.0).abs() < 1e-3 && warnings == 1, "{part}");
+    let (part, warnings) = cut(&|turn| beside(turn, 8e-3));
+    assert!(part < 0.9 && warnings == 0, "{part}");
+}
