@@ -18,8 +18,10 @@ mod level;
 mod near;
 mod relax;
 mod shell;
+mod split;
 
 pub use level::{Level, Resolved, resolve_levels};
 pub use near::refine_to;
 pub(crate) use relax::{FLAT, SWEEPS, open_around};
 pub(crate) use shell::{dihedral_quality, move_if_sound};
+pub(crate) use split::SplitNet;

@@ -82,7 +82,7 @@ impl SlitTetrahedra {
     /// of an edge, as at a rim, and nothing beside the body.
     pub fn open(&mut self, path: &[SlitPoint]) -> f64 {
         let net = &mut self.net;
-        let longest = (0..net.tetrahedra.len() as u32)
+        let longest = (0..net.split.tetrahedra.len() as u32)
             .filter(|&t| {
                 let middle = net.positions(t).iter().sum::<Vec3>() / 4.0;
                 path.iter().any(|point| {
@@ -111,10 +111,10 @@ impl SlitTetrahedra {
 
     /// Whether every piece that hangs together by faces has a vertex on its boundary that `holds` says so of [m].
     pub fn is_held(&self, holds: impl Fn(&Vec3) -> bool) -> bool {
-        let tetrahedra = self.net.tetrahedra.iter();
+        let tetrahedra = self.net.split.tetrahedra.iter();
         let tetrahedra: Vec<_> = tetrahedra.map(|nodes| nodes.map(NodeId)).collect();
         let boundary = self.net.boundary();
-        let vertices = self.net.vertices.iter().zip(&boundary.normals);
+        let vertices = self.net.split.vertices.iter().zip(&boundary.normals);
         let held: Vec<bool> = vertices
             .map(|(place, normals)| !normals.is_empty() && holds(place))
             .collect();
@@ -131,21 +131,16 @@ impl SlitTetrahedra {
     /// # Errors
     /// When one has lost its volume to rounding.
     pub fn into_mesh(self) -> Result<(TetrahedronMesh, Vec<u32>), TetrahedronError> {
-        let Net {
-            vertices,
-            tetrahedra,
-            parents,
-            ..
-        } = self.net;
-        let tetrahedra = tetrahedra.into_iter().map(|nodes| nodes.map(NodeId));
-        let mesh = TetrahedronMesh::new(vertices, tetrahedra.collect())?;
+        let Net { split, parents, .. } = self.net;
+        let tetrahedra = split.tetrahedra.into_iter().map(|nodes| nodes.map(NodeId));
+        let mesh = TetrahedronMesh::new(split.vertices, tetrahedra.collect())?;
         Ok((mesh, parents))
     }
 }
 
 impl<'a> Slit<'a> {
     fn new(sheet: &'a Sheet, net: &Net, reach: f64) -> Self {
-        let near = net.vertices.iter().enumerate();
+        let near = net.split.vertices.iter().enumerate();
         let near = near.filter(|(_, place)| sheet.is_near(place, reach));
         let near = near.map(|(number, place)| (number as u32, sheet.at(place)));
         let at: BTreeMap<u32, At> = near.collect();
@@ -180,7 +175,7 @@ impl<'a> Slit<'a> {
     /// The edges that cross the sheet in tetrahedra that it passes.
     fn crossing(&self, net: &Net) -> BTreeMap<Edge, Vec3> {
         let mut all = BTreeMap::new();
-        for number in 0..net.tetrahedra.len() as u32 {
+        for number in 0..net.split.tetrahedra.len() as u32 {
             let edges = net.edges(number);
             let crossing = edges.into_iter().filter_map(|edge| {
                 let sides = edge.map(|vertex| self.side(vertex));
@@ -194,9 +189,9 @@ impl<'a> Slit<'a> {
             }
             // Where it is, as a box in the coordinates of the sheet.
             let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-            let on = net.tetrahedra[number as usize].into_iter();
+            let on = net.split.tetrahedra[number as usize].into_iter();
             let on = on.filter(|vertex| self.on.contains(vertex));
-            let places = on.map(|vertex| net.vertices[vertex as usize]);
+            let places = on.map(|vertex| net.split.vertices[vertex as usize]);
             let roots = crossing.iter().map(|(_, place)| *place);
             for place in places.chain(roots) {
                 let at = self.sheet.at(&place);
@@ -219,7 +214,7 @@ impl<'a> Slit<'a> {
     /// Where a function of the place is zero along an edge [m]; none where it leaps there, between parts of the sheet that
     /// turn away from each other.
     fn root(&self, net: &Net, [a, b]: Edge, value: impl Fn(&At) -> f64) -> Option<Vec3> {
-        let [from, to] = [a, b].map(|vertex| net.vertices[vertex as usize]);
+        let [from, to] = [a, b].map(|vertex| net.split.vertices[vertex as usize]);
         let of = |part: f64| value(&self.sheet.at(&(from + (to - from) * part)));
         let sign = of(0.0).signum();
         let (mut low, mut high) = (0.0, 1.0);
@@ -268,7 +263,7 @@ impl<'a> Slit<'a> {
         let moves = net.shift(vertex, &way, boundary);
         if moves {
             self.at
-                .insert(vertex, self.sheet.at(&net.vertices[vertex as usize]));
+                .insert(vertex, self.sheet.at(&net.split.vertices[vertex as usize]));
         }
         moves
     }
@@ -292,7 +287,7 @@ impl<'a> Slit<'a> {
         let around = self
             .on
             .iter()
-            .flat_map(|&vertex| &net.around[vertex as usize]);
+            .flat_map(|&vertex| &net.split.around[vertex as usize]);
         let edges = around.flat_map(|&tetrahedron| net.edges(tetrahedron));
         let crosses = |&[a, b]: &Edge| {
             let within = [a, b].map(|vertex| self.within(vertex, limit));
@@ -310,7 +305,7 @@ impl<'a> Slit<'a> {
 
     /// Whether an edge comes closer to the inside of the sheet than it is long.
     fn is_near_limits(&self, net: &Net, edge: &Edge) -> bool {
-        let [a, b] = edge.map(|vertex| net.vertices[vertex as usize]);
+        let [a, b] = edge.map(|vertex| net.split.vertices[vertex as usize]);
         let reach = (b - a).norm();
         (0..LIMITS.len()).all(|limit| {
             let each = edge.iter().map(|&vertex| self.within(vertex, limit));
@@ -336,7 +331,7 @@ impl<'a> Slit<'a> {
         };
         let mut close: Vec<(f64, u32, Edge, Vec3)> = Vec::new();
         for (edge, place) in self.crossing_limit(net, limit) {
-            let [a, b] = edge.map(|vertex| net.vertices[vertex as usize]);
+            let [a, b] = edge.map(|vertex| net.split.vertices[vertex as usize]);
             let length = (b - a).norm();
             for (vertex, from) in edge.into_iter().zip([a, b]) {
                 let way = (place - from).norm();
@@ -352,7 +347,7 @@ impl<'a> Slit<'a> {
             if is_known {
                 continue;
             }
-            let way = place - net.vertices[vertex as usize];
+            let way = place - net.split.vertices[vertex as usize];
             let on_others = (0..limit).any(|other| self.on_limit[other].contains(&vertex));
             let is_outside = self
                 .within(vertex, limit)
@@ -362,7 +357,7 @@ impl<'a> Slit<'a> {
             let bends = part < BEND && (is_outside || is_inner);
             if (!on_others && net.shift(vertex, &way, &boundary)) || bends {
                 self.at
-                    .insert(vertex, self.sheet.at(&net.vertices[vertex as usize]));
+                    .insert(vertex, self.sheet.at(&net.split.vertices[vertex as usize]));
                 self.on_limit[limit].insert(vertex);
             }
         }
@@ -386,7 +381,7 @@ impl<'a> Slit<'a> {
         let around = self
             .on
             .iter()
-            .flat_map(|&vertex| &net.around[vertex as usize]);
+            .flat_map(|&vertex| &net.split.around[vertex as usize]);
         let edges: BTreeSet<Edge> = around.flat_map(|&t| net.edges(t)).collect();
         for edge in edges {
             let at_front = |vertex: &u32| self.on_limit.iter().any(|own| own.contains(vertex));
@@ -397,7 +392,7 @@ impl<'a> Slit<'a> {
             if !is_held || self.on_limit.iter().any(is_front) {
                 continue;
             }
-            let [a, b] = edge.map(|vertex| net.vertices[vertex as usize]);
+            let [a, b] = edge.map(|vertex| net.split.vertices[vertex as usize]);
             let middle = self.sheet.at(&(0.5 * (a + b)));
             if LIMITS
                 .iter()
@@ -420,26 +415,33 @@ impl<'a> Slit<'a> {
         let around = self
             .on
             .iter()
-            .flat_map(|&vertex| &net.around[vertex as usize]);
+            .flat_map(|&vertex| &net.split.around[vertex as usize]);
         let around: BTreeSet<u32> = around.copied().collect();
-        let nodes = around.iter().flat_map(|&t| net.tetrahedra[t as usize]);
+        let nodes = around
+            .iter()
+            .flat_map(|&t| net.split.tetrahedra[t as usize]);
         let free: BTreeSet<u32> = nodes.filter(|&vertex| !is_fixed(vertex)).collect();
         for _ in 0..SWEEPS {
             let mut any = false;
             for &vertex in &free {
-                let star: Vec<_> = net.around[vertex as usize]
+                let star: Vec<_> = net.split.around[vertex as usize]
                     .iter()
-                    .map(|&t| net.tetrahedra[t as usize])
+                    .map(|&t| net.split.tetrahedra[t as usize])
                     .collect();
-                let flattest = star
-                    .iter()
-                    .map(|nodes| dihedral_quality(&nodes.map(|node| net.vertices[node as usize])));
+                let flattest = star.iter().map(|nodes| {
+                    dihedral_quality(&nodes.map(|node| net.split.vertices[node as usize]))
+                });
                 if flattest.fold(f64::INFINITY, f64::min) < FLAT {
                     let is_on = self.on.contains(&vertex);
-                    any |= open_around(&mut net.vertices, (vertex, &star), |target| match is_on {
-                        true => self.sheet.onto(&target),
-                        false => target,
-                    });
+                    any |=
+                        open_around(
+                            &mut net.split.vertices,
+                            (vertex, &star),
+                            |target| match is_on {
+                                true => self.sheet.onto(&target),
+                                false => target,
+                            },
+                        );
                 }
             }
             if !any {
@@ -454,9 +456,9 @@ impl<'a> Slit<'a> {
         let around = self
             .on
             .iter()
-            .flat_map(|&vertex| &net.around[vertex as usize]);
+            .flat_map(|&vertex| &net.split.around[vertex as usize]);
         for &tetrahedron in around.collect::<BTreeSet<_>>() {
-            let nodes = net.tetrahedra[tetrahedron as usize];
+            let nodes = net.split.tetrahedra[tetrahedron as usize];
             let sum: f64 = nodes.iter().filter_map(|&vertex| self.side(vertex)).sum();
             // One whose vertices are all on it is on either side.
             let is_left = sum > 0.0;
@@ -477,7 +479,7 @@ impl<'a> Slit<'a> {
         let is_on = face.iter().all(|vertex| self.on.contains(vertex));
         let middle = face
             .iter()
-            .map(|&vertex| net.vertices[vertex as usize])
+            .map(|&vertex| net.split.vertices[vertex as usize])
             .sum::<Vec3>()
             / 3.0;
         is_on

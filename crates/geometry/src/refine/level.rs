@@ -1,4 +1,5 @@
 use super::shell::{SearchedSurface, dihedral_quality, move_if_sound};
+use super::split::SplitNet;
 use crate::mesh::edges::{by_edge, sides};
 use crate::{NodeId, Surface, TetrahedronError, TetrahedronMesh, Vec3};
 
@@ -68,11 +69,8 @@ pub fn resolve_levels(
 }
 
 struct Resolving<'a> {
-    vertices: Vec<Vec3>,
-    tetrahedra: Vec<[NodeId; 4]>,
+    net: SplitNet,
     regions: Vec<u32>,
-    /// Tetrahedra around each vertex.
-    around: Vec<Vec<u32>>,
     /// Edges of the boundary, in ascending order, and the normals of its triangles around each vertex.
     boundary: Vec<[NodeId; 2]>,
     normals: Vec<Vec<Vec3>>,
@@ -124,32 +122,30 @@ impl<'a> Resolving<'a> {
             .iter()
             .fold((none, -none), |(low, high), v| (low.inf(v), high.sup(v)));
         let (vertices, tetrahedra) = mesh.into_parts();
-        let mut around = vec![Vec::new(); vertices.len()];
-        for (number, corners) in tetrahedra.iter().enumerate() {
-            for node in corners {
-                around[node.index()].push(number as u32);
-            }
-        }
+        let tetrahedra = tetrahedra.iter().map(|corners| corners.map(|node| node.0));
         let mut resolving = Self {
             heights: Vec::new(),
             tolerance: ON * (high - low).max(),
-            vertices,
-            tetrahedra,
+            net: SplitNet::new(vertices, tetrahedra.collect()),
             regions,
-            around,
             boundary,
             normals,
             shell,
             level,
             pinned,
         };
-        let heights = resolving.vertices.iter().map(|at| resolving.height(at));
+        let heights = resolving.net.vertices.iter().map(|at| resolving.height(at));
         resolving.heights = heights.collect();
         resolving
     }
 
     fn into_mesh(self) -> Result<(TetrahedronMesh, Vec<bool>), TetrahedronError> {
-        let expected = self.tetrahedra.len();
+        let SplitNet {
+            vertices,
+            tetrahedra,
+            ..
+        } = self.net;
+        let expected = tetrahedra.len();
         if expected > TetrahedronMesh::MOST_TETRAHEDRA {
             return Err(TetrahedronError::TooMany {
                 expected: expected as f64,
@@ -161,7 +157,8 @@ impl<'a> Resolving<'a> {
         for (pinned, height) in pinned.iter_mut().zip(&self.heights) {
             *pinned |= *height == 0.0;
         }
-        let mesh = TetrahedronMesh::new(self.vertices, self.tetrahedra)?;
+        let tetrahedra = tetrahedra.iter().map(|corners| corners.map(NodeId));
+        let mesh = TetrahedronMesh::new(vertices, tetrahedra.collect())?;
         Ok((mesh.with_regions(self.regions)?, pinned))
     }
 
@@ -186,8 +183,8 @@ impl<'a> Resolving<'a> {
             cut += usize::from(!parents.is_empty());
             parents.is_empty()
         });
-        let farthest = |corners: &[NodeId; 4]| {
-            let heights = corners.map(|node| self.heights[node.index()]);
+        let farthest = |corners: &[u32; 4]| {
+            let heights = corners.map(|node| self.heights[node as usize]);
             heights.into_iter().fold(0.0, |far: f64, height| {
                 if height.abs() > far.abs() {
                     height
@@ -196,10 +193,8 @@ impl<'a> Resolving<'a> {
                 }
             })
         };
-        let below = self
-            .tetrahedra
-            .iter()
-            .map(|corners| farthest(corners) < 0.0);
+        let tetrahedra = self.net.tetrahedra.iter();
+        let below = tetrahedra.map(|corners| farthest(corners) < 0.0);
         Resolved {
             moved,
             cut,
@@ -223,10 +218,10 @@ impl<'a> Resolving<'a> {
 
     /// All edges, in ascending order.
     fn edges(&self) -> Vec<[NodeId; 2]> {
-        let each = self.tetrahedra.iter();
+        let each = self.net.tetrahedra.iter();
         let mut edges: Vec<_> = each
             .flat_map(|&[a, b, c, d]| [[a, b], [a, c], [a, d], [b, c], [b, d], [c, d]])
-            .map(|[a, b]| [a.min(b), a.max(b)])
+            .map(|[a, b]| [NodeId(a.min(b)), NodeId(a.max(b))])
             .collect();
         edges.sort_unstable();
         edges.dedup();
@@ -243,7 +238,7 @@ impl<'a> Resolving<'a> {
         if self.pinned[node.index()] || (!normals.is_empty() && !self.is_on_boundary(edge)) {
             return false;
         }
-        let [a, b] = edge.map(|node| self.vertices[node.index()]);
+        let [a, b] = edge.map(|node| self.net.vertices[node.index()]);
         let along = (b - a).normalize();
         self.shell.is_some()
             || normals
@@ -277,9 +272,14 @@ impl<'a> Resolving<'a> {
             let Some(target) = self.crossing(edge) else {
                 continue;
             };
-            let star = self.around[node.index()].iter();
-            let star = star.map(|&t| self.tetrahedra[t as usize].map(|n| n.0));
-            if move_if_sound(&mut self.vertices, star, node.0, target, MOVED_FLOOR) {
+            let SplitNet {
+                vertices,
+                tetrahedra,
+                around,
+            } = &mut self.net;
+            let star = around[node.index()].iter();
+            let star = star.map(|&t| tetrahedra[t as usize]);
+            if move_if_sound(vertices, star, node.0, target, MOVED_FLOOR) {
                 self.heights[node.index()] = 0.0;
                 moved += 1;
             }
@@ -291,7 +291,7 @@ impl<'a> Resolving<'a> {
     /// where surface and level are nearly parallel.
     fn crossing(&self, edge: [NodeId; 2]) -> Option<Vec3> {
         let shell = self.shell.filter(|_| self.is_on_boundary(edge));
-        let [a, b] = edge.map(|node| self.vertices[node.index()]);
+        let [a, b] = edge.map(|node| self.net.vertices[node.index()]);
         let at = |part: f64| {
             let chord = a + part * (b - a);
             shell.map_or(chord, |shell| shell.nearest(&chord))
@@ -328,58 +328,38 @@ impl<'a> Resolving<'a> {
     /// halves come last, in the same order. None where a flat tetrahedron would come.
     fn cut(&mut self, edge: [NodeId; 2]) -> Vec<u32> {
         let [a, b] = edge;
-        let [from, to] = edge.map(|node| self.vertices[node.index()]);
+        let [from, to] = edge.map(|node| self.net.vertices[node.index()]);
         let [below, above] = edge.map(|node| self.heights[node.index()]);
         let chord = from + (to - from) * (below / (below - above));
-        let with_edge: Vec<u32> = self.around[a.index()]
-            .iter()
-            .copied()
-            .filter(|&t| self.tetrahedra[t as usize].contains(&b))
-            .collect();
-        let replaced = |t: u32, old: NodeId, new: NodeId| {
-            self.tetrahedra[t as usize].map(|node| if node == old { new } else { node })
-        };
-        let middle = NodeId(self.vertices.len() as u32);
-        let halves: Vec<_> = with_edge
-            .iter()
-            .map(|&t| (replaced(t, b, middle), replaced(t, a, middle)))
+        let ends = [a.0, b.0];
+        let middle = self.net.vertices.len() as u32;
+        let with_edge = self.net.with_edge(ends);
+        let halves = with_edge.iter();
+        let halves: Vec<_> = halves
+            .flat_map(|&t| self.net.halves(t, ends, middle))
             .collect();
         // On the surface if that can be, else on the chord.
         let targets = [self.crossing(edge), Some(chord)];
         let sound = targets.into_iter().flatten().find(|target| {
-            let position = |node: NodeId| {
-                if node == middle {
-                    *target
-                } else {
-                    self.vertices[node.index()]
-                }
+            let position = |node: u32| match node == middle {
+                true => *target,
+                false => self.net.vertices[node as usize],
             };
-            halves
-                .iter()
-                .flat_map(|(one, other)| [one, other])
-                .all(|corners| dihedral_quality(&corners.map(position)) >= CUT_FLOOR)
+            let mut halves = halves.iter();
+            halves.all(|corners| dihedral_quality(&corners.map(position)) >= CUT_FLOOR)
         });
         let Some(position) = sound else {
             return Vec::new();
         };
-        self.vertices.push(position);
+        let parents = self.net.split(ends, position);
         self.heights.push(0.0);
         self.pinned.push(false);
-        self.around.push(Vec::new());
-        for (&t, &(first, second)) in with_edge.iter().zip(&halves) {
-            let added = self.tetrahedra.len() as u32;
-            self.tetrahedra[t as usize] = first;
-            self.tetrahedra.push(second);
-            self.regions.push(self.regions[t as usize]);
-            for node in second {
-                let entries = &mut self.around[node.index()];
-                if node == b {
-                    entries.retain(|&entry| entry != t);
-                }
-                entries.push(added);
-            }
-            self.around[middle.index()].push(t);
-        }
-        with_edge
+        self.regions.extend(
+            parents
+                .iter()
+                .map(|&t| self.regions[t as usize])
+                .collect::<Vec<_>>(),
+        );
+        parents
     }
 }

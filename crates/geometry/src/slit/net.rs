@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::SlitPoint;
 use crate::mesh::tetrahedra::{faces, find, matched};
-use crate::refine::move_if_sound;
+use crate::refine::{SplitNet, move_if_sound};
 use crate::{AabbTree, NodeId, TetrahedronMesh, TriangleMesh, Vec3};
 
 pub(super) type Edge = [u32; 2];
@@ -17,12 +17,9 @@ const OFF_BOUNDARY: f64 = 0.2;
 
 #[derive(Clone)]
 pub(super) struct Net {
-    pub(super) vertices: Vec<Vec3>,
-    pub(super) tetrahedra: Vec<[u32; 4]>,
+    pub(super) split: SplitNet,
     /// Of which tetrahedron of the body each is a part.
     pub(super) parents: Vec<u32>,
-    /// The tetrahedra around each vertex.
-    pub(super) around: Vec<Vec<u32>>,
     /// Vertices on the sides of a slit, which stay.
     is_locked: Vec<bool>,
 }
@@ -31,48 +28,48 @@ impl Net {
     pub(super) fn new(mesh: &TetrahedronMesh) -> Self {
         let tetrahedra = mesh.tetrahedra().iter();
         let tetrahedra: Vec<_> = tetrahedra.map(|nodes| nodes.map(|node| node.0)).collect();
-        let count = mesh.vertices().len();
-        let mut around = vec![Vec::new(); count];
-        for (number, nodes) in tetrahedra.iter().enumerate() {
-            for &node in nodes {
-                around[node as usize].push(number as u32);
-            }
-        }
         Self {
-            vertices: mesh.vertices().to_vec(),
             parents: (0..tetrahedra.len() as u32).collect(),
-            tetrahedra,
-            around,
-            is_locked: vec![false; count],
+            split: SplitNet::new(mesh.vertices().to_vec(), tetrahedra),
+            is_locked: vec![false; mesh.vertices().len()],
         }
     }
 
     pub(super) fn positions(&self, tetrahedron: u32) -> [Vec3; 4] {
-        self.tetrahedra[tetrahedron as usize].map(|node| self.vertices[node as usize])
+        self.split.tetrahedra[tetrahedron as usize].map(|node| self.split.vertices[node as usize])
     }
 
     /// The edges of a tetrahedron, the lower vertex first.
     pub(super) fn edges(&self, tetrahedron: u32) -> [Edge; 6] {
-        let [a, b, c, d] = self.tetrahedra[tetrahedron as usize];
+        let [a, b, c, d] = self.split.tetrahedra[tetrahedron as usize];
         [[a, b], [a, c], [a, d], [b, c], [b, d], [c, d]].map(sorted)
     }
 
     /// What is known of the boundary.
     pub(super) fn boundary(&self) -> Boundary {
-        let nodes: Vec<_> = self.tetrahedra.iter().map(|t| t.map(NodeId)).collect();
+        let nodes: Vec<_> = self
+            .split
+            .tetrahedra
+            .iter()
+            .map(|t| t.map(NodeId))
+            .collect();
         let sorted_faces = faces(&nodes);
         let mut boundary = Boundary {
-            normals: vec![Vec::new(); self.vertices.len()],
+            normals: vec![Vec::new(); self.split.vertices.len()],
             area: 0.0,
         };
         for alike in matched(&sorted_faces).filter(|alike| alike.len() == 1) {
             let corners = alike[0].corners.map(|node| node.0);
-            let [a, b, c] = corners.map(|node| self.vertices[node as usize]);
-            let inner = self.tetrahedra[alike[0].tetrahedron as usize][alike[0].opposite as usize];
+            let [a, b, c] = corners.map(|node| self.split.vertices[node as usize]);
+            let inner =
+                self.split.tetrahedra[alike[0].tetrahedron as usize][alike[0].opposite as usize];
             let double = (b - a).cross(&(c - a));
             boundary.area += 0.5 * double.norm();
             let normal = double.normalize();
-            let outward = normal.dot(&(a - self.vertices[inner as usize])).signum() * normal;
+            let outward = normal
+                .dot(&(a - self.split.vertices[inner as usize]))
+                .signum()
+                * normal;
             for node in corners {
                 boundary.normals[node as usize].push(outward);
             }
@@ -82,11 +79,16 @@ impl Net {
 
     /// The points of a path, each at the nearest place of the boundary.
     pub(super) fn onto_boundary(&self, path: &[SlitPoint]) -> Vec<SlitPoint> {
-        let nodes: Vec<_> = self.tetrahedra.iter().map(|t| t.map(NodeId)).collect();
+        let nodes: Vec<_> = self
+            .split
+            .tetrahedra
+            .iter()
+            .map(|t| t.map(NodeId))
+            .collect();
         let sorted_faces = faces(&nodes);
         let corners = matched(&sorted_faces).filter(|alike| alike.len() == 1);
         let corners = corners.map(|alike| alike[0].corners).collect();
-        let Ok(mesh) = TriangleMesh::new(self.vertices.clone(), corners) else {
+        let Ok(mesh) = TriangleMesh::new(self.split.vertices.clone(), corners) else {
             return Vec::new();
         };
         let tree = AabbTree::new(&mesh);
@@ -104,10 +106,15 @@ impl Net {
         if self.is_locked[number] || boundary.normals[number].iter().any(out) {
             return false;
         }
-        let star = self.around[number].iter();
-        let star = star.map(|&t| self.tetrahedra[t as usize]);
-        let target = self.vertices[number] + way;
-        move_if_sound(&mut self.vertices, star, vertex, target, MOVED_FLOOR)
+        let SplitNet {
+            vertices,
+            tetrahedra,
+            around,
+        } = &mut self.split;
+        let star = around[number].iter();
+        let star = star.map(|&t| tetrahedra[t as usize]);
+        let target = vertices[number] + way;
+        move_if_sound(vertices, star, vertex, target, MOVED_FLOOR)
     }
 
     /// Whether a vertex is on the side of a slit that is open already.
@@ -116,29 +123,12 @@ impl Net {
     }
 
     /// Splits an edge at `place` [m] on it; the new vertex.
-    pub(super) fn split(&mut self, [a, b]: Edge, place: Vec3) -> u32 {
-        let new = self.vertices.len() as u32;
-        self.vertices.push(place);
-        self.is_locked.push(false);
-        let with_a = self.around[a as usize].iter().copied();
-        let shared: Vec<u32> = with_a
-            .filter(|t| self.around[b as usize].contains(t))
-            .collect();
-        self.around.push(shared.clone());
-        for parent in shared {
-            let child = self.tetrahedra.len() as u32;
-            let nodes = self.tetrahedra[parent as usize];
-            // The parent keeps a, the child b.
-            self.tetrahedra[parent as usize] = nodes.map(|node| if node == b { new } else { node });
-            self.tetrahedra
-                .push(nodes.map(|node| if node == a { new } else { node }));
+    pub(super) fn split(&mut self, edge: Edge, place: Vec3) -> u32 {
+        let new = self.split.vertices.len() as u32;
+        for parent in self.split.split(edge, place) {
             self.parents.push(self.parents[parent as usize]);
-            self.around[new as usize].push(child);
-            self.around[b as usize].retain(|t| *t != parent);
-            for node in nodes.into_iter().filter(|node| *node != a) {
-                self.around[node as usize].push(child);
-            }
         }
+        self.is_locked.push(false);
         new
     }
 
@@ -155,29 +145,31 @@ impl Net {
         for (&vertex, pieces) in on.iter().zip(pieces) {
             self.is_locked[vertex as usize] = true;
             for piece in pieces.into_iter().skip(1) {
-                let copy = self.vertices.len() as u32;
-                self.vertices.push(self.vertices[vertex as usize]);
+                let copy = self.split.vertices.len() as u32;
+                self.split
+                    .vertices
+                    .push(self.split.vertices[vertex as usize]);
                 self.is_locked.push(true);
-                self.around[vertex as usize].retain(|t| !piece.contains(t));
+                self.split.around[vertex as usize].retain(|t| !piece.contains(t));
                 for &tetrahedron in &piece {
-                    for node in &mut self.tetrahedra[tetrahedron as usize] {
+                    for node in &mut self.split.tetrahedra[tetrahedron as usize] {
                         if *node == vertex {
                             *node = copy;
                         }
                     }
                 }
-                self.around.push(piece);
+                self.split.around.push(piece);
             }
         }
     }
 
     /// The tetrahedra around a vertex, in the pieces that `faces` leave of them.
     fn pieces_around(&self, vertex: u32, faces: &HashSet<[u32; 3]>) -> Vec<Vec<u32>> {
-        let own = &self.around[vertex as usize];
+        let own = &self.split.around[vertex as usize];
         let mut root: Vec<u32> = (0..own.len() as u32).collect();
         let mut seen: HashMap<[u32; 3], u32> = HashMap::new();
         for (place, &tetrahedron) in own.iter().enumerate() {
-            let nodes = self.tetrahedra[tetrahedron as usize];
+            let nodes = self.split.tetrahedra[tetrahedron as usize];
             for left_out in nodes.into_iter().filter(|node| *node != vertex) {
                 let face = face_without(nodes, left_out);
                 if faces.contains(&face) {
