@@ -153,6 +153,7 @@ impl NonlinearWorkspace {
             }
             _ => self.closed = cuts.length(),
         }
+        job.is_used = true;
         if let Some(thread) = &mut self.thread {
             thread.job = Some(job);
         }
@@ -168,13 +169,11 @@ impl NonlinearWorkspace {
         if let Ok(job) = thread.done() {
             thread.job = Some(job);
         }
-        let is_made = |job: &Job| job.key == cut.key && Arc::ptr_eq(&job.now, &body.organ);
-        let Some(mut job) = thread
-            .job
-            .take_if(|job| job.ready.is_none() || !is_made(job))
-        else {
+        let idle = &mut thread.job;
+        let Some(mut job) = idle.take_if(|job| !job.made(cut.key, &body.organ)) else {
             return;
         };
+        job.is_used = false;
         job.key = cut.key;
         job.whole = Arc::clone(whole);
         job.now = Arc::clone(&body.organ);
@@ -205,7 +204,7 @@ impl NonlinearWorkspace {
                 }
                 continue;
             };
-            if job.key == cut.key && Arc::ptr_eq(&job.now, &body.organ) && job.ready.is_some() {
+            if job.made(cut.key, &body.organ) {
                 return Some(job);
             }
             thread.job = Some(job);

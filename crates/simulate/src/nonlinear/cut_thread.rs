@@ -55,7 +55,9 @@ pub(super) struct Job {
     /// Depths that a cut can have [m].
     pub(super) depths: Vec<f64>,
     pub(super) tools: usize,
+    /// What came of it, and whether a body has gone over to it.
     pub(super) ready: Option<Result<Ready, Error>>,
+    pub(super) is_used: bool,
 }
 
 /// A cut organ, and all that a body needs to go over to it.
@@ -120,6 +122,7 @@ impl CutThread {
                 depths: simulation.cut_depths(),
                 tools: simulation.tools.len(),
                 ready: None,
+                is_used: false,
             })),
         })
     }
@@ -134,6 +137,12 @@ impl CutThread {
 }
 
 impl Job {
+    /// Whether it made the organ with the cuts of this key for bodies of `now`, which none has gone over to yet.
+    pub(super) fn made(&self, key: u64, now: &Arc<NonlinearOrgan>) -> bool {
+        let is_done = self.ready.is_some() && !self.is_used;
+        is_done && self.key == key && Arc::ptr_eq(&self.now, now)
+    }
+
     fn make(&self) -> Result<Ready, Error> {
         let (organ, closed) = match self.key {
             0 => (Arc::clone(&self.whole), 0.0),
