@@ -14,17 +14,13 @@
 //!
 //! *How we know*: `nonlinear_shafts::…`.
 
-use std::ops::Range;
-
 use nalgebra::Matrix3;
 use palpate_files::session::Event;
-use palpate_geometry::{AabbTree, Surface, Vec3};
-use palpate_mechanics::nonlinear::{
-    Against, NonlinearModel, NonlinearState, TOOL_POINTS, UnilateralContact, Workspace,
-};
+use palpate_geometry::Vec3;
+use palpate_mechanics::nonlinear::{Against, NonlinearState, UnilateralContact, Workspace};
 use palpate_mechanics::{Limit, Reached};
 
-use super::soft::Piece;
+use super::shaft_skin::{POINTS, outward};
 use super::{Body, NonlinearOrgan, NonlinearWorkspace, OrganWorkspace};
 use crate::shaft::Shaft;
 use crate::state::ToolState;
@@ -47,29 +43,6 @@ const TOLD_LAG: f64 = 1e-4;
 /// Cosine of the angle between the outward normal of a face and the direction from the axis to its point, below which the
 /// face is turned to the shaft [-]: others are the far side of a wall.
 const FACES: f64 = -0.2;
-
-/// Points that touch a shaft are at most so far apart [radii], if more of them make that possible.
-const APART: f64 = 0.6;
-
-/// All points of a face.
-const POINTS: usize = TOOL_POINTS[0] + TOOL_POINTS[1];
-
-/// The points of the boundary as shafts meet them, [`POINTS`] of each face.
-#[derive(Debug, Clone)]
-pub(super) struct ShaftSkin {
-    /// At rest, on the shown surface [m].
-    places: Vec<Vec3>,
-    faces: Vec<SkinFace>,
-}
-
-#[derive(Debug, Clone, Copy)]
-struct SkinFace {
-    /// Largest distance of a point from the first [m].
-    extent: f64,
-    /// [m²]
-    area: f64,
-    piece: usize,
-}
 
 /// What the shaft of a tool does in a step.
 #[derive(Debug, Clone, Copy)]
@@ -103,38 +76,6 @@ pub(crate) struct Pushed {
     pub(crate) torque: Vec3,
     /// How the force changes with the tip's place [N/m].
     pub(crate) gradient: Matrix3<f64>,
-}
-
-impl ShaftSkin {
-    pub(super) fn new(
-        model: &NonlinearModel,
-        (shown, tree): (&Surface, &AabbTree),
-        pieces: &[Piece],
-    ) -> Self {
-        let on = model
-            .tool_points()
-            .iter()
-            .map(|point| tree.nearest(shown.mesh(), &point.place));
-        let on: Vec<_> = on.collect();
-        let faces = on
-            .chunks(POINTS)
-            .zip(model.boundary().areas())
-            .map(|(own, area)| {
-                let first = &own[0];
-                let apart = own
-                    .iter()
-                    .map(|point| (point.on.position - first.on.position).norm());
-                SkinFace {
-                    extent: apart.fold(0.0, f64::max),
-                    area,
-                    piece: Piece::with(pieces, first.triangle.0),
-                }
-            });
-        Self {
-            faces: faces.collect(),
-            places: on.iter().map(|own| own.on.position).collect(),
-        }
-    }
 }
 
 impl ShaftMotion {
@@ -455,29 +396,6 @@ impl NonlinearOrgan {
 /// Whether a contact is with this tool.
 fn is_of(contact: &UnilateralContact, tool: usize) -> bool {
     matches!(contact.against, Against::Tool { number, .. } if number == tool)
-}
-
-impl SkinFace {
-    /// Which of its points touch a shaft of this radius [m].
-    fn points(&self, radius: f64) -> Range<usize> {
-        let [few, _] = TOOL_POINTS;
-        match self.area < few as f64 * (APART * radius).powi(2) {
-            true => 0..few,
-            false => few..POINTS,
-        }
-    }
-}
-
-/// The direction in which a face looks, some of whose points are at these places [m]. They go row by row: of four in rows of two and one, of sixteen in rows of four to one, and
-/// then those between.
-fn outward(set: Range<usize>, place: impl Fn(usize) -> Vec3) -> Vec3 {
-    let [across, along] = match set.len() == TOOL_POINTS[0] {
-        true => [1, 2],
-        false => [3, 9],
-    };
-    let [corner, across, along] = [0, across, along].map(|k| place(set.start + k));
-    let normal = (along - corner).cross(&(across - corner));
-    normal.try_normalize(0.0).unwrap_or_default()
 }
 
 impl ToolState {

@@ -20,6 +20,8 @@ const TOLD_LAG: (f64, f64) = (0.1, 1e-4);
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Target {
     pub(super) along: Option<Vec3>,
+    /// The elastic force that it will make as far as the organ is linear, and the one that it makes [N].
+    pub(super) forces: [Vec3; 2],
     /// d, C and o: W ᵀu + C Fₑ + o = d with the elastic force Fₑ, of which F relaxes.
     pub(super) displacement: Vec3,
     pub(super) compliance: Matrix3<f64>,
@@ -85,6 +87,7 @@ impl Target {
         let way = now.yields * (goal - now.force);
         Self {
             along,
+            forces: [*goal, now.force],
             displacement,
             compliance,
             offset,

@@ -17,7 +17,6 @@
 //! Where tissue relaxes, all of this is said of the elastic force Fₑ of a tool, of which F = γ Fₑ − Fₕ is left: the tissue
 //! under a tip relaxes as that at the surface does, and the elements each as their own.
 
-use std::f64::consts::PI;
 use std::sync::Arc;
 
 use nalgebra::Matrix3;
@@ -49,10 +48,6 @@ const SLOWEST_RETURN: f64 = 0.9;
 
 /// A tool that has let go is followed for so many steps at most: a fifth of a second, in which tissue goes back by 4 cm.
 const LETS_GO_WITHIN: u32 = 40;
-
-/// Mean pressure of a load [Young's moduli] beyond which there is no answer: a flat punch eight radii deep in neo-Hookean
-/// tissue has a tenth of it.
-const MOST_PRESSURE: f64 = 100.0;
 
 /// Scenes have no more tools.
 const MOST_TOOLS: usize = 2;
@@ -134,7 +129,7 @@ impl NonlinearOrgan {
         let ended = self.go((simulation, elapsed), body, workspace);
         if ended.has_no_answer
             || body.state.largest(&self.model) > self.composition.size
-            || self.is_unsound(body)
+            || self.is_unsound(body, workspace)
         {
             body.state.reset(&self.model);
             body.histories.fill(ForceHistory::default());
@@ -161,15 +156,6 @@ impl NonlinearOrgan {
                 own.displaced = hold.displaced();
             }
         }
-    }
-
-    /// Whether the force of a tool is more than any tissue withstands: the step had no answer.
-    fn is_unsound(&self, body: &Body) -> bool {
-        body.loads.iter().enumerate().any(|(number, load)| {
-            let law = self.composition.pieces[body.on[number]].law();
-            let most = MOST_PRESSURE * law.youngs_modulus() * PI * load.radius.powi(2);
-            body.is_loaded[number] && body.state.force(number).norm() > most
-        })
     }
 
     /// What a tool does in this step; or what it leaves, that has let go.
@@ -400,6 +386,7 @@ impl NonlinearOrgan {
         let jump = displacement - offset - compliance * now.force - now.mean;
         Some(Target {
             along: None,
+            forces: [now.force + own.stiffness * jump, now.force],
             displacement,
             compliance,
             offset,
@@ -419,6 +406,7 @@ impl NonlinearOrgan {
             let displacement = now.mean + back * (farthest / way);
             Target {
                 along: None,
+                forces: [now.force; 2],
                 displacement,
                 compliance: Matrix3::zeros(),
                 offset: Vec3::zeros(),

@@ -218,6 +218,9 @@ fn random_cuts_and_pulls_leave_an_organ_at_rest() {
 #[test]
 #[ignore = "slow: 400 gestures with a hook and a grasper on four organs, minutes"]
 fn many_random_cuts_and_pulls_leave_an_organ_at_rest() {
+    if std::env::var("DBG").is_ok() {
+        return random_cuts("esophagus", 50, 101);
+    }
     for (number, organ) in ["esophagus", "liver", "kidney", "stomach"]
         .into_iter()
         .enumerate()
@@ -245,7 +248,9 @@ fn random_cuts(organ: &str, gestures: usize, seed: u64) {
             let (on, normal) = nearest(&simulation, &tree, &(place + along * (length * part)));
             let grasper = place + 5e-3 * normal.cross(&along) - 5e-4 * normal;
             hands.at(Some(on - 1e-3 * normal), Some((grasper + by * part, true)));
-            largest = largest.max(hands.state.tools[1].force.norm());
+            largest = largest
+                .max(hands.state.tools[1].force.norm())
+                .max(hands.state.tools[0].force.norm());
             let events = hands.state.tools[1].row.events;
             lost += usize::from(events.contains(Event::NoEquilibrium));
         }
@@ -263,7 +268,8 @@ fn random_cuts(organ: &str, gestures: usize, seed: u64) {
         }
     }
     println!("{organ} {seed}: {all} cuts, up to {largest:.2} N, lost {lost} of {gestures}");
-    assert!(2 * all > gestures && largest > 0.01);
+    // A tube of this tissue that is stretched by half bears some newtons.
+    assert!(2 * all > gestures && largest > 0.01 && largest < 5.0);
     assert!(5 * lost < gestures);
 }
 
