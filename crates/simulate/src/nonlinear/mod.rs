@@ -110,6 +110,8 @@ pub(crate) struct Body {
     state: NonlinearState,
     /// Whether it has come back to rest since it was touched.
     is_at_rest: bool,
+    /// Steps on end in which nothing loads it and it does not come nearer to rest.
+    late: u32,
     /// Per tool.
     loads: Vec<SpreadLoad>,
     /// Which piece each tool touched last.
@@ -160,6 +162,7 @@ impl Body {
         Self {
             state: NonlinearState::at_rest(&organ.model, tools),
             is_at_rest: true,
+            late: 0,
             loads: vec![organ.model.spread_load(); tools],
             on: vec![0; tools],
             is_loaded: vec![false; tools],

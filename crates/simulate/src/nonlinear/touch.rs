@@ -46,6 +46,9 @@ const AT_REST: f64 = 1e-6;
 /// What is left of the largest displacement after a step in which nothing loads the organ, at most [-].
 const SLOWEST_RETURN: f64 = 0.9;
 
+/// After so many such steps on end it is put there: an element that is inside out may hold it elsewhere.
+const LATEST: u32 = 100;
+
 /// A tool that has let go is followed for so many steps at most: a fifth of a second, in which tissue goes back by 4 cm.
 const LETS_GO_WITHIN: u32 = 40;
 
@@ -70,6 +73,7 @@ impl Body {
         self.forget_cuts(organ);
         self.state.reset(&organ.model);
         self.is_at_rest = true;
+        self.late = 0;
         self.is_loaded.fill(false);
         self.lets_go.fill(0);
         self.histories.fill(ForceHistory::default());
@@ -141,7 +145,11 @@ impl NonlinearOrgan {
         let is_late = body.state.largest(&self.model) > SLOWEST_RETURN * before;
         let state = &body.state;
         let is_held = state.has_friction() || state.touches_itself() || state.touches_tools();
-        if is_free && is_late && !is_held && (ended.is_inverted || !self.model.relaxes()) {
+        let lags = is_free && is_late && !is_held && (ended.is_inverted || !self.model.relaxes());
+        body.late = if lags { body.late + 1 } else { 0 };
+        if body.late > LATEST {
+            body.state.reset(&self.model);
+        } else if lags {
             body.state.shrink(&self.model, SLOWEST_RETURN);
         }
         self.push_shafts(tools, body, workspace);
