@@ -4,29 +4,37 @@ use std::f64::consts::PI;
 
 use palpate_mechanics::nonlinear::Against;
 
-use super::{Body, NonlinearOrgan, NonlinearWorkspace};
+use super::{Body, NonlinearOrgan, NonlinearWorkspace, jaws_radius};
+use crate::tool::Tool;
 
 /// Mean pressure of a load, and pressure of a point on a shaft [Young's moduli], beyond which there is no answer: a flat punch eight
 /// radii deep in neo-Hookean tissue has a tenth of it.
 const MOST_PRESSURE: f64 = 100.0;
 
-/// The force of a tool leaps by less than so many times what it was and what it was to become [-].
+/// The force of a tool leaps to less than so many times what it was and what it was to become together, or what a pressure of Young's
+/// modulus on the tool's area makes if that is more [-].
 const LEAP: f64 = 5.0;
 
 impl NonlinearOrgan {
     /// Whether the force of a tool is more than any tissue withstands, or leaps: the step had no answer.
-    pub(super) fn is_unsound(&self, body: &Body, workspace: &NonlinearWorkspace) -> bool {
+    pub(super) fn is_unsound(
+        &self,
+        tools: &[Tool],
+        body: &Body,
+        workspace: &NonlinearWorkspace,
+    ) -> bool {
         let modulus = |piece: usize| self.composition.pieces[piece].law().youngs_modulus();
-        let mut loads = body.loads.iter().zip(&workspace.targets).enumerate();
-        let is_loaded_too_hard = loads.any(|(number, (load, target))| {
-            let under_modulus = modulus(body.on[number]) * PI * load.radius.powi(2);
+        let each = tools.iter().zip(&body.loads).zip(&workspace.targets);
+        let is_loaded_too_hard = each.enumerate().any(|(number, ((tool, load), target))| {
+            let under_modulus = |radius: f64| modulus(body.on[number]) * PI * radius.powi(2);
+            let radius = jaws_radius(tool).unwrap_or(tool.typical_radius);
             let elastic = body.histories[number].elastic().norm();
             let leaps = target.is_some_and(|target| {
                 let known: f64 = target.forces.iter().map(|force| force.norm()).sum();
-                elastic > LEAP * known.max(under_modulus)
+                elastic > LEAP * known.max(under_modulus(radius))
             });
             let force = body.state.force(number).norm();
-            body.is_loaded[number] && (leaps || force > MOST_PRESSURE * under_modulus)
+            body.is_loaded[number] && (leaps || force > MOST_PRESSURE * under_modulus(load.radius))
         });
         is_loaded_too_hard
             || workspace.own.candidates.contacts.iter().any(|contact| {

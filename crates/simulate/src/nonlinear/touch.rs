@@ -133,7 +133,7 @@ impl NonlinearOrgan {
         let ended = self.go((simulation, elapsed), body, workspace);
         if ended.has_no_answer
             || body.state.largest(&self.model) > self.composition.size
-            || self.is_unsound(body, workspace)
+            || self.is_unsound(&simulation.tools, body, workspace)
         {
             body.state.reset(&self.model);
             body.histories.fill(ForceHistory::default());
