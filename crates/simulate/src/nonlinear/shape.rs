@@ -85,6 +85,8 @@ impl NonlinearOrgan {
                 continue;
             }
             let square = load.radius.powi(2);
+            // Of a body at rest, too: the next step has to take it back.
+            state.shown_deformed = true;
             // On both sides of a wall: otherwise the near side would pass through the far one.
             for (by, vertex) in shown.iter_mut().zip(rest.vertices()) {
                 let apart = (vertex - place).norm_squared();
