@@ -14,11 +14,11 @@ mod sheet;
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
-use crate::mesh::tetrahedra::{longest_edge, pieces};
+use crate::mesh::tetrahedra::pieces;
 use crate::refine::{FLAT, SWEEPS, dihedral_quality, open_around};
-use crate::{NodeId, TetrahedronError, TetrahedronMesh, Vec3};
+use crate::{TetrahedronError, TetrahedronMesh, Vec3};
 use net::{Boundary, Edge, Net, face_without};
-use sheet::{At, Limit, Sheet};
+use sheet::{Limit, Sheet, SheetCoordinates};
 
 /// A vertex closer to the sheet than this part of an edge that crosses it moves onto it, if that leaves no flat tetrahedron [-];
 /// where it cannot move, the slit goes through it if it is closer than the other part.
@@ -61,7 +61,7 @@ pub struct SlitTetrahedra {
 struct Slit<'a> {
     sheet: &'a Sheet,
     /// Coordinates of the vertices near the sheet.
-    at: BTreeMap<u32, At>,
+    at: BTreeMap<u32, SheetCoordinates>,
     /// Those on it.
     on: BTreeSet<u32>,
     /// Those on each limit of it.
@@ -82,15 +82,7 @@ impl SlitTetrahedra {
     /// of an edge, as at a rim, and nothing beside the body.
     pub fn open(&mut self, path: &[SlitPoint]) -> f64 {
         let net = &mut self.net;
-        let longest = (0..net.split.tetrahedra.len() as u32)
-            .filter(|&t| {
-                let middle = net.positions(t).iter().sum::<Vec3>() / 4.0;
-                path.iter().any(|point| {
-                    (point.place - middle).norm() < point.depth + longest_edge(&net.positions(t))
-                })
-            })
-            .map(|t| longest_edge(&net.positions(t)))
-            .fold(0.0, f64::max);
+        let longest = net.longest_edge_around(path);
         let path = net.onto_boundary(path);
         let Some(sheet) = Sheet::new(&path, ABOVE * longest) else {
             return 0.0;
@@ -111,8 +103,7 @@ impl SlitTetrahedra {
 
     /// Whether every piece that hangs together by faces has a vertex on its boundary that `holds` says so of [m].
     pub fn is_held(&self, holds: impl Fn(&Vec3) -> bool) -> bool {
-        let tetrahedra = self.net.split.tetrahedra.iter();
-        let tetrahedra: Vec<_> = tetrahedra.map(|nodes| nodes.map(NodeId)).collect();
+        let tetrahedra = self.net.corners();
         let boundary = self.net.boundary();
         let vertices = self.net.split.vertices.iter().zip(&boundary.normals);
         let held: Vec<bool> = vertices
@@ -131,10 +122,9 @@ impl SlitTetrahedra {
     /// # Errors
     /// When one has lost its volume to rounding.
     pub fn into_mesh(self) -> Result<(TetrahedronMesh, Vec<u32>), TetrahedronError> {
-        let Net { split, parents, .. } = self.net;
-        let tetrahedra = split.tetrahedra.into_iter().map(|nodes| nodes.map(NodeId));
-        let mesh = TetrahedronMesh::new(split.vertices, tetrahedra.collect())?;
-        Ok((mesh, parents))
+        let tetrahedra = self.net.corners();
+        let mesh = TetrahedronMesh::new(self.net.split.vertices, tetrahedra)?;
+        Ok((mesh, self.net.parents))
     }
 }
 
@@ -143,7 +133,7 @@ impl<'a> Slit<'a> {
         let near = net.split.vertices.iter().enumerate();
         let near = near.filter(|(_, place)| sheet.is_near(place, reach));
         let near = near.map(|(number, place)| (number as u32, sheet.at(place)));
-        let at: BTreeMap<u32, At> = near.collect();
+        let at: BTreeMap<u32, SheetCoordinates> = near.collect();
         let on = at.iter().filter(|(_, at)| at.side.abs() < ON);
         Self {
             sheet,
@@ -213,7 +203,12 @@ impl<'a> Slit<'a> {
 
     /// Where a function of the place is zero along an edge [m]; none where it leaps there, between parts of the sheet that
     /// turn away from each other.
-    fn root(&self, net: &Net, [a, b]: Edge, value: impl Fn(&At) -> f64) -> Option<Vec3> {
+    fn root(
+        &self,
+        net: &Net,
+        [a, b]: Edge,
+        value: impl Fn(&SheetCoordinates) -> f64,
+    ) -> Option<Vec3> {
         let [from, to] = [a, b].map(|vertex| net.split.vertices[vertex as usize]);
         let of = |part: f64| value(&self.sheet.at(&(from + (to - from) * part)));
         let sign = of(0.0).signum();
@@ -253,7 +248,7 @@ impl<'a> Slit<'a> {
 
     /// Moves a vertex onto the sheet, along the boundary if it is on that; whether it could.
     fn move_onto(&mut self, net: &mut Net, vertex: u32, boundary: &Boundary) -> bool {
-        let Some(At { side, across, .. }) = self.at.get(&vertex).copied() else {
+        let Some(SheetCoordinates { side, across, .. }) = self.at.get(&vertex).copied() else {
             return false;
         };
         let normals = &boundary.normals[vertex as usize];

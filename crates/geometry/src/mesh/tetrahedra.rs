@@ -15,7 +15,7 @@ mod quality;
 
 pub use error::TetrahedronError;
 pub use faces::HollowMesh;
-pub(crate) use faces::{faces, find, matched, pieces};
+pub(crate) use faces::{Face, faces, find, matched, pieces};
 pub use quality::TetrahedronQuality;
 pub(crate) use quality::{dihedral_angles, longest_edge, six_fold_volume};
 

@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::SlitPoint;
-use crate::mesh::tetrahedra::{faces, find, matched};
+use crate::mesh::tetrahedra::{Face, faces, find, longest_edge, matched};
 use crate::refine::{SplitNet, move_if_sound};
 use crate::{AabbTree, NodeId, TetrahedronMesh, TriangleMesh, Vec3};
 
@@ -45,24 +45,30 @@ impl Net {
         [[a, b], [a, c], [a, d], [b, c], [b, d], [c, d]].map(sorted)
     }
 
+    /// The corners of the tetrahedra.
+    pub(super) fn corners(&self) -> Vec<[NodeId; 4]> {
+        let tetrahedra = self.split.tetrahedra.iter();
+        tetrahedra.map(|nodes| nodes.map(NodeId)).collect()
+    }
+
+    /// The faces of the boundary.
+    fn boundary_faces(&self) -> impl Iterator<Item = Face> {
+        let faces = faces(&self.corners());
+        let single = matched(&faces).filter(|alike| alike.len() == 1);
+        let single: Vec<Face> = single.map(|alike| alike[0]).collect();
+        single.into_iter()
+    }
+
     /// What is known of the boundary.
     pub(super) fn boundary(&self) -> Boundary {
-        let nodes: Vec<_> = self
-            .split
-            .tetrahedra
-            .iter()
-            .map(|t| t.map(NodeId))
-            .collect();
-        let sorted_faces = faces(&nodes);
         let mut boundary = Boundary {
             normals: vec![Vec::new(); self.split.vertices.len()],
             area: 0.0,
         };
-        for alike in matched(&sorted_faces).filter(|alike| alike.len() == 1) {
-            let corners = alike[0].corners.map(|node| node.0);
+        for face in self.boundary_faces() {
+            let corners = face.corners.map(|node| node.0);
             let [a, b, c] = corners.map(|node| self.split.vertices[node as usize]);
-            let inner =
-                self.split.tetrahedra[alike[0].tetrahedron as usize][alike[0].opposite as usize];
+            let inner = self.split.tetrahedra[face.tetrahedron as usize][face.opposite as usize];
             let double = (b - a).cross(&(c - a));
             boundary.area += 0.5 * double.norm();
             let normal = double.normalize();
@@ -77,17 +83,23 @@ impl Net {
         boundary
     }
 
+    /// The longest edge of the tetrahedra that a slit below `path` may pass [m].
+    pub(super) fn longest_edge_around(&self, path: &[SlitPoint]) -> f64 {
+        let each = (0..self.split.tetrahedra.len() as u32).map(|number| self.positions(number));
+        let near = each.filter_map(|positions| {
+            let middle = positions.iter().sum::<Vec3>() / 4.0;
+            let longest = longest_edge(&positions);
+            let mut points = path.iter();
+            points
+                .any(|point| (point.place - middle).norm() < point.depth + longest)
+                .then_some(longest)
+        });
+        near.fold(0.0, f64::max)
+    }
+
     /// The points of a path, each at the nearest place of the boundary.
     pub(super) fn onto_boundary(&self, path: &[SlitPoint]) -> Vec<SlitPoint> {
-        let nodes: Vec<_> = self
-            .split
-            .tetrahedra
-            .iter()
-            .map(|t| t.map(NodeId))
-            .collect();
-        let sorted_faces = faces(&nodes);
-        let corners = matched(&sorted_faces).filter(|alike| alike.len() == 1);
-        let corners = corners.map(|alike| alike[0].corners).collect();
+        let corners = self.boundary_faces().map(|face| face.corners).collect();
         let Ok(mesh) = TriangleMesh::new(self.split.vertices.clone(), corners) else {
             return Vec::new();
         };

@@ -37,7 +37,7 @@ struct Knot {
 
 /// A place in the coordinates of the sheet [m].
 #[derive(Debug, Clone, Copy)]
-pub(super) struct At {
+pub(super) struct SheetCoordinates {
     /// Distance from the sheet, positive to the left of the path.
     pub(super) side: f64,
     /// Along the path; below zero and beyond its length outside.
@@ -50,7 +50,7 @@ pub(super) struct At {
     pub(super) across: Vec3,
 }
 
-impl At {
+impl SheetCoordinates {
     pub(super) fn within(&self, limit: Limit, sheet: &Sheet) -> f64 {
         match limit {
             Limit::Start => self.along,
@@ -124,14 +124,14 @@ impl Sheet {
 
     /// A place [m], moved across onto the sheet.
     pub(super) fn onto(&self, place: &Vec3) -> Vec3 {
-        let At { side, across, .. } = self.at(place);
+        let SheetCoordinates { side, across, .. } = self.at(place);
         place - side * across
     }
 
     /// A place in the coordinates of the nearest part of the sheet.
-    pub(super) fn at(&self, place: &Vec3) -> At {
+    pub(super) fn at(&self, place: &Vec3) -> SheetCoordinates {
         let last = self.knots.len() - 2;
-        let mut best: Option<(f64, At)> = None;
+        let mut best: Option<(f64, SheetCoordinates)> = None;
         for (number, pair) in self.knots.windows(2).enumerate() {
             let [from, to] = pair else { continue };
             let by = to.place - from.place;
@@ -148,7 +148,7 @@ impl Sheet {
             let normal = blend(&from.normal, &to.normal);
             let across = blend(&from.across, &to.across);
             let off = place - from.place - by * part;
-            let at = At {
+            let at = SheetCoordinates {
                 side: off.dot(&across),
                 along: from.along + part * length,
                 below: -off.dot(&normal),
@@ -167,7 +167,7 @@ impl Sheet {
         }
         // A sheet has two knots at least.
         best.map_or(
-            At {
+            SheetCoordinates {
                 side: f64::NAN,
                 along: f64::NAN,
                 below: f64::NAN,

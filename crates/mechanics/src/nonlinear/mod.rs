@@ -19,7 +19,6 @@
 //! `docs/theory/large_deformation.md`.
 
 mod boundary;
-mod carried;
 mod complementarity;
 mod constraints;
 mod contact;
@@ -36,6 +35,7 @@ mod relaxation;
 mod rest;
 mod rotation;
 mod state;
+mod state_transfer;
 mod step;
 #[cfg(test)]
 mod tests;
@@ -43,7 +43,6 @@ mod touching;
 mod touching_search;
 
 pub use boundary::{Boundary, SpreadLoad};
-pub use carried::Carrying;
 pub use constraints::Conditions;
 pub use contact::{Against, BoundaryPoint, MOST_CONTACTS, TOOL_POINTS, UnilateralContact};
 pub use coupling::Coupling;
@@ -51,6 +50,7 @@ pub use embedded::EmbeddedPoints;
 pub use law::Moduli;
 pub use model::{MOST_INFLUENCE_BYTES, NonlinearModel};
 pub use state::NonlinearState;
+pub use state_transfer::StateTransfer;
 pub use step::{Advance, Pace, Workspace, advance};
 pub use touching::TouchingBoundary;
 pub use touching_search::TouchingSearch;

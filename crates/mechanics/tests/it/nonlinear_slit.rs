@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use nalgebra::Matrix3;
 use palpate_geometry::{NodeId, SlitPoint, SlitTetrahedra, TetrahedronMesh};
 use palpate_mechanics::nonlinear::{
-    Carrying, Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace, SpreadLoad,
+    Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace, SpreadLoad, StateTransfer,
     advance,
 };
 use palpate_mechanics::{PronySeries, Vec3};
@@ -161,9 +161,9 @@ impl Pulled {
     /// The same body in other elements.
     fn carried(&self, model: NonlinearModel) -> Self {
         let mut other = Self::new(model);
-        let carrying = Carrying::new(&self.model, &other.model).unwrap();
+        let transfer = StateTransfer::new(&self.model, &other.model).unwrap();
         let mut workspace = other.model.workspace(1);
-        carrying.carry(
+        transfer.transfer(
             (&self.model, &self.state),
             (&other.model, &mut other.state),
             &mut workspace,

@@ -92,7 +92,9 @@ impl Composition {
         let ratios = soft.iter().map(|body| body.regions.largest_ratio());
         let ratio = ratios.fold(regions.largest_ratio(), f64::max);
         let (low, high) = shown.mesh().bounds();
+        let of_tissues = regions.warnings.clone();
         let composition = Self {
+            pieces: Piece::all((surface, regions), soft, tools),
             surface: surface.clone(),
             shown: shown.clone(),
             tree: tree.clone(),
@@ -111,7 +113,6 @@ impl Composition {
             },
             nodes: nodes + soft.iter().map(|body| body.nodes).sum::<usize>(),
             size: (high - low).norm(),
-            pieces: Vec::new(),
             filled,
         };
         let meshes = composition.filled.iter().map(|own| &own.mesh);
@@ -122,15 +123,8 @@ impl Composition {
             warnings.extend(mesh_warnings(surface, nodes, mesh, anchor));
         }
         drop(anchors);
-        warnings.extend(regions.warnings.iter().cloned());
-        let pieces = Piece::all((surface, regions), soft, tools);
-        Ok((
-            Self {
-                pieces,
-                ..composition
-            },
-            warnings,
-        ))
+        warnings.extend(of_tissues);
+        Ok((composition, warnings))
     }
 
     /// The surfaces of the pieces.

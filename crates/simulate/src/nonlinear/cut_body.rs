@@ -49,7 +49,7 @@ pub(super) struct FollowedCuts {
     version: u64,
     /// Vertices of the openings, and how far each has moved [m].
     rims: Option<Arc<Rims>>,
-    pub(super) rims_moved: Vec<Vec3>,
+    rims_moved: Vec<Vec3>,
     /// Where what lies below the surface around the cuts is [m].
     below: Vec<Vec3>,
     /// The body without cuts, while it has some, and with those that it had before a reset: neither allocates or frees.
@@ -275,8 +275,8 @@ impl Ready {
         };
         let (before, after) = (&body.organ.model, &self.organ.model);
         let solver = &mut workspace.solver;
-        self.carrying
-            .carry((before, &body.state), (after, &mut state), solver);
+        self.transfer
+            .transfer((before, &body.state), (after, &mut state), solver);
         std::mem::swap(&mut body.organ, &mut self.organ);
         std::mem::swap(&mut body.state, &mut state);
         std::mem::swap(&mut body.loads, &mut loads);

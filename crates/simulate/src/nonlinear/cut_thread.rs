@@ -4,7 +4,7 @@ use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use palpate_geometry::Vec3;
-use palpate_mechanics::nonlinear::{Carrying, EmbeddedPoints, NonlinearState, SpreadLoad};
+use palpate_mechanics::nonlinear::{EmbeddedPoints, NonlinearState, SpreadLoad, StateTransfer};
 
 use super::slits::{ASIDE, CutPaths};
 use super::{NonlinearOrgan, OrganWorkspace};
@@ -63,7 +63,7 @@ pub(super) struct Job {
 /// A cut organ, and all that a body needs to go over to it.
 pub(super) struct Ready {
     pub(super) organ: Arc<NonlinearOrgan>,
-    pub(super) carrying: Carrying,
+    pub(super) transfer: StateTransfer,
     /// None once they are in use.
     pub(super) body: Option<OfElements>,
     pub(super) workspace: Option<OrganWorkspace>,
@@ -129,6 +129,11 @@ impl CutThread {
 }
 
 impl CutThread {
+    /// Why the last organ could not be made.
+    pub(super) fn error(&self) -> Option<&Error> {
+        self.job.as_ref()?.ready.as_ref()?.as_ref().err()
+    }
+
     /// The job that is done, if one is.
     pub(super) fn done(&mut self) -> Result<Box<Job>, TryRecvError> {
         let done = self.done.get_mut();
@@ -163,7 +168,7 @@ impl Job {
             cuts: self.cuts,
         };
         Ok(Ready {
-            carrying: Carrying::new(&self.now.model, &organ.model)?,
+            transfer: StateTransfer::new(&self.now.model, &organ.model)?,
             body: Some((
                 NonlinearState::at_rest(&organ.model, self.tools),
                 vec![organ.model.spread_load(); self.tools],
@@ -191,7 +196,7 @@ impl Job {
         let near = vertices.filter(|(number, place)| {
             self.paths.is_within(place, reach) && !on_rim(*number as u32)
         });
-        let near = near.map(|(number, place)| Deeper {
+        let near = near.map(|(number, place)| PointBelow {
             number: number as u32,
             place: *place,
             aside: self.paths.aside(place) - place,
@@ -199,14 +204,14 @@ impl Job {
         });
         let rims = self.rims.iter().map(|(number, place, opens)| {
             let nearest = tree.nearest(shown.mesh(), place);
-            Deeper {
+            PointBelow {
                 number: *number,
                 place: *place,
                 aside: ASIDE * opens,
                 normal: shown.mesh().area_vector(nearest.triangle).normalize(),
             }
         });
-        let all: Vec<Deeper> = near.chain(rims).collect();
+        let all: Vec<PointBelow> = near.chain(rims).collect();
         let depths = self.depths.iter();
         let pairs = depths.flat_map(|depth| all.iter().map(move |own| (own, *depth)));
         let rest: Vec<Vec3> = pairs
@@ -224,7 +229,7 @@ impl Job {
 }
 
 /// A vertex below which there is more: away from the cut by `aside` are the elements that it goes with [m].
-struct Deeper {
+struct PointBelow {
     number: u32,
     place: Vec3,
     aside: Vec3,

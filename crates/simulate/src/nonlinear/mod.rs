@@ -99,7 +99,7 @@ pub(crate) struct NonlinearOrgan {
     shaft_skin: ShaftSkin,
     /// How they touch one another, if anything does.
     touching: Option<TouchingBoundary>,
-    /// The shown surface as the organ hangs under its weight, if it has any.
+    /// The shown surface as the organ hangs under its weight, if it has any; of an organ without cuts.
     hangs: Option<(TriangleMesh, AabbTree)>,
     cuts: CutPaths,
 }
@@ -199,12 +199,17 @@ impl NonlinearWorkspace {
 
     /// What to be careful about in the forces of cuts, as sentences.
     pub(crate) fn warnings(&self) -> Option<String> {
-        (self.closed > 0.0).then(|| {
-            format!(
+        let thread = self.thread.as_ref();
+        if let Some(error) = thread.and_then(CutThread::error) {
+            return Some(format!("the last cut changes no force: {error}"));
+        }
+        (self.closed > 0.0).then(|| match thread {
+            None => "cuts change no force: the thread for them could not be started".to_owned(),
+            Some(_) => format!(
                 "{:.0} mm of the cuts are seen and do not change the force: they turn back within an element (raise `model.nodes`), or \
                  would cut a piece off, which nothing holds",
                 1e3 * self.closed
-            )
+            ),
         })
     }
 }
@@ -235,7 +240,8 @@ impl NonlinearOrgan {
         let (work, part) = (Work::Factors, FILLED);
         tell(watch, Progress { work, part })?;
         let composition = Arc::new(composition);
-        let organ = Self::of_pieces(&composition, &composition.filled, CutPaths::default())?;
+        let mut organ = Self::of_pieces(&composition, &composition.filled, CutPaths::default())?;
+        organ.hangs = composition.hangs(&organ.model, &organ.shown);
         Ok((organ, warnings))
     }
 
@@ -259,7 +265,7 @@ impl NonlinearOrgan {
         Ok(Self {
             shaft_skin: ShaftSkin::new(&model, (shown, tree), pieces),
             skin: Skin::new(&model, (shown, tree), neighbours),
-            hangs: composition.hangs(&model, &embedded),
+            hangs: None,
             touching: composition.touching(&model, &merged)?,
             shown: embedded,
             model,

@@ -15,7 +15,7 @@ const INWARDS: f64 = 1e-4;
 
 /// How states of one body go over to those of another: the same body at rest, in other elements.
 #[derive(Debug)]
-pub struct Carrying {
+pub struct StateTransfer {
     /// The nodes of the other, in the elements of the first.
     nodes: EmbeddedPoints,
     /// Of each integration point of the other, element by element: the element and the point of the first nearest to it.
@@ -26,7 +26,7 @@ pub struct Carrying {
     tools: Vec<Option<usize>>,
 }
 
-impl Carrying {
+impl StateTransfer {
     /// From states of `from` to those of `to`.
     ///
     /// # Errors
@@ -61,7 +61,7 @@ impl Carrying {
     ///
     /// # Panics
     /// When a state or the workspace is that of another model or of fewer tools.
-    pub fn carry(
+    pub fn transfer(
         &self,
         (from, before): (&NonlinearModel, &NonlinearState),
         (to, state): (&NonlinearModel, &mut NonlinearState),
@@ -136,21 +136,21 @@ fn integration_point(model: &NonlinearModel, element: usize, point: usize) -> Ve
 /// The points of `now` that are points of `before`: the number of each in both. Places that a list has twice, on both sides of a slit,
 /// are none of them.
 fn same_places(before: &[BoundaryPoint], now: &[BoundaryPoint]) -> Vec<(usize, usize)> {
+    let key = |point: &BoundaryPoint| <[f64; 3]>::from(point.place).map(f64::to_bits);
     let once = |points: &[BoundaryPoint]| {
         let mut numbers: HashMap<[u64; 3], Option<usize>> = HashMap::new();
         for (number, point) in points.iter().enumerate() {
-            let key: [f64; 3] = point.place.into();
-            let known = numbers.entry(key.map(f64::to_bits));
+            let known = numbers.entry(key(point));
             known
                 .and_modify(|number| *number = None)
                 .or_insert(Some(number));
         }
         numbers
     };
-    let (before, now) = (once(before), once(now));
-    let pairs = now.iter().filter_map(|(place, own)| {
-        let other = before.get(place).copied().flatten()?;
-        Some(((*own)?, other))
+    let (known_before, known_now) = (once(before), once(now));
+    let pairs = now.iter().filter_map(|point| {
+        let [own, other] = [&known_now, &known_before].map(|known| known.get(&key(point)));
+        Some(((*own?)?, (*other?)?))
     });
     pairs.collect()
 }
