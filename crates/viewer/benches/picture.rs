@@ -1,7 +1,7 @@
 //! What a picture costs.
 //!
-//! Budgets: deforming and uploading 10,000 vertices 1 ms; a picture with a sphere map or a cube map at most
-//! 10 % longer than a plain one on the same adapter.
+//! Budgets: deforming and uploading 10,000 vertices 1 ms; a picture with everything in one sample at most 66 ms where
+//! two cores draw it, which leaves a window 15 a second. `docs/theory/pictures.md` has the table.
 
 #![allow(missing_docs, reason = "criterion's macros write functions without")]
 #![allow(
@@ -11,10 +11,12 @@
 )]
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use palpate_files::Scene;
 use palpate_files::scene::{BuiltinOrgan, Shading, Shape};
 use palpate_geometry::{Organ, Surface};
 use palpate_viewer::{
-    Body, FRAME_SIZE, Gpu, Looks, Orbit, Renderer, Target, Tint, View, single_precision,
+    Body, FRAME_SIZE, Gpu, Looks, Orbit, Renderer, Target, Tint, ToolPicture, View,
+    single_precision,
 };
 
 fn liver(gpu: &Gpu) -> (Surface, Body) {
@@ -52,19 +54,39 @@ fn picture(c: &mut Criterion) {
     eprintln!("on {}", gpu.adapter());
     let (surface, body) = liver(&gpu);
     let mut renderer = Renderer::new(&gpu);
-    let target = Target::new(&gpu, FRAME_SIZE, 4);
+    let text = "format = 1\n[organ]\nbuiltin = \"liver\"\nbuiltin_tissue = \"pig-liver\"\n[[tool]]\nname = \"right\"\n";
+    let scene = Scene::parse(text, "liver.toml").unwrap();
+    let (low, high) = surface.mesh().bounds();
+    let above = [0.5 * (low.x + high.x), 0.5 * (low.y + high.y), high.z];
+    let tool = ToolPicture::new(&scene.tools[0], (above, [0.0, 0.0, 0.0, 1.0]));
     let mut group = c.benchmark_group("picture 1280x800");
     group.sample_size(30);
-    for (word, shading) in Shading::WORDS {
+    let looks = |relief, scattering, shadows| Looks {
+        relief,
+        scattering,
+        shadows,
+    };
+    // Each adds a feature to the one before.
+    let rows = [
+        ("shape", Shading::Texture, Looks::NONE, 1),
+        ("relief", Shading::Texture, looks(true, false, false), 1),
+        ("scattering", Shading::Texture, looks(true, true, false), 1),
+        ("shadow of a tool", Shading::Texture, Looks::ALL, 1),
+        ("film, sphere map", Shading::SphereMap, Looks::ALL, 1),
+        ("film, cube map", Shading::CubeMap, Looks::ALL, 1),
+        ("film, cube map, 4 samples", Shading::CubeMap, Looks::ALL, 4),
+    ];
+    for (name, shading, looks, samples) in rows {
+        let target = Target::new(&gpu, FRAME_SIZE, samples);
         let view = View {
             camera: Orbit::framing(surface.mesh(), 0.785, 1.6).camera(),
-            shading: *shading,
-            looks: Looks::ALL,
+            shading,
+            looks,
             reach: 0.3,
         };
-        group.bench_function(*word, |b| {
+        group.bench_function(name, |b| {
             b.iter(|| {
-                renderer.draw(&gpu, &view, (&[&body], &[]), &target);
+                renderer.draw(&gpu, &view, (&[&body], &[tool.clone()]), &target);
                 gpu.wait().unwrap();
             });
         });

@@ -145,11 +145,15 @@ impl Renderer {
         self.write(gpu, view, (bodies, tools), target.size());
         self.pass(gpu, &target.attachments(), |pass| {
             let pipeline = |subject| self.pipelines.of(gpu, subject, target.samples());
-            pass.set_pipeline(&pipeline(Subject::Tissue {
-                shading: number(view.shading),
-                looks: view.looks,
-            }));
-            self.draw_bodies(pass, bodies);
+            self.draw_bodies(pass, bodies, |body| {
+                pipeline(Subject::Tissue {
+                    shading: number(view.shading),
+                    looks: view.looks,
+                    tools: tools.len().min(TOOLS) as u8,
+                    endoscope: view.camera.lamp.is_some(),
+                    fibres: body.fibres.is_some(),
+                })
+            });
             pass.set_pipeline(&pipeline(Subject::Instrument));
             self.draw_tools(pass, tools.len());
             // Last, where nothing is: a slow machine does not draw it twice.
@@ -169,8 +173,8 @@ impl Renderer {
     ) {
         self.write(gpu, view, (bodies, tools), target.size());
         self.pass(gpu, &target.attachments(), |pass| {
-            pass.set_pipeline(&self.pipelines.of(gpu, Subject::TissueLabel, 1));
-            self.draw_bodies(pass, bodies);
+            let tissue = self.pipelines.of(gpu, Subject::TissueLabel, 1);
+            self.draw_bodies(pass, bodies, |_| tissue.clone());
             pass.set_pipeline(&self.pipelines.of(gpu, Subject::InstrumentLabel, 1));
             self.draw_tools(pass, tools.len());
         });
@@ -194,9 +198,15 @@ impl Renderer {
         gpu.queue.submit([encoder.finish()]);
     }
 
-    fn draw_bodies(&self, pass: &mut wgpu::RenderPass<'_>, bodies: &[&Body]) {
+    fn draw_bodies(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        bodies: &[&Body],
+        pipeline: impl Fn(&Body) -> wgpu::RenderPipeline,
+    ) {
         let bodies = bodies.iter().zip(&self.bodies);
         for (body, bound) in bodies.filter(|(body, _)| body.triangles() > 0) {
+            pass.set_pipeline(&pipeline(body));
             pass.set_bind_group(1, self.maps.of(body.tint.has_vessels), &[]);
             pass.set_bind_group(2, &bound.group, &[]);
             pass.set_vertex_buffer(0, body.moving_buffer.slice(..));
@@ -234,7 +244,7 @@ impl Renderer {
         for (body, bound) in bodies.iter().zip(&self.bodies) {
             let mut uniform = body.tint.uniform(self.maps.map_as_color);
             if let Some(fibres) = &body.fibres {
-                uniform.fibres = vector(&fibres.axis, 1.0);
+                uniform.fibres = vector(&fibres.axis, 0.0);
                 uniform.fibre_center = vector(&fibres.center, fibres.run as u8 as f32);
             }
             uniform.open(&body.openings);

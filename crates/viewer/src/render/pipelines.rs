@@ -16,6 +16,12 @@ pub(super) enum Subject {
         /// As `SHADING` in `tissue.wgsl`.
         shading: u8,
         looks: Looks,
+        /// How many tools there are.
+        tools: u8,
+        /// Whether the light is an endoscope's.
+        endoscope: bool,
+        /// Whether muscle is cut through.
+        fibres: bool,
     },
     Instrument,
     /// Depth and label of tissue.
@@ -100,11 +106,19 @@ impl Pipelines {
                 immediate_size: 0,
             });
         let constants = match subject {
-            Subject::Tissue { shading, looks } => vec![
+            Subject::Tissue {
+                shading,
+                looks,
+                tools,
+                endoscope,
+                fibres,
+            } => vec![
                 ("SHADING", f64::from(shading)),
                 ("RELIEF", f64::from(u8::from(looks.relief))),
                 ("SCATTERING", f64::from(u8::from(looks.scattering))),
-                ("SHADOWS", f64::from(u8::from(looks.shadows))),
+                ("SHADOWS", f64::from(tools * u8::from(looks.shadows))),
+                ("ENDOSCOPE", f64::from(u8::from(endoscope))),
+                ("FIBRES", f64::from(u8::from(fibres))),
             ],
             _ => Vec::new(),
         };

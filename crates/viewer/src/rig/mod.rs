@@ -308,6 +308,10 @@ impl RigWindow {
 }
 
 impl eframe::App for RigWindow {
+    fn clear_color(&self, _visuals: &egui::Visuals) -> [f32; 4] {
+        crate::style::cleared()
+    }
+
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
         if (self.is_ended)() {

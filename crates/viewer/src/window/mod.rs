@@ -41,6 +41,7 @@ mod results;
 mod seen;
 pub mod settings;
 mod settings_page;
+mod shown_picture;
 mod source;
 mod texts;
 mod timeline;
@@ -388,6 +389,10 @@ impl SimulatorWindow {
 }
 
 impl eframe::App for SimulatorWindow {
+    fn clear_color(&self, _visuals: &egui::Visuals) -> [f32; 4] {
+        crate::style::cleared()
+    }
+
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
         if (self.is_ended)() {

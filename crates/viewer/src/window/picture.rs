@@ -1,6 +1,6 @@
 use std::time::Duration;
 
-use eframe::egui::{self, Color32, PointerButton, Pos2, Rect, Response, Sense, Vec2};
+use eframe::egui::{self, PointerButton, Rect, Response, Sense, Vec2};
 use eframe::egui_wgpu::RenderState;
 use palpate_files::scene::{Enhancement, Goal, Shading, Tool};
 use palpate_geometry::Vec3;
@@ -15,6 +15,8 @@ use super::hands::{Drive, Hand, HandContext, keys};
 use super::overlay;
 use super::play::Play;
 use super::render_quality::RenderQuality;
+use super::shown_picture::{PicturePainter, ShownPicture, pixels};
+
 use crate::render::{Body, Looks, Renderer, Target, ToolPicture, View};
 use crate::{Camera, Error, Gpu, Orbit, TissuePicture, pick, scene_camera};
 
@@ -50,8 +52,10 @@ pub(super) struct OrganView {
     /// The left button went down beside the organ: it turns the camera.
     turning: bool,
     renderer: Renderer,
-    target: Option<(Target, egui::TextureId)>,
-    /// What the texture shows; what would look the same is not drawn again.
+    /// What puts the picture into the window; none before the first.
+    painter: Option<PicturePainter>,
+    target: Option<(Target, ShownPicture)>,
+    /// What the target shows; what would look the same is not drawn again.
     drawn: Option<(View, Vec<ToolPicture>, u64)>,
 }
 
@@ -74,6 +78,7 @@ impl OrganView {
             camera: None,
             turning: false,
             renderer: Renderer::new(gpu),
+            painter: None,
             target: None,
             drawn: None,
         }
@@ -183,9 +188,8 @@ impl OrganView {
                 self.touch(ui, (&response, rect), (play, tool), &room);
             }
         }
-        let texture = self.draw((state, gpu), play, &camera, (extent, rect, ui.ctx()));
-        let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
-        ui.painter().image(texture, rect, whole, Color32::WHITE);
+        let shown = self.draw((state, gpu), play, &camera, (extent, rect, ui.ctx()));
+        ui.painter().add(shown.at(rect));
         rect
     }
 
@@ -381,8 +385,8 @@ impl OrganView {
         play: &mut Play,
         camera: &Camera,
         (extent, rect, context): (f64, Rect, &egui::Context),
-    ) -> egui::TextureId {
-        let texture = self.target(state, gpu, rect.size(), context.pixels_per_point());
+    ) -> ShownPicture {
+        let shown = self.target(state, gpu, pixels(rect, context.pixels_per_point()));
         let snapshot = play.source.snapshot();
         let tools: Vec<ToolPicture> = play
             .scene
@@ -412,7 +416,7 @@ impl OrganView {
         let opened = snapshot.opened.as_ref().filter(|opened| opened.version > 0);
         let now = (view, tools, opened.map_or(0, |opened| opened.version));
         if self.drawn.as_ref() == Some(&now) {
-            return texture;
+            return shown;
         }
         match opened {
             Some(opened) => {
@@ -429,47 +433,30 @@ impl OrganView {
             self.renderer.draw(gpu, view, (&bodies, tools), target);
         }
         self.drawn = Some(now);
-        texture
+        shown
     }
 
-    /// The texture of the picture, made anew when its size or the effort has changed.
-    fn target(
-        &mut self,
-        state: &RenderState,
-        gpu: &Gpu,
-        size: Vec2,
-        pixels_per_point: f32,
-    ) -> egui::TextureId {
-        let pixels = size * pixels_per_point * self.render_quality.scale();
-        let size = (
-            pixels.x.round().max(1.0) as u32,
-            pixels.y.round().max(1.0) as u32,
-        );
+    /// What the picture is drawn into, made anew when its `size` [pixels] in the window or the effort has changed.
+    fn target(&mut self, state: &RenderState, gpu: &Gpu, size: (u32, u32)) -> ShownPicture {
+        let scale = self.render_quality.scale();
+        let scaled = |side: u32| ((side as f32 * scale).round() as u32).max(1);
+        let size = (scaled(size.0), scaled(size.1));
         let samples = self.render_quality.samples();
-        if let Some((target, id)) = &self.target
+        if let Some((target, shown)) = &self.target
             && target.size() == size
             && target.samples() == samples
         {
-            return *id;
+            return shown.clone();
         }
         let target = Target::new(gpu, size, samples);
         self.drawn = None;
-        let mut shown = state.renderer.write();
-        let filter = wgpu::FilterMode::Linear;
-        let id = match &self.target {
-            None => shown.register_native_texture(&gpu.device, target.view(), filter),
-            Some((_, id)) => {
-                shown.update_egui_texture_from_wgpu_texture(
-                    &gpu.device,
-                    target.view(),
-                    filter,
-                    *id,
-                );
-                *id
-            }
-        };
-        self.target = Some((target, id));
-        id
+        let format = state.target_format;
+        let painter = self
+            .painter
+            .get_or_insert_with(|| PicturePainter::new(gpu, format));
+        let shown = painter.shown(gpu, &target);
+        self.target = Some((target, shown.clone()));
+        shown
     }
 
     /// Counts a picture for the effort.

@@ -12,9 +12,10 @@ pub(super) struct RenderQuality {
 /// Samples per pixel, and drawn pixels per pixel of the window along an edge.
 const LADDER: [(u32, f32); 4] = [(4, 1.0), (1, 1.0), (1, 0.7), (1, 0.5)];
 
-/// A picture that takes longer than this is slow, one that takes less than that is quick.
+/// A picture that takes longer than this is slow, one that takes less than that is quick: each rung up is at most
+/// twice the work, so it is not slow.
 const SLOW: Duration = Duration::from_millis(90);
-const QUICK: Duration = Duration::from_millis(24);
+const QUICK: Duration = Duration::from_millis(45);
 
 /// Slow pictures in a row that lower the effort, and quick ones that raise it.
 const PATIENCE: u32 = 8;

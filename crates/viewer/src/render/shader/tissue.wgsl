@@ -6,8 +6,12 @@ override SHADING: u32 = 0u;
 override RELIEF: u32 = 1u;
 // 1 where light goes round the edges of shadows and relief, red farthest.
 override SCATTERING: u32 = 1u;
-// 1 where tools cast shadows.
-override SHADOWS: u32 = 1u;
+// How many tools cast shadows.
+override SHADOWS: u32 = 2u;
+// 1 where the light is an endoscope's.
+override ENDOSCOPE: u32 = 0u;
+// 1 on cut muscle.
+override FIBRES: u32 = 0u;
 
 // An opening around a straight part of a cut: its ends [m], with the half width there in w [m].
 struct Opening {
@@ -23,7 +27,7 @@ struct Body {
     // Periods of the tissue map [1/m], steepness of the relief, part of the environment map that is taken
     // as the tissue's own colour, strength of the film.
     detail: vec4f,
-    // Where muscle is cut through: the axis that its outer fibres run along, with w = 1, and a point of it [m].
+    // Where muscle is cut through: the axis that its outer fibres run along, and a point of it [m].
     fibres: vec4f,
     // With w: 0 by depth, 1 along the axis, 2 around it.
     fibre_center: vec4f,
@@ -78,9 +82,6 @@ fn mirrored(reflected: vec3f) -> vec3f {
 
 // Light from all sides that a capsule leaves over.
 fn left_by(tool: Capsule, position: vec3f, normal: vec3f) -> f32 {
-    if (tool.end.w < 0.5) {
-        return 1.0;
-    }
     let along = tool.end.xyz - tool.start.xyz;
     let offset = position - tool.start.xyz;
     let part = clamp(dot(offset, along) / max(dot(along, along), 1e-12), 0.0, 1.0);
@@ -98,9 +99,6 @@ fn bent(normal: vec3f, slope: vec3f) -> vec3f {
 // What a capsule leaves of light that comes from the direction `towards`: its soft shadow, by how near the
 // way to the light passes.
 fn lit_beside(tool: Capsule, position: vec3f, towards: vec3f) -> f32 {
-    if (tool.end.w < 0.5) {
-        return 1.0;
-    }
     let along = tool.end.xyz - tool.start.xyz;
     let offset = position - tool.start.xyz;
     let squared = max(dot(along, along), 1e-12);
@@ -127,7 +125,7 @@ fn mark(place: vec4f, rest: vec3f) -> f32 {
 // Where the tissue map is looked up: at the place at rest, on cut muscle drawn out along the fibres, which
 // run along the axis in the outer half of the wall and around it in the inner one.
 fn looked_up(rest: vec4f) -> vec3f {
-    if (body.fibres.w < 0.5) {
+    if (FIBRES == 0u) {
         return rest.xyz * body.detail.x;
     }
     let axis = body.fibres.xyz;
@@ -196,7 +194,7 @@ fn tissue_fragment(in: Varyings) -> @location(0) vec4f {
 
     var towards = globals.key.xyz;
     var strength = 1.0;
-    if (globals.key.w > 0.5) {
+    if (ENDOSCOPE == 1u) {
         let away = globals.key.xyz - in.position;
         towards = normalize(away);
         // An endoscope's light falls with the distance and towards the edge of its cone; its back is up.
@@ -205,11 +203,13 @@ fn tissue_fragment(in: Varyings) -> @location(0) vec4f {
     }
     var open = in.rest.w;
     var lit = 1.0;
-    if (SHADOWS == 1u) {
-        open *= left_by(globals.tools[0], in.position, normal)
-            * left_by(globals.tools[1], in.position, normal);
-        lit = lit_beside(globals.tools[0], in.position, towards)
-            * lit_beside(globals.tools[1], in.position, towards);
+    if (SHADOWS >= 1u) {
+        open *= left_by(globals.tools[0], in.position, normal);
+        lit = lit_beside(globals.tools[0], in.position, towards);
+    }
+    if (SHADOWS >= 2u) {
+        open *= left_by(globals.tools[1], in.position, normal);
+        lit *= lit_beside(globals.tools[1], in.position, towards);
     }
     let around = mix(globals.ground.rgb, globals.sky.rgb, 0.5 + 0.5 * dot(normal, globals.up.xyz));
     let direct = globals.key_color.rgb * strength * mix(0.35, 1.0, open);
@@ -235,7 +235,7 @@ fn tissue_fragment(in: Varyings) -> @location(0) vec4f {
         color = wetted(mix(color, 0.55 * reflection, body.detail.z)) * leaving(reflectance);
         shine = reflection * open * (0.4 + 0.6 * min(strength, 1.0)) * reflectance;
         shine += direct * lit * glitter(film_normal, towards, to_eye, roughness);
-        if (globals.key.w < 0.5) {
+        if (ENDOSCOPE == 0u) {
             // A lamp beside the eye, which a film shows before it lights the tissue.
             let beside_eye = normalize(to_eye - 0.25 * globals.up.xyz);
             shine += 3.0 * globals.sky.rgb * open * glitter(film_normal, beside_eye, to_eye, roughness);
