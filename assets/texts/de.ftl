@@ -333,6 +333,7 @@ preparing-influences = Antwort des Organs: Einflüsse
 preparing-tetrahedra = Antwort des Organs: Tetraeder
 preparing-factors = Antwort des Organs: Faktoren
 preparing-responses = Antwort des Organs: eine Kraft auf jedes Dreieck
+preparing-left = noch etwa { $seconds } s
 preparing-storing = Antwort des Organs wird gespeichert
 absence-way-out = Eingebauten Ösophagus öffnen
 fault-thread = einer ihrer Threads ist beendet

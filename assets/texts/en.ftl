@@ -338,6 +338,7 @@ preparing-influences = the organ’s response: influences
 preparing-tetrahedra = the organ’s response: tetrahedra
 preparing-factors = the organ’s response: factors
 preparing-responses = the organ’s response: a force on each triangle
+preparing-left = about { $seconds } s left
 preparing-storing = storing the organ’s response
 absence-way-out = Open the built-in esophagus
 fault-thread = one of its threads ended

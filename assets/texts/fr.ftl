@@ -321,6 +321,7 @@ preparing-influences = réponse de l’organe : influences
 preparing-tetrahedra = réponse de l’organe : tétraèdres
 preparing-factors = réponse de l’organe : facteurs
 preparing-responses = réponse de l’organe : une force sur chaque triangle
+preparing-left = encore { $seconds } s environ
 preparing-storing = enregistrement de la réponse de l’organe
 absence-way-out = Ouvrir l’œsophage intégré
 fault-thread = un de ses fils d’exécution s’est terminé

@@ -35,8 +35,8 @@ pub(super) enum AttemptAction {
 
 /// What the cards know beside the attempt.
 pub(super) struct CardContext {
-    /// How far the preparation of the organ is [-]; none when it is done.
-    pub(super) preparing: Option<f64>,
+    /// How far the preparation of the organ is [-] and what it still takes [s], if known; none when it is done.
+    pub(super) preparing: Option<(f64, Option<f64>)>,
     /// Whether the attempt begins when it is done.
     pub(super) begins: bool,
     /// Whether there is a start screen.
@@ -126,13 +126,16 @@ fn reads(ui: &mut Ui, attempt: &Attempt, around: &CardContext, asked: &mut Optio
     ui.add_space(10.0);
     ui.horizontal_wrapped(|ui| {
         match around.preparing {
-            Some(part) => {
+            Some((part, time_left)) => {
                 page::spinner(ui);
                 let key = match around.begins {
                     true => "attempt-preparing-begins",
                     false => "attempt-preparing",
                 };
                 ui.label(text!(key, percent = (100.0 * part).round()));
+                if let Some(seconds) = time_left {
+                    ui.label(text!("preparing-left", seconds = seconds));
+                }
                 if !around.begins && ui.button(text!("attempt-begin-ready")).clicked() {
                     *asked = Some(AttemptAction::Begin);
                 }

@@ -363,10 +363,12 @@ impl SimulatorWindow {
         }
     }
 
-    /// How far the whole organ is prepared [-]; none when it is.
-    fn preparing(&self) -> Option<f64> {
+    /// How far the whole organ is prepared [-], and the time that it still takes [s] if that can be said; none when it
+    /// is.
+    fn preparing(&self) -> Option<(f64, Option<f64>)> {
         let preparation = self.preparation.as_ref()?;
-        Some(preparation.progress().map_or(0.0, |progress| progress.part))
+        let part = preparation.progress().map_or(0.0, |progress| progress.part);
+        Some((part, preparation.time_left()))
     }
 }
 

@@ -411,6 +411,9 @@ fn waiting(preparation: &Preparation, ui: &mut Ui) {
     let bar = egui::ProgressBar::new(progress.part as f32);
     let bar = ui.add(bar.desired_width(160.0).show_percentage());
     page::name(&bar, Role::ProgressIndicator, &words);
+    if let Some(seconds) = preparation.time_left() {
+        ui.label(text!("preparing-left", seconds = seconds));
+    }
     // Nothing else moves while one waits.
     ui.ctx().request_repaint_after(super::REST);
 }

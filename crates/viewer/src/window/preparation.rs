@@ -3,6 +3,7 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
 
 use eframe::egui;
 use palpate_files::Scene;
@@ -17,8 +18,15 @@ use crate::{Error, Gpu};
 /// at once with the local model, and again when the whole organ is ready. Dropping it breaks it off.
 pub(super) struct Preparation {
     outcomes: Receiver<Outcome>,
-    told: Arc<Mutex<Option<Progress>>>,
+    told: Arc<Mutex<Option<Told>>>,
     given_up: Arc<AtomicBool>,
+}
+
+/// How far a preparation is, and when it was first told where.
+#[derive(Clone, Copy)]
+struct Told {
+    progress: Progress,
+    first: (Instant, f64),
 }
 
 /// What came of a scene, so far or at last.
@@ -41,7 +49,7 @@ struct Work {
     resources: Resources,
     gpu: Gpu,
     context: egui::Context,
-    told: Arc<Mutex<Option<Progress>>>,
+    told: Arc<Mutex<Option<Told>>>,
     given_up: Arc<AtomicBool>,
 }
 
@@ -99,6 +107,18 @@ impl Preparation {
 
     /// How far it is, if that is known.
     pub(super) fn progress(&self) -> Option<Progress> {
+        Some(self.told()?.progress)
+    }
+
+    /// The time that it still takes [s], if it goes on as until now; none before that can be said.
+    pub(super) fn time_left(&self) -> Option<f64> {
+        let told = self.told()?;
+        let (since, from) = told.first;
+        let elapsed = since.elapsed().as_secs_f64();
+        time_left(elapsed, from, told.progress.part)
+    }
+
+    fn told(&self) -> Option<Told> {
         *self.told.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -156,11 +176,39 @@ impl Work {
     fn play(&self, scene: Scene) -> Result<Prepared, Error> {
         Prepared::of(scene, &self.resources, &self.gpu, &mut |progress| {
             let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
-            *told = Some(progress);
+            let first = told.map_or_else(|| (Instant::now(), progress.part), |told| told.first);
+            *told = Some(Told { progress, first });
             match self.given_up.load(Ordering::Relaxed) {
                 true => ControlFlow::Break(()),
                 false => ControlFlow::Continue(()),
             }
         })
+    }
+}
+
+/// What is left [s] of work of which the part grew from `from` to `part` in `elapsed` [s], in steps that people count in.
+/// None before a twentieth and a second.
+fn time_left(elapsed: f64, from: f64, part: f64) -> Option<f64> {
+    let done = part - from;
+    if elapsed < 1.0 || done < 0.05 {
+        return None;
+    }
+    let left = elapsed * (1.0 - part) / done;
+    let step = if left < 60.0 { 5.0 } else { 30.0 };
+    Some((left / step).ceil().max(1.0) * step)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_takes_as_long_as_what_was_done() {
+        assert_eq!(time_left(20.0, 0.0, 0.5), Some(20.0));
+        assert_eq!(time_left(20.0, 0.2, 0.6), Some(20.0));
+        assert_eq!(time_left(30.0, 0.0, 0.25), Some(90.0));
+        assert_eq!(time_left(30.0, 0.0, 1.0), Some(5.0));
+        assert_eq!(time_left(0.5, 0.0, 0.5), None);
+        assert_eq!(time_left(20.0, 0.3, 0.32), None);
     }
 }
