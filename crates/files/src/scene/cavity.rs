@@ -18,7 +18,7 @@ impl CavityContent {
             "The pressure on its wall, which stays constant; of a fluid that keeps its volume, its pressure before anything \
              else loads the body.",
         )
-        .optional("2000.0", "it is empty"),
+        .optional("2000.0", "none: the cavity is empty, or its fluid under no pressure"),
         Key::truth(
             "constant_volume",
             "Whether it is full of a fluid that keeps its volume.",

@@ -10,7 +10,8 @@
 //!
 //! *How we know*: `tube::lame`, `tube::follows_the_closed_form`, `hexahedra::pressed_ring_is_lames`, `cavities::…`.
 //!
-//! *Limits*: an edge of the wall that is free to move off those planes would feel a wrong force.
+//! *Limits*: an edge of the wall that is free to move off those planes would feel a wrong force; `pressed_faces` is for
+//! such parts of a boundary.
 
 use super::assembly::PRESSURE_REGULARIZATION;
 use super::element::ElementKind;
@@ -170,22 +171,25 @@ impl Cavity {
     }
 }
 
-fn is_small(model: &FiniteElementModel) -> bool {
+pub(super) fn is_small(model: &FiniteElementModel) -> bool {
     model.law.volume().strain == Strain::Small
 }
 
-fn side_volume(model: &FiniteElementModel, unknowns: &[f64], side: &[u32]) -> SideVolume {
+/// Where `nodes` are with these `unknowns` [m].
+pub(super) fn moved(model: &FiniteElementModel, unknowns: &[f64], nodes: &[u32]) -> Vec<Vec3> {
     let dimension = model.dimension();
-    let places: Vec<Vec3> = side
-        .iter()
-        .map(|&node| {
-            let mut place = model.mesh.nodes[node as usize];
-            for i in 0..dimension {
-                place[i] += unknowns[node as usize * dimension + i];
-            }
-            place
-        })
-        .collect();
+    let each = nodes.iter().map(|&node| {
+        let mut place = model.mesh.nodes[node as usize];
+        for i in 0..dimension {
+            place[i] += unknowns[node as usize * dimension + i];
+        }
+        place
+    });
+    each.collect()
+}
+
+fn side_volume(model: &FiniteElementModel, unknowns: &[f64], side: &[u32]) -> SideVolume {
+    let places = moved(model, unknowns, side);
     match places.len() {
         3 => meridian(&places),
         6 => wall(&places, &TRIANGLE.map(triangle_point)),
@@ -235,11 +239,11 @@ fn meridian(places: &[Vec3]) -> SideVolume {
 }
 
 /// A point of integration on a side of N nodes: their shape functions, the derivatives of these, and its weight.
-struct SidePoint<const N: usize> {
-    value: [f64; N],
-    along: [f64; N],
-    across: [f64; N],
-    weight: f64,
+pub(super) struct SidePoint<const N: usize> {
+    pub(super) value: [f64; N],
+    pub(super) along: [f64; N],
+    pub(super) across: [f64; N],
+    pub(super) weight: f64,
 }
 
 /// Of the square [−1, 1]², nodes numbered like those of [`ElementKind::Quad9`].
@@ -258,7 +262,7 @@ fn square_points() -> [SidePoint<9>; 9] {
 
 /// Points of degree four in the triangle of the corners (0, 0), (1, 0), (0, 1) [Dunavant 1985]: the triple product of a
 /// quadratic side has that degree.
-const TRIANGLE: [([f64; 2], f64); 6] = [
+pub(super) const TRIANGLE: [([f64; 2], f64); 6] = [
     (
         [0.445_948_490_915_965, 0.445_948_490_915_965],
         0.111_690_794_839_005_7,
@@ -285,7 +289,7 @@ const TRIANGLE: [([f64; 2], f64); 6] = [
     ),
 ];
 
-fn triangle_point(([x, y], weight): ([f64; 2], f64)) -> SidePoint<6> {
+pub(super) fn triangle_point(([x, y], weight): ([f64; 2], f64)) -> SidePoint<6> {
     let rest = 1.0 - x - y;
     SidePoint {
         value: [

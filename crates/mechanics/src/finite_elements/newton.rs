@@ -124,9 +124,12 @@ pub(super) fn assemble(
 ) -> Result<(), Failure> {
     assembly::assemble(model, unknowns, supports.relaxing, workspace)
         .map_err(|_| Failure::Inverted)?;
+    supports.add_pressures(model, unknowns, -1.0, &mut workspace.residual);
     for (cavity, pressure) in &supports.pressures {
-        cavity.add_gradient(model, unknowns, -pressure, &mut workspace.residual);
         cavity.add_curvature(model, unknowns, -pressure, &mut workspace.tangent);
+    }
+    for (faces, pressure) in &supports.pressed {
+        faces.add_tangent(model, unknowns, -pressure, &mut workspace.tangent);
     }
     for ((fluid, number), growth) in model.fluids().zip(supports.growths()) {
         fluid.add_constraint(model, unknowns, number, workspace);
@@ -191,9 +194,9 @@ pub(super) fn size_of_residual(
         size.free += across * across / along_surface;
         size.held += normal * normal / along_normal;
     }
-    for (cavity, pressure) in &supports.pressures {
+    if !supports.pressures.is_empty() || !supports.pressed.is_empty() {
         let mut load = vec![0.0; model.size()];
-        cavity.add_gradient(model, &workspace.trial, *pressure, &mut load);
+        supports.add_pressures(model, &workspace.trial, 1.0, &mut load);
         size.held += (0..model.displacements())
             .map(|i| load[i].powi(2) / diagonal(i).abs())
             .sum::<f64>();

@@ -335,9 +335,8 @@ impl<'a> Path<'a> {
         let (model, workspace) = (self.model, &mut self.workspace);
         let mut relax: Vec<f64> = workspace.residual.iter().map(|r| -r).collect();
         let mut push = vec![0.0; model.size()];
-        for (cavity, pressure) in &self.loads.pressures {
-            cavity.add_gradient(model, &state.unknowns, *pressure, &mut push);
-        }
+        self.loads
+            .add_pressures(model, &state.unknowns, 1.0, &mut push);
         for ((_, number), growth) in model.fluids().zip(self.loads.growths()) {
             push[number] -= growth;
         }
@@ -395,7 +394,8 @@ fn scaled<'a>(loads: &Supports<'a>, factor: f64) -> Supports<'a> {
     for held in all.held.iter_mut().flatten() {
         *held *= factor;
     }
-    for (_, pressure) in &mut all.pressures {
+    let pressures = all.pressures.iter_mut().map(|(_, pressure)| pressure);
+    for pressure in pressures.chain(all.pressed.iter_mut().map(|(_, pressure)| pressure)) {
         *pressure *= factor;
     }
     all.growths.iter_mut().for_each(|growth| *growth *= factor);

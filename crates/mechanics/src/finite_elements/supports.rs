@@ -5,6 +5,7 @@ use nalgebra::{Matrix6, Vector6};
 use super::cavity::Cavity;
 use super::mismatch::Mismatch;
 use super::model::FiniteElementModel;
+use super::pressed_faces::PressedFaces;
 use super::relaxation::RelaxationStep;
 use crate::Vec3;
 
@@ -17,6 +18,8 @@ pub struct Supports<'a> {
     pub sliding: Vec<Sliding>,
     /// Pressures on the walls of cavities that follow them [Pa].
     pub pressures: Vec<(&'a Cavity, f64)>,
+    /// Pressures on parts of a solid's boundary that follow them [Pa].
+    pub pressed: Vec<(&'a PressedFaces, f64)>,
     /// By how much fluids have made their cavities larger [m³], in the order of the cavities; zero of those beyond.
     pub growths: Vec<f64>,
     /// Forces at the unknowns that do not turn with the body [N], of
@@ -152,6 +155,7 @@ impl<'a> Supports<'a> {
             held: vec![None; model.displacements()],
             sliding: Vec::new(),
             pressures: Vec::new(),
+            pressed: Vec::new(),
             growths: Vec::new(),
             dead_load: None,
             relaxing: None,
@@ -188,6 +192,22 @@ impl<'a> Supports<'a> {
     /// The growth of each cavity that is full of a fluid [m³], endlessly.
     pub(super) fn growths(&self) -> impl Iterator<Item = f64> + '_ {
         self.growths.iter().copied().chain(std::iter::repeat(0.0))
+    }
+
+    /// Adds the forces of all pressures, `factor` times, to `out` [N].
+    pub(super) fn add_pressures(
+        &self,
+        model: &FiniteElementModel,
+        unknowns: &[f64],
+        factor: f64,
+        out: &mut [f64],
+    ) {
+        for (cavity, pressure) in &self.pressures {
+            cavity.add_gradient(model, unknowns, factor * pressure, out);
+        }
+        for (faces, pressure) in &self.pressed {
+            faces.add_force(model, unknowns, factor * pressure, out);
+        }
     }
 
     /// With `load` [N] at the unknowns.
@@ -236,6 +256,9 @@ impl<'a> Supports<'a> {
         }
         for (cavity, _) in &self.pressures {
             cavity.check(model)?;
+        }
+        for (faces, _) in &self.pressed {
+            faces.check(model)?;
         }
         let mut slides = vec![false; nodes];
         for &Sliding {

@@ -5,18 +5,18 @@ use std::sync::Arc;
 use palpate_files::scene::{Region, RegionPlane};
 use palpate_geometry::TetrahedronMesh;
 use palpate_mechanics::finite_elements::solid::{
-    Body, DeadLoad, LoadPlace, Loads, SolidAnswer, SolidError, SolidProblem, Weight, solve,
+    Body, LoadPlace, Loads, SolidAnswer, SolidError, SolidProblem, SurfaceLoad, Weight, solve,
     solve_at,
 };
 use palpate_mechanics::{Error, Law, LinearElastic, NeoHookean, Vec3};
 
 /// A beam along x from 0, where it is held, with its middle line at y = z = 0 [m].
-const LENGTH: f64 = 0.1;
-const HEIGHT: f64 = 0.01;
+pub(crate) const LENGTH: f64 = 0.1;
+pub(crate) const HEIGHT: f64 = 0.01;
 const GRAVITY: f64 = 9.81;
 const DENSITY: f64 = 1000.0;
 
-fn beam(cells: [usize; 3], law: Arc<dyn Law>) -> SolidProblem {
+pub(crate) fn beam(cells: [usize; 3], law: Arc<dyn Law>) -> SolidProblem {
     let half = 0.5 * HEIGHT;
     let (low, high) = (Vec3::new(0.0, -half, -half), Vec3::new(LENGTH, half, half));
     SolidProblem {
@@ -32,7 +32,7 @@ fn beam(cells: [usize; 3], law: Arc<dyn Law>) -> SolidProblem {
 }
 
 /// The half-space below `at` [m] along the axis of `normal`.
-fn plane(at: f64, normal: Vec3) -> Region {
+pub(crate) fn plane(at: f64, normal: Vec3) -> Region {
     Region {
         planes: vec![RegionPlane {
             point_m: (at * normal.abs()).into(),
@@ -49,13 +49,13 @@ fn weight(gravity: Vec3) -> Option<Weight> {
     })
 }
 
-fn at(problem: &SolidProblem, halvings: i32) -> SolidAnswer {
+pub(crate) fn at(problem: &SolidProblem, halvings: i32) -> SolidAnswer {
     solve_at(problem, halvings, &mut |_| ()).unwrap()
 }
 
 /// The force on the end face.
-fn end(force: Vec3) -> DeadLoad {
-    DeadLoad {
+fn end(force: Vec3) -> SurfaceLoad {
+    SurfaceLoad::Force {
         place: LoadPlace::Faces(plane(LENGTH - 1e-6, -Vec3::x())),
         force,
     }
@@ -124,7 +124,7 @@ fn a_slender_beam_is_the_elastica() {
     let force = 2.0 * stiffness / LENGTH.powi(2);
     let [down, back] = elastica(force / stiffness);
     let region = end(-force * Vec3::z());
-    problem.loads.forces = vec![region];
+    problem.loads.on_surface = vec![region];
     let answer = at(&problem, 0);
     let found = answer.points[0];
     println!("{found:?}: {down} {back}");
@@ -142,11 +142,14 @@ fn a_force_on_an_edge_bends_as_one_on_the_face() {
     let mut problem = beam([10, 2, 2], law);
     let middle = 0.5 * LENGTH * Vec3::x();
     problem.points = vec![middle];
-    problem.loads.forces = vec![end(-0.01 * Vec3::z())];
+    problem.loads.on_surface = vec![end(-0.01 * Vec3::z())];
     let face = at(&problem, 0);
     let half = 0.5 * HEIGHT;
     let top = |side: f64| Vec3::new(LENGTH, side * half, half);
-    problem.loads.forces[0].place = LoadPlace::Line([top(-1.0), top(1.0)]);
+    problem.loads.on_surface = vec![SurfaceLoad::Force {
+        place: LoadPlace::Line([top(-1.0), top(1.0)]),
+        force: -0.01 * Vec3::z(),
+    }];
     let edge = at(&problem, 0);
     let apart = (face.points[0] - edge.points[0]).norm() / face.points[0].norm();
     println!("{apart:e}");
@@ -180,7 +183,7 @@ fn what_cannot_be_loaded_is_refused() {
             other => panic!("{other:?}"),
         }
     };
-    let load = |place: LoadPlace, force: Vec3| DeadLoad { place, force };
+    let load = |place: LoadPlace, force: Vec3| SurfaceLoad::Force { place, force };
     let nowhere = || LoadPlace::Faces(Region::default());
     assert_eq!(
         refused(&|p| p.loads = Loads::default()),
@@ -200,22 +203,34 @@ fn what_cannot_be_loaded_is_refused() {
         ));
     }
     assert!(matches!(
-        refused(&|p| p.loads.forces = vec![load(nowhere(), Vec3::zeros())]),
+        refused(&|p| p.loads.on_surface = vec![load(nowhere(), Vec3::zeros())]),
         SolidError::NoDirection { .. }
     ));
     assert_eq!(
-        refused(&|p| p.loads.forces = vec![load(nowhere(), Vec3::x())]),
+        refused(&|p| p.loads.on_surface = vec![load(nowhere(), Vec3::x())]),
         SolidError::EmptyLoad { load: 0 }
     );
     let line = |ends| load(LoadPlace::Line(ends), Vec3::x());
     assert_eq!(
-        refused(&|p| p.loads.forces = vec![line([Vec3::zeros(); 2])]),
+        refused(&|p| p.loads.on_surface = vec![line([Vec3::zeros(); 2])]),
         SolidError::NoLine { load: 0 }
     );
     assert!(matches!(
-        refused(&|p| p.loads.forces = vec![line([Vec3::z(), 2.0 * Vec3::z()])]),
+        refused(&|p| p.loads.on_surface = vec![line([Vec3::z(), 2.0 * Vec3::z()])]),
         SolidError::LineOffSurface { load: 0, .. }
     ));
+    let pressed = |region, pressure| SurfaceLoad::Pressure { region, pressure };
+    assert_eq!(
+        refused(&|p| p.loads.on_surface = vec![pressed(None, 0.0)]),
+        SolidError::NoPressure {
+            load: 0,
+            found: 0.0
+        }
+    );
+    assert_eq!(
+        refused(&|p| p.loads.on_surface = vec![pressed(Some(Region::default()), 1.0)]),
+        SolidError::EmptyLoad { load: 0 }
+    );
     assert!(matches!(
         refused(&|p| p.points.push(Vec3::z())),
         SolidError::PointOutside { point: 1, .. }

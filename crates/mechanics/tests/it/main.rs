@@ -48,6 +48,7 @@ mod nonlinear_touching;
 mod orders;
 mod patch_on_hemisphere;
 mod path;
+mod pressed_faces;
 mod punch_edge;
 mod real_organs;
 mod refused_input;

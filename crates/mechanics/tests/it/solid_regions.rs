@@ -6,8 +6,8 @@ use palpate_files::scene::InclusionShape;
 use palpate_geometry::{Organ, Surface, TetrahedronMesh, TriangleMesh};
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::solid::{
-    Body, DeadLoad, LoadPlace, Loads, RegionContent, SolidPlace, SolidProblem, SolidRegion, Weight,
-    solve_at,
+    Body, LoadPlace, Loads, RegionContent, SolidPlace, SolidProblem, SolidRegion, SurfaceLoad,
+    Weight, solve_at,
 };
 use palpate_mechanics::layered::{LayeredHalfSpace, LoadShape};
 use palpate_mechanics::regions::{RegionError, RegionPlace};
@@ -56,7 +56,7 @@ pub(crate) fn pulled(law: Arc<dyn Law>, place: RegionPlace) -> SolidProblem {
         regions: vec![region(place, law)],
         loads: Loads {
             weight: None,
-            forces: vec![DeadLoad {
+            on_surface: vec![SurfaceLoad::Force {
                 place: LoadPlace::Faces(plane(0.999 * half * Vec3::x(), -Vec3::x())),
                 force: 1e-3 * Vec3::x(),
             }],
@@ -136,7 +136,7 @@ fn missing_of_a_kidney<const MESHES: usize>(halvings: [i32; MESHES]) -> [f64; ME
                 gravity: -10.0 * Vec3::z(),
                 density: DENSITY,
             }),
-            forces: Vec::new(),
+            on_surface: Vec::new(),
         },
         ..cube(5e-3, 0.3, Friction::Bonded)
     };
@@ -244,7 +244,7 @@ fn cells_have_the_tissue_of_their_region() {
         }],
         loads: Loads {
             weight: None,
-            forces: vec![DeadLoad {
+            on_surface: vec![SurfaceLoad::Force {
                 place: LoadPlace::Faces(plane((1.0 - 1e-6) * Vec3::z(), -Vec3::z())),
                 force: -10.0 * Vec3::z(),
             }],
@@ -262,7 +262,7 @@ fn cells_have_the_tissue_of_their_region() {
             gravity: -10.0 * Vec3::z(),
             density: DENSITY,
         }),
-        forces: Vec::new(),
+        on_surface: Vec::new(),
     };
     let answer = at(&SolidProblem { loads, ..problem }, 0);
     let weight = 10.0 * DENSITY * (0.75 + 3.0 * 0.25);

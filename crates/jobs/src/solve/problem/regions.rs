@@ -69,8 +69,8 @@ pub(super) const KEYS: [Key; 3] = [
 const LAYER: &[Key] = &[
     Layer::KEYS[0],
     Layer::KEYS[1],
-    Layer::KEYS[2],
-    Layer::KEYS[3],
+    TissueChoice::KEYS[0],
+    TissueChoice::KEYS[1],
 ];
 
 /// The parts of a problem, layers first, whose body is of `law`.

@@ -6,7 +6,7 @@ use palpate_files::tissue::LawName;
 use palpate_files::{Domain, Error, Key, Keys, Place};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::contact::Friction;
-use palpate_mechanics::finite_elements::solid::{DeadLoad, LoadPlace};
+use palpate_mechanics::finite_elements::solid::{LoadPlace, SurfaceLoad};
 
 use super::fibres::Fibres;
 use super::regions::{self, SolidPart};
@@ -44,10 +44,10 @@ pub(crate) struct Patch {
     pub(crate) contact: Friction,
 }
 
-/// A force on the surface.
+/// A force or a pressure on the surface.
 #[derive(Debug, Clone)]
 pub(crate) struct Load {
-    pub(crate) load: DeadLoad,
+    pub(crate) load: SurfaceLoad,
     /// Where it is in the document, and the full name of the key that says where it acts.
     pub(crate) place: Place,
     pub(crate) key: String,
@@ -107,7 +107,7 @@ impl Solid {
         Key::tables(
             "load",
             Load::KEYS,
-            "Forces on the surface that keep their direction while the body turns.",
+            "Forces on the surface that keep their direction while the body turns, and pressures that stay normal to it.",
         )
         .optional("", "none"),
         Key::tables(
@@ -232,7 +232,16 @@ impl Patch {
 
 impl Load {
     const KEYS: &[Key] = &[
-        Key::vector("force_n", FORCE, "The whole force.").required("[0.0, 0.0, -0.5]"),
+        Key::vector("force_n", FORCE, "The whole force.")
+            .optional("[0.0, 0.0, -0.5]", "it is a pressure")
+            .in_template(),
+        Key::number(
+            "pressure_pa",
+            Domain::PRESSURE_OR_SUCTION,
+            "A pressure towards the inside, in place of `force_n`; it stays normal to the surface while the body deforms. It \
+             acts on all of the outer surface where no key says where.",
+        )
+        .optional("1600.0", "it is a force"),
         Key::table(
             "region",
             Region::KEYS,
@@ -262,23 +271,65 @@ impl Load {
     ];
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
-        let force = Vec3::from(keys.required_vector("force_n")?);
-        if force == Vec3::zeros() {
-            return Err(keys.bad("force_n", "a force that is not zero"));
+        let pressure = keys.number("pressure_pa")?;
+        let force = keys.vector("force_n")?.map(Vec3::from);
+        let size = if pressure.is_some() {
+            "pressure_pa"
+        } else {
+            "force_n"
+        };
+        let is_zero = pressure == Some(0.0) || force == Some(Vec3::zeros());
+        if is_zero {
+            return Err(keys.bad(size, "one that is not zero"));
         }
+        let place = Self::place(keys)?;
+        let key = place.as_ref().map_or(size, |(key, _)| key);
+        let load = match (force, pressure, place) {
+            (Some(_), Some(_), _) => return Err(keys.given_twice("force_n", "pressure_pa")),
+            (None, None, _) => {
+                let expected = "how large the load is: `force_n = [x, y, z]`, the whole force, or `pressure_pa`";
+                return Err(keys.missing("force_n", expected));
+            }
+            (Some(force), None, Some((_, place))) => SurfaceLoad::Force { place, force },
+            (Some(_), None, None) => {
+                let expected = "where the force acts: `box_m = [[x, y, z], [x, y, z]]`, `center_m` with `radius_m`, \
+                                `region` with planes, boxes or spheres, or `line = { from_m, to_m }`";
+                return Err(keys.missing("box_m", expected));
+            }
+            (None, Some(_), Some((_, LoadPlace::Line(_)))) => {
+                return Err(keys.bad(
+                    "line",
+                    "a part of the surface for a pressure, by `box_m`, `center_m` or `region`",
+                ));
+            }
+            (None, Some(pressure), Some((_, LoadPlace::Faces(region)))) => SurfaceLoad::Pressure {
+                region: Some(region),
+                pressure,
+            },
+            (None, Some(pressure), None) => SurfaceLoad::Pressure {
+                region: None,
+                pressure,
+            },
+        };
+        Ok(Self {
+            load,
+            place: keys.place_of_key(key),
+            key: keys.full_name(key),
+        })
+    }
+
+    /// Where it acts, and the key that says so.
+    fn place(keys: &Keys<'_>) -> Result<Option<(&'static str, LoadPlace)>, Error> {
         let places = ["region", "box_m", "center_m", "line"];
         let mut given = places.into_iter().filter(|key| keys.contains(key));
-        let Some(key) = given.next() else {
-            let expected = "where the force acts: `box_m = [[x, y, z], [x, y, z]]`, `center_m` with `radius_m`, `region` \
-                            with planes, boxes or spheres, or `line = { from_m, to_m }`";
-            return Err(keys.missing("box_m", expected));
-        };
-        if let Some(other) = given.next() {
+        let key = given.next();
+        if let (Some(key), Some(other)) = (key, given.next()) {
             return Err(keys.given_twice(key, other));
         }
-        if key != "center_m" {
+        if key != Some("center_m") {
             keys.refuse("radius_m", "`center_m` too, for it is the radius of a ball")?;
         }
+        let Some(key) = key else { return Ok(None) };
         let place = match key {
             "box_m" => LoadPlace::Faces(box_of(keys)?),
             "center_m" => LoadPlace::Faces(Region {
@@ -294,11 +345,7 @@ impl Load {
                 LoadPlace::Faces(Region::from_keys(&region)?)
             }
         };
-        Ok(Self {
-            load: DeadLoad { place, force },
-            place: keys.place_of_key(key),
-            key: keys.full_name(key),
-        })
+        Ok(Some((key, place)))
     }
 }
 

@@ -55,11 +55,9 @@ impl SolidMesh {
         for ((region, content), wall) in contents.into_iter().zip(hollow.walls) {
             let around: HashSet<_> = wall.into_iter().map(sorted).collect();
             let is_wall = |face: &mut Face| around.contains(&sorted(face.corners));
-            let sides = outer.extract_if(.., is_wall).map(|face| {
-                // Seen from the body instead of from the cavity.
-                let [a, b, c, ab, bc, ca] = face.nodes.map(|node| node as u32);
-                vec![a, c, b, ca, bc, ab]
-            });
+            // Of the body, not of the cavity.
+            let sides = outer.extract_if(.., is_wall);
+            let sides = sides.map(|face| face.seen_from_inside().to_vec());
             cavities.push(SolidCavity {
                 region,
                 content,

@@ -2,7 +2,9 @@
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SolidError {
     /// Neither a patch nor a load.
-    #[error("nothing moves or loads the body; give a patch, a weight or a force on its surface")]
+    #[error(
+        "nothing moves or loads the body; give a patch, a weight, or a force or pressure on its surface"
+    )]
     NothingLoads,
     /// A density that is none.
     #[error("the density is {density} kg/m3; give a positive number")]
@@ -18,7 +20,15 @@ pub enum SolidError {
         /// The value given.
         found: [f64; 3],
     },
-    /// No triangle of the boundary is in the region of a force.
+    /// A pressure that is none.
+    #[error("the pressure of load {} is {found} Pa; give a number that is not zero", load + 1)]
+    NoPressure {
+        /// Number of the load, from 0.
+        load: usize,
+        /// The value given [Pa].
+        found: f64,
+    },
+    /// No triangle of the boundary is in the region of a load.
     #[error(
         "load {} acts on no triangle of the body; give a plane, box or sphere that takes in a part of its surface", load + 1
     )]

@@ -4,6 +4,7 @@ use nalgebra::Rotation3;
 use super::super::cavity::Cavity;
 use super::super::mesh::ElementMesh;
 use super::super::model::FiniteElementModel;
+use super::super::pressed_faces::PressedFaces;
 use super::super::supports::Supports;
 use super::problem::MovedPatch;
 use super::supports::Held;
@@ -91,6 +92,8 @@ pub(super) struct Conditions<'a> {
     pub(super) load: &'a [f64],
     /// Whole pressures in cavities [Pa].
     pub(super) pressures: &'a [(&'a Cavity, f64)],
+    /// Whole pressures on the outer boundary [Pa].
+    pub(super) pressed: &'a [(PressedFaces, f64)],
     /// Whole growths of the cavities that are full of a fluid [m³].
     pub(super) growths: &'a [f64],
 }
@@ -103,6 +106,7 @@ impl Conditions<'_> {
             held,
             load,
             pressures,
+            pressed,
             growths,
         } = self;
         let mut supports = Supports::none(model);
@@ -111,6 +115,8 @@ impl Conditions<'_> {
         for (cavity, pressure) in *pressures {
             supports = supports.press(cavity, part * pressure);
         }
+        let pressed = pressed.iter();
+        supports.pressed = pressed.map(|(faces, own)| (faces, part * own)).collect();
         for axis in 0..3 {
             supports = supports.hold(model, held.anchored.iter().copied(), axis, 0.0);
             if frame.held[axis] {

@@ -1,13 +1,14 @@
-//! Dead loads on the boundary as forces at nodes, and points of the body as shares of nodes.
+//! Forces and pressures on the boundary, and points of the body as shares of nodes.
 
 use palpate_files::scene::Region;
 use palpate_geometry::{TetrahedronMesh, closest_on_triangle};
 
 use super::super::element::ElementKind;
 use super::super::mesh::ElementMesh;
+use super::super::pressed_faces::PressedFaces;
 use super::error::SolidError;
-use super::mesh::Face;
-use super::problem::{DeadLoad, LoadPlace, Loads};
+use super::mesh::{Face, turned_over};
+use super::problem::{LoadPlace, Loads, SurfaceLoad};
 use crate::Vec3;
 
 /// A line or a point this far off the body is an error [parts of its longest extent]. The corners of a filled surface are
@@ -23,7 +24,7 @@ pub(super) type Place = Vec<(usize, f64)>;
 impl Loads {
     /// Whether there is any, where nothing else moves the body, and all are loads.
     pub(super) fn check(&self, is_moved: bool) -> Result<(), SolidError> {
-        if !is_moved && self.weight.is_none() && self.forces.is_empty() {
+        if !is_moved && self.weight.is_none() && self.on_surface.is_empty() {
             return Err(SolidError::NothingLoads);
         }
         let direction = |name, found: &Vec3| match found.norm() {
@@ -37,12 +38,24 @@ impl Loads {
             direction("the acceleration of gravity", &weight.gravity)?;
             check_densities([weight.density])?;
         }
-        for (load, DeadLoad { place, force }) in self.forces.iter().enumerate() {
-            direction("a force", force)?;
-            if let LoadPlace::Line([from, to]) = place
-                && from == to
-            {
-                return Err(SolidError::NoLine { load });
+        for (load, own) in self.on_surface.iter().enumerate() {
+            match own {
+                SurfaceLoad::Force { place, force } => {
+                    direction("a force", force)?;
+                    if let LoadPlace::Line([from, to]) = place
+                        && from == to
+                    {
+                        return Err(SolidError::NoLine { load });
+                    }
+                }
+                SurfaceLoad::Pressure { pressure, .. } => {
+                    if *pressure == 0.0 || !pressure.is_finite() {
+                        return Err(SolidError::NoPressure {
+                            load,
+                            found: *pressure,
+                        });
+                    }
+                }
             }
         }
         Ok(())
@@ -58,43 +71,95 @@ pub(super) fn check_densities(densities: impl IntoIterator<Item = f64>) -> Resul
     })
 }
 
-/// Forces at nodes [N].
-pub(super) fn of_boundary(
-    loads: &[DeadLoad],
-    mesh: &TetrahedronMesh,
-    faces: &[Face],
-) -> Result<Vec<(usize, Vec3)>, SolidError> {
-    let mut forces = Vec::new();
-    for (load, DeadLoad { place, force }) in loads.iter().enumerate() {
-        match place {
-            LoadPlace::Faces(region) => {
-                let parts = faces.iter().map(|face| part_within(face, mesh, region));
-                let parts: Vec<[f64; 6]> = parts.collect();
-                let whole: f64 = parts.iter().flatten().sum();
-                if whole <= 0.0 {
-                    return Err(SolidError::EmptyLoad { load });
-                }
-                let nodes = faces.iter().zip(&parts).flat_map(|(face, part)| {
-                    let each = face.nodes.iter().copied().zip(*part);
-                    each.filter(|(_, area)| *area != 0.0)
-                });
-                forces.extend(nodes.map(|(node, area)| (node, area / whole * force)));
-            }
-            LoadPlace::Line([from, to]) => {
-                let mut distance: f64 = 0.0;
-                for point in 0..ALONG {
-                    let part = (point as f64 + 0.5) / ALONG as f64;
-                    let place = from + part * (to - from);
-                    let (off, shares) = on_boundary(&place, mesh, faces);
-                    distance = distance.max(off);
-                    let force = force / ALONG as f64;
-                    forces.extend(shares.iter().map(|&(node, share)| (node, share * force)));
-                }
-                if distance > OFF * extent(mesh) {
-                    return Err(SolidError::LineOffSurface { load, distance });
+/// What loads the boundary of a mesh.
+#[derive(Default)]
+pub(super) struct BoundaryLoads {
+    /// Forces at nodes [N].
+    pub(super) forces: Vec<(usize, Vec3)>,
+    /// Pressures towards the inside [Pa].
+    pub(super) pressures: Vec<(PressedFaces, f64)>,
+}
+
+impl BoundaryLoads {
+    pub(super) fn new(
+        loads: &[SurfaceLoad],
+        mesh: &TetrahedronMesh,
+        faces: &[Face],
+    ) -> Result<Self, SolidError> {
+        let mut all = Self::default();
+        for (load, own) in loads.iter().enumerate() {
+            match own {
+                SurfaceLoad::Force { place, force } => match place {
+                    LoadPlace::Faces(region) => {
+                        let (whole, parts) = within(faces, mesh, Some(region), load)?;
+                        all.forces.extend(parts.flat_map(|(face, part)| {
+                            let each = face.nodes.into_iter().zip(part);
+                            let each = each.filter(|(_, area)| *area != 0.0);
+                            each.map(move |(node, area)| (node, area / whole * force))
+                        }));
+                    }
+                    LoadPlace::Line(ends) => {
+                        all.forces.extend(along(ends, force, mesh, faces, load)?);
+                    }
+                },
+                SurfaceLoad::Pressure { region, pressure } => {
+                    let (_, parts) = within(faces, mesh, region.as_ref(), load)?;
+                    let mut pressed = PressedFaces::default();
+                    for (face, part) in parts.filter(|(_, part)| part.iter().any(|a| *a != 0.0)) {
+                        pressed.add(face.seen_from_inside(), turned_over(part), face.area(mesh));
+                    }
+                    all.pressures.push((pressed, *pressure));
                 }
             }
         }
+        Ok(all)
+    }
+}
+
+/// The parts of `faces` in a `region`, or all of them, of the load of this number: their area [m²], and the integrals over
+/// each.
+fn within<'a>(
+    faces: &'a [Face],
+    mesh: &TetrahedronMesh,
+    region: Option<&Region>,
+    load: usize,
+) -> Result<(f64, impl Iterator<Item = (&'a Face, [f64; 6])>), SolidError> {
+    let part = |face: &Face| match region {
+        Some(region) => part_within(face, mesh, region),
+        None => {
+            // The shape functions of corners integrate to nothing.
+            let third = face.area(mesh) / 3.0;
+            [0.0, 0.0, 0.0, third, third, third]
+        }
+    };
+    let parts: Vec<[f64; 6]> = faces.iter().map(part).collect();
+    let whole: f64 = parts.iter().flatten().sum();
+    if whole <= 0.0 {
+        return Err(SolidError::EmptyLoad { load });
+    }
+    Ok((whole, faces.iter().zip(parts)))
+}
+
+/// The `force` of the load of this number, evenly along a line, at nodes [N].
+fn along(
+    [from, to]: &[Vec3; 2],
+    force: &Vec3,
+    mesh: &TetrahedronMesh,
+    faces: &[Face],
+    load: usize,
+) -> Result<Vec<(usize, Vec3)>, SolidError> {
+    let mut forces = Vec::new();
+    let mut distance: f64 = 0.0;
+    for point in 0..ALONG {
+        let part = (point as f64 + 0.5) / ALONG as f64;
+        let place = from + part * (to - from);
+        let (off, shares) = on_boundary(&place, mesh, faces);
+        distance = distance.max(off);
+        let force = force / ALONG as f64;
+        forces.extend(shares.iter().map(|&(node, share)| (node, share * force)));
+    }
+    if distance > OFF * extent(mesh) {
+        return Err(SolidError::LineOffSurface { load, distance });
     }
     Ok(forces)
 }
@@ -164,14 +229,13 @@ const DIVISIONS: u32 = 6;
 /// carries. The force so does not jump with the triangles, and may act on less than one.
 fn part_within(face: &Face, mesh: &TetrahedronMesh, region: &Region) -> [f64; 6] {
     let corners = face.positions(mesh);
-    let [a, b, c] = corners;
     let mut part = Part {
         region,
         corners,
         integrals: [0.0; 6],
     };
     let whole = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    part.add(whole, 0.5 * (b - a).cross(&(c - a)).norm(), DIVISIONS);
+    part.add(whole, face.area(mesh), DIVISIONS);
     part.integrals
 }
 

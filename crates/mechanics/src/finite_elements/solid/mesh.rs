@@ -69,11 +69,27 @@ pub(crate) fn faces(mesh: &TetrahedronMesh) -> Vec<Face> {
 }
 
 impl Face {
+    /// Its nodes, counter-clockwise seen from inside.
+    pub(super) fn seen_from_inside(&self) -> [u32; 6] {
+        turned_over(self.nodes.map(|node| node as u32))
+    }
+
     pub(super) fn positions(&self, mesh: &TetrahedronMesh) -> [Vec3; 3] {
         self.corners.map(|node| mesh.vertices()[node.index()])
+    }
+
+    /// Its area at rest [m²].
+    pub(super) fn area(&self, mesh: &TetrahedronMesh) -> f64 {
+        let [a, b, c] = self.positions(mesh);
+        0.5 * (b - a).cross(&(c - a)).norm()
     }
 
     pub(super) fn centroid(&self, mesh: &TetrahedronMesh) -> Vec3 {
         self.positions(mesh).iter().sum::<Vec3>() / 3.0
     }
+}
+
+/// What the six nodes of a face have, in the order in which they are seen from the other side.
+pub(super) fn turned_over<T>([a, b, c, ab, bc, ca]: [T; 6]) -> [T; 6] {
+    [a, c, b, ca, bc, ab]
 }

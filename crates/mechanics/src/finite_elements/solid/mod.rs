@@ -6,8 +6,8 @@
 //! the one along the displacement. With K the tangent and r the residual,
 //!   K Δu = −r, u given where the body is held or moved,
 //! once at small strain, and in steps at finite strain; the force is Σ r over the nodes of the patch. Weight and forces on
-//! the boundary are dead loads: they keep their direction while the body turns, and grow with the displacement of the
-//! patch.
+//! the boundary are dead loads: they keep their direction while the body turns. A pressure stays normal to the boundary.
+//! All grow with the displacement of the patch.
 //!
 //! Regions have laws of their own. Tetrahedra are cut at their borders, and pressures jump there. Where a region is a
 //! cavity its tetrahedra are taken out, and its wall bears a pressure or that of a fluid of constant volume.
@@ -39,7 +39,7 @@ pub(crate) use mesh::{Face, faces};
 pub use answer::{CavityAnswer, SolidAnswer, SolidFields};
 pub use error::SolidError;
 pub use problem::{
-    Body, DeadLoad, LoadPlace, Loads, MovedPatch, RegionContent, SolidPlace, SolidProblem,
-    SolidRegion, Weight,
+    Body, LoadPlace, Loads, MovedPatch, RegionContent, SolidPlace, SolidProblem, SolidRegion,
+    SurfaceLoad, Weight,
 };
 pub use run::{solve, solve_at};

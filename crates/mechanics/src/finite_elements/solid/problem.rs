@@ -31,13 +31,13 @@ pub struct MovedPatch {
     pub friction: Friction,
 }
 
-/// Loads that do not turn with the body.
+/// What loads a body.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Loads {
     /// Its weight, if it has one.
     pub weight: Option<Weight>,
-    /// Forces on its boundary.
-    pub forces: Vec<DeadLoad>,
+    /// Forces and pressures on its boundary.
+    pub on_surface: Vec<SurfaceLoad>,
 }
 
 /// What makes a body weigh.
@@ -81,13 +81,23 @@ pub enum SolidPlace {
     Cells(u32),
 }
 
-/// A force on a part of the boundary whose direction is constant.
+/// A load on a part of the boundary.
 #[derive(Debug, Clone, PartialEq)]
-pub struct DeadLoad {
-    /// The part.
-    pub place: LoadPlace,
-    /// The whole force [N].
-    pub force: Vec3,
+pub enum SurfaceLoad {
+    /// A force whose direction is constant.
+    Force {
+        /// The part.
+        place: LoadPlace,
+        /// The whole force [N].
+        force: Vec3,
+    },
+    /// A pressure that stays normal to the boundary.
+    Pressure {
+        /// The part, at rest; none is all of the outer boundary.
+        region: Option<Region>,
+        /// Towards the inside [Pa]; a suction is negative.
+        pressure: f64,
+    },
 }
 
 /// Where a force acts.

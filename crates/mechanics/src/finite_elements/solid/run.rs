@@ -8,7 +8,7 @@ use super::answer::SolidAnswer;
 use super::cavities::SolidMesh;
 use super::frame::{Conditions, Frame};
 use super::grading::MeshContext;
-use super::loads;
+use super::loads::{self, BoundaryLoads};
 use super::mesh::faces;
 use super::problem::{Body, RegionContent, SolidProblem, SolidRegion};
 use super::solve::equilibrium;
@@ -117,7 +117,7 @@ impl SolidProblem {
             });
         }
         let held = Held::new(self, tetrahedra, &solid.outer, context.center())?;
-        let forces = loads::of_boundary(&self.loads.forces, tetrahedra, &solid.outer)?;
+        let on_surface = BoundaryLoads::new(&self.loads.on_surface, tetrahedra, &solid.outer)?;
         let places = loads::places(&self.points, tetrahedra, &faces(tetrahedra))?;
         let frame = Frame::new(self.patch.as_ref());
         let elements = frame.put(ElementMesh::from_tetrahedra(tetrahedra));
@@ -165,7 +165,7 @@ impl SolidProblem {
             }
             None => vec![0.0; model.size()],
         };
-        for (node, force) in forces {
+        for (node, force) in on_surface.forces {
             for (axis, force) in frame.forth(&force).iter().enumerate() {
                 load[3 * node + axis] += force;
             }
@@ -175,6 +175,7 @@ impl SolidProblem {
             held: &held,
             load: &load,
             pressures: &solid.pressures().collect::<Vec<_>>(),
+            pressed: &on_surface.pressures,
             growths: &growths,
         };
         let state = equilibrium(&model, &conditions, &mut workspace, &mut |part| {
@@ -262,6 +263,7 @@ fn growths(
         held,
         load: &vec![0.0; model.size()],
         pressures: fluids,
+        pressed: &[],
         growths: &[],
     };
     let mut workspace = FiniteElementWorkspace::new(model)?;

@@ -46,8 +46,9 @@ The keys of each kind:
   uniaxial     stretches
   solid        mesh (a surface or tetrahedra) and mesh_unit, or builtin and triangles; anchor as in
                a scene; patch = { center_m, radius_m, displacement_m, contact = \"stick\" | \"slip\" },
-               gravity_m_per_s2, or [[load]] with force_n and a place: box_m, center_m and radius_m,
-               region = { planes, boxes, spheres } or line = { from_m, to_m }; points_m, whose
+               gravity_m_per_s2, or [[load]] with force_n or pressure_pa and a place: box_m, center_m
+               and radius_m, region = { planes, boxes, spheres } or line = { from_m, to_m }; points_m,
+               whose
                displacement_m is asked for; [[point]] with name, at_m, and perhaps along and
                measured_m, to which fit_stiffness = true fits the tissue; [[region]] with name,
                tissue and a shape: layer, ball, ellipsoid, capsule, surface or label

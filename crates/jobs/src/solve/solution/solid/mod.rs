@@ -64,7 +64,7 @@ pub(crate) fn solution(
                 gravity,
                 density: problem.tissue.density_kg_m3.value,
             }),
-            forces: case.loads.iter().map(|load| load.load.clone()).collect(),
+            on_surface: case.loads.iter().map(|load| load.load.clone()).collect(),
         },
         points: places,
     };

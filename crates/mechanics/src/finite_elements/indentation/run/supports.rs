@@ -16,6 +16,7 @@ impl IndentationRun {
             held: self.rest.clone(),
             sliding: Vec::new(),
             pressures: Vec::new(),
+            pressed: Vec::new(),
             growths: Vec::new(),
             dead_load: None,
             relaxing,
