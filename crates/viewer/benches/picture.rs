@@ -86,7 +86,12 @@ fn picture(c: &mut Criterion) {
         };
         group.bench_function(name, |b| {
             b.iter(|| {
-                renderer.draw(&gpu, &view, (&[&body], &[tool.clone()]), &target);
+                renderer.draw(
+                    &gpu,
+                    &view,
+                    (&[&body], std::slice::from_ref(&tool)),
+                    &target,
+                );
                 gpu.wait().unwrap();
             });
         });

@@ -168,8 +168,8 @@ impl Neighbour {
                 )?;
             }
         }
-        let (layers, inclusions) = parts(keys, folder)?;
         let tissue = SoftNeighbour::of_tissue(keys, folder)?;
+        let (layers, inclusions) = parts(keys, folder, &tissue.tissue)?;
         Ok(Self {
             shape: Shape::from_keys(keys, folder)?,
             location: Location::from_keys(keys)?,

@@ -145,7 +145,8 @@ impl Organ {
             table.map(|keys| Region::from_keys(&keys)).transpose()
         };
         let nodules = keys.tables("nodule")?;
-        let (layers, inclusions) = parts(keys, folder)?;
+        let tissue = TissueChoice::from_keys(keys, folder)?;
+        let (layers, inclusions) = parts(keys, folder, &tissue)?;
         Ok(Self {
             self_contact: keys.truth("self_contact")?.unwrap_or(false),
             self_friction: keys.number("self_friction")?.unwrap_or(0.0),
@@ -154,7 +155,7 @@ impl Organ {
                 .map(Nodule::from_keys)
                 .collect::<Result<_, _>>()?,
             shape: Shape::from_keys(keys, folder)?,
-            tissue: TissueChoice::from_keys(keys, folder)?,
+            tissue,
             anchor: region("anchor")?,
             touchable: region("touchable")?,
             layers,
@@ -163,13 +164,17 @@ impl Organ {
     }
 }
 
-/// The layers and the inclusions of an organ.
-pub(super) fn parts(keys: &Keys<'_>, folder: &Path) -> Result<(Vec<Layer>, Vec<Inclusion>), Error> {
+/// The layers and the inclusions of an organ of tissue `around`.
+pub(super) fn parts(
+    keys: &Keys<'_>,
+    folder: &Path,
+    around: &TissueChoice,
+) -> Result<(Vec<Layer>, Vec<Inclusion>), Error> {
     let layers = keys.tables("layer")?;
     let mut layers: Vec<Layer> = layers
         .iter()
         .enumerate()
-        .map(|(number, keys)| Layer::from_keys(keys, number, folder))
+        .map(|(number, keys)| Layer::from_keys(keys, number, (folder, around)))
         .collect::<Result<_, _>>()?;
     let inclusions = keys.tables("inclusion")?;
     let mut inclusions: Vec<Inclusion> = inclusions
@@ -250,7 +255,7 @@ impl Layer {
         Key::text("name", "What people call it.").optional("\"circular muscle\"", "its number"),
         Key::number("thickness_m", Domain::LENGTH, "Its thickness.").required("0.0008"),
         TissueChoice::KEYS[0],
-        TissueChoice::KEYS[1],
+        TissueChoice::KEYS[1].optional("\"pig-liver\"", "that of the organ"),
         Key::number(
             "perforation_force_n",
             Domain::FORCE,
@@ -265,12 +270,21 @@ impl Layer {
         .optional("164.0", "that of `[cutting]`"),
     ];
 
-    fn from_keys(keys: &Keys<'_>, number: usize, folder: &Path) -> Result<Self, Error> {
+    /// Of an organ of tissue `around`, which a layer without a tissue of its own has too.
+    fn from_keys(
+        keys: &Keys<'_>,
+        number: usize,
+        (folder, around): (&Path, &TissueChoice),
+    ) -> Result<Self, Error> {
         let name = keys.text("name")?;
+        let has_own = keys.contains("tissue") || keys.contains("builtin_tissue");
         Ok(Self {
             name: name.unwrap_or_else(|| format!("layer {}", number + 1)),
             thickness_m: keys.required_number("thickness_m")?,
-            tissue: TissueChoice::from_keys(keys, folder)?,
+            tissue: match has_own {
+                true => TissueChoice::from_keys(keys, folder)?,
+                false => around.clone(),
+            },
             perforation_force_n: keys.number("perforation_force_n")?,
             toughness_j_per_m2: keys.number("toughness_j_per_m2")?,
         })

@@ -46,6 +46,10 @@ class Deeds:
     mark: Truths
 
 
+#: In place of the nonlinear model of a task's scene, which takes some milliseconds a step.
+LINEAR = MappingProxyType({"kind": "hybrid", "mechanical_triangles": 2500})
+
+
 class Task:
     """What all tasks have in common."""
 
@@ -157,8 +161,7 @@ class Traction(Task):
 
     word = "traction"
     builtin = "traction"
-    #: The scene's own bends, in some milliseconds a step.
-    model = MappingProxyType({"kind": "hybrid", "mechanical_triangles": 2500})
+    model = LINEAR
     goal_size = 1
     #: Of the force [-], and of the place [m].
     SPREAD = 0.25
@@ -204,6 +207,7 @@ class Cutting(Task):
 
     word = "cut"
     builtin = "myotomy"
+    model = LINEAR
     goal_size = 6
     #: Along the line and aside [m].
     ALONG = 0.004
