@@ -9,7 +9,13 @@ use palpate_geometry::{
 
 use crate::shapes::Random;
 
-const KINDS: [&str; 3] = ["bits.dcm", "parts.dcm", "labels.dcm"];
+const KINDS: [&str; 5] = [
+    "bits.dcm",
+    "parts.dcm",
+    "labels.dcm",
+    "parts-rle.dcm",
+    "labels-rle.dcm",
+];
 
 fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -52,12 +58,12 @@ fn balls_are_where_they_were_drawn() {
     for kind in KINDS {
         let map = map(kind);
         let labels = map.labels();
-        // Empty frames were left out, but of `parts.dcm`.
+        // Empty frames were left out, but of parts.
         let is_at_end = map
             .warnings()
             .iter()
             .any(|own| own.contains("empty frames"));
-        assert_eq!(is_at_end, kind != "parts.dcm", "{kind}");
+        assert_eq!(is_at_end, !kind.starts_with("parts"), "{kind}");
         let told: Vec<_> = labels
             .iter()
             .map(|label| (label.number, label.name.as_deref(), label.voxels))
@@ -96,7 +102,7 @@ fn a_folder_tells_its_series_and_is_its_only_segmentation() {
     assert_eq!(found.series, [series]);
     assert_eq!((found.segmentations.len(), found.others), (1, 1));
     assert_eq!(read_label_map(one.path()).unwrap(), map("bits.dcm"));
-    for (names, count) in [(&KINDS[..], "3"), (&["image.dcm"], "0")] {
+    for (names, count) in [(&KINDS[..], "5"), (&["image.dcm"], "0")] {
         let error = read_label_map(folder(names).path()).unwrap_err();
         assert!(matches!(error.fault, ReadFault::NotOneSegmentation { .. }));
         assert!(error.to_string().contains(count) && error.is_input());
@@ -118,7 +124,8 @@ fn damaged_segmentations_never_panic() {
     let mut refused = 0;
     for kind in KINDS {
         let whole = std::fs::read(file(kind)).unwrap();
-        for round in 0..200 {
+        // The reader of DICOM clears gigabytes where a length is damaged.
+        for round in 0..70 {
             let mut bytes = whole.clone();
             if round % 2 == 0 {
                 bytes.truncate(random.below(bytes.len()));
@@ -136,5 +143,5 @@ fn damaged_segmentations_never_panic() {
         }
     }
     // Cut files at least.
-    assert!(refused > 290, "{refused}");
+    assert!(refused > 170, "{refused}");
 }

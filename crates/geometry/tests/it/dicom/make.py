@@ -1,7 +1,8 @@
 """Writes the DICOM files next to it: needs highdicom 0.28 and pydicom 3.
 
 Two balls of known place and radius in an oblique series of ten images of 24 x 20 pixels, as a segmentation with a bit for
-each pixel, with a part of 255 for each, and as a map of labels; and one of the images, with a name and a date in it.
+each pixel, with a part of 255 for each, and as a map of labels, the last two also compressed; and one of the images,
+with a name and a date in it.
 """
 
 from pathlib import Path
@@ -10,7 +11,7 @@ import highdicom as hd
 import numpy as np
 from pydicom.dataset import Dataset, FileMetaDataset
 from pydicom.sr.codedict import codes
-from pydicom.uid import CTImageStorage, ExplicitVRLittleEndian
+from pydicom.uid import CTImageStorage, ExplicitVRLittleEndian, RLELossless
 
 HERE = Path(__file__).parent
 # Millimetres in the patient: left, back, head.
@@ -95,6 +96,7 @@ def main() -> None:
         "parts": (hd.seg.SegmentationTypeValues.FRACTIONAL, np.where(parts > 0, 0.6, 0.4)),
         "labels": (hd.seg.SegmentationTypeValues.LABELMAP, labels),
     }
+    kinds |= {f"{name}-rle": kinds[name] for name in ("parts", "labels")}
     for number, (name, (kind, pixels)) in enumerate(kinds.items()):
         made = hd.seg.Segmentation(
             source_images=images,
@@ -111,7 +113,8 @@ def main() -> None:
             device_serial_number="1",
             max_fractional_value=255,
             # Frames without a pixel of a segment are left out.
-            omit_empty_frames=name != "parts",
+            omit_empty_frames=not name.startswith("parts"),
+            transfer_syntax_uid=RLELossless if name.endswith("-rle") else ExplicitVRLittleEndian,
         )
         made.save_as(HERE / f"{name}.dcm", enforce_file_format=True)
     images[3].save_as(HERE / "image.dcm", enforce_file_format=True)

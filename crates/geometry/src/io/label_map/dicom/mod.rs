@@ -3,11 +3,12 @@
 //!
 //! *How we know*: `dicom::…`, on files that another library wrote.
 //!
-//! *Limits*: uncompressed pixels; frames that lie on one lattice. Images are listed, not read: a segmentation has a
+//! *Limits*: pixels that are uncompressed or compressed by run lengths; frames that lie on one lattice. Images are listed, not read: a segmentation has a
 //! geometry of its own.
 
 mod folder;
 mod frames;
+mod pixel_data;
 mod segmentation;
 
 use std::io::Cursor;

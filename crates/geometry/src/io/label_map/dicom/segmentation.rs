@@ -3,8 +3,9 @@ use std::collections::BTreeMap;
 use dicom_dictionary_std::tags;
 use dicom_object::{FileDicomObject, InMemDicomObject};
 
+use super::Values;
 use super::frames::Lattice;
-use super::{Values, invalid};
+use super::pixel_data::PixelData;
 use crate::io::label_map::placed;
 use crate::io::label_map::voxels::size;
 use crate::{LabelMap, ReadFault};
@@ -73,14 +74,7 @@ pub(super) fn label_map(object: &FileDicomObject<InMemDicomObject>) -> Result<La
             modality: modality.take(16).collect(),
         });
     }
-    let syntax = object.meta().transfer_syntax.trim_end_matches('\0');
-    // Implicit and explicit little endian, and explicit big endian, in which bytes are the same.
-    if !["1.2.840.10008.1.2", "1.2.840.10008.1.2.1"].contains(&syntax) {
-        return Err(ReadFault::UnreadEncoding {
-            what: "a segmentation with compressed or big-endian pixels",
-            remedy: "save it uncompressed, with `gdcmconv --raw` for instance",
-        });
-    }
+    let stored = PixelData::of(object)?;
     let pixels = Pixels::of(&values)?;
     let lattice = Lattice::of(&values)?;
     let side = |tag| values.number(tag).unwrap_or(0);
@@ -89,22 +83,19 @@ pub(super) fn label_map(object: &FileDicomObject<InMemDicomObject>) -> Result<La
     let size = size([columns, rows, lattice.count as i64 + 2])?;
     let area = size[0] * size[1];
     let frames = lattice.slices.len();
-    let data = object.get(tags::PIXEL_DATA).ok_or(ReadFault::Truncated {
-        what: "a segmentation",
-        expected: 1,
-        found: 0,
-    })?;
-    let data = data.to_bytes().map_err(invalid)?;
-    let expected = area
-        .checked_mul(frames)
-        .map(|pixels_all| pixels.bytes(pixels_all));
-    if expected.is_none_or(|expected| data.len() < expected) {
-        return Err(ReadFault::Truncated {
-            what: "the frames",
-            expected: expected.map_or(u64::MAX, |expected| expected as u64),
-            found: data.len() as u64,
-        });
-    }
+    let data = match (&stored, pixels) {
+        // Each frame of compressed bits would begin a byte of its own.
+        (PixelData::RunLengths(_), Pixels::Bits) => {
+            return Err(ReadFault::UnreadEncoding {
+                what: "a segmentation of compressed bits",
+                remedy: "save it uncompressed, with `gdcmconv --raw` for instance",
+            });
+        }
+        (PixelData::Native(_), Pixels::Bits) => {
+            stored.frames(1, pixels.bytes(area.saturating_mul(frames)), 1)?
+        }
+        _ => stored.frames(frames, pixels.bytes(area), pixels.bytes(1))?,
+    };
     let own_labels = frame_labels(&values, pixels, frames)?;
     let mut labels = vec![0; area * size[2]];
     let mut shared = 0_usize;
