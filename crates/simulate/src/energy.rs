@@ -144,11 +144,7 @@ impl ToolState {
         if !self.touches() || self.contact.is_some_and(|contact| !contact.is_pressed) {
             return None;
         }
-        // Of held tissue the stiffness is in the scene's frame.
-        let force = match &self.contact {
-            Some(contact) => contact.frame().tr_mul(&self.force_of_organ()),
-            None => self.force_of_organ(),
-        };
+        let force = self.force_of_organ();
         let hold = self.grip.hold.as_ref();
         let yields = self.stiffness.try_inverse().map(|inverse| inverse * force);
         Some(Pressed {
@@ -158,7 +154,7 @@ impl ToolState {
             point: hold
                 .map(Hold::place)
                 .or(self.contact.map(|contact| contact.point()))?,
-            force: self.force_of_organ(),
+            force,
             stored: yields.map_or(0.0, |by| (0.5 * force.dot(&by)).max(0.0)),
         })
     }

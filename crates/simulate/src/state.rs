@@ -83,8 +83,8 @@ pub struct ToolState {
     pub force: Vec3,
     /// Torque on a free tool about its tip [N m], of tissue that bears on its shaft; what the tip touches makes none.
     pub torque: Vec3,
-    /// Stiffness of the contact in its frame, of held tissue in the scene's [N/m]; zero without either, and where a thin wall
-    /// wraps around the tip.
+    /// Stiffness of the contact or of held tissue, in the scene's frame [N/m]; zero without either, and where a thin wall wraps
+    /// around the tip.
     pub stiffness: nalgebra::Matrix3<f64>,
     /// With how much each of its jaws presses on the tissue that it holds [N]; zero without.
     pub grip_force: f64,

@@ -354,8 +354,9 @@ fn answer(tool: &Tool, state: &mut ToolState) {
     let displacement = contact.displacement(tool, &Vec3::from(pose.position_m));
     let law = tool.law.beside(contact.place.mean_curvature());
     let answer = law.force(&displacement, &response.stiffness);
-    state.elastic = contact.frame() * answer.force;
-    state.stiffness = answer.stiffness;
+    let frame = contact.frame();
+    state.elastic = frame * answer.force;
+    state.stiffness = frame * answer.stiffness * frame.transpose();
     state.limited = response.limits;
     state.limited.merge(&answer.limits);
     if !answer.force.iter().all(|component| component.is_finite()) {

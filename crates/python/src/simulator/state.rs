@@ -111,8 +111,8 @@ impl State {
         numbers::rows(py, self.tools.iter().map(|tool| &tool.torque))
     }
 
-    /// Stiffnesses of the contacts in their frames (tangents, normal), of held tissue in the scene's [N/m]; zero
-    /// without either: shape (tools, 3, 3).
+    /// Stiffnesses of the contacts or of held tissue, in the scene's frame [N/m]; zero without either: shape
+    /// (tools, 3, 3).
     #[getter]
     fn stiffnesses<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray3<f64>> {
         let flat = |tool: &Tool| tool.stiffness.transpose().as_slice().to_vec();

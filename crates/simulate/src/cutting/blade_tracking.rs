@@ -88,7 +88,11 @@ fn reach(resistance: f64, tool: &Tool, state: &ToolState) -> f64 {
     if tool.kind == ToolKind::Scissors {
         return 0.0;
     }
-    let stiffness = 0.5 * (state.stiffness[(0, 0)] + state.stiffness[(1, 1)]);
+    let Some(contact) = &state.contact else {
+        return 0.0;
+    };
+    let normal = contact.normal();
+    let stiffness = 0.5 * (state.stiffness.trace() - normal.dot(&(state.stiffness * normal)));
     if stiffness > 0.0 {
         resistance / stiffness
     } else {

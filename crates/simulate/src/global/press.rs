@@ -220,7 +220,7 @@ impl GlobalModel {
         // A tip that slips is carried along by the organ.
         state.displaced = frame * (own - compliance * answer.force) + carried;
         state.elastic = frame * answer.force;
-        state.stiffness = answer.stiffness;
+        state.stiffness = frame * answer.stiffness * frame.transpose();
         state.limited = answer.limits;
         if let Some(reached) = bounded {
             state.limited.add(Limit::Carried, reached);

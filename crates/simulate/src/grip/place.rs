@@ -85,7 +85,7 @@ pub(crate) fn answer(
     true
 }
 
-/// Of a held place, in the scene [N/m].
+/// Of a held place, in the scene's frame [N/m].
 fn stiffness(
     simulation: &Simulation,
     tool: &Tool,

@@ -46,21 +46,18 @@ fn of_organ(tool: &Tool, state: &ToolState, time: f64) -> AffineForce {
     let (Some(contact), Some(pose)) = (&state.contact, &state.pose) else {
         return AffineForce::none(time);
     };
-    let frame = contact.frame();
-    let mut stiffness = state.stiffness;
-    if tool.bond == Friction::Frictionless || contact.slides {
+    let normal = contact.normal();
+    let gradient = match tool.bond == Friction::Frictionless || contact.slides {
         // Along the surface nothing holds the tip.
-        let normal = stiffness[(2, 2)];
-        stiffness.fill(0.0);
-        stiffness[(2, 2)] = normal;
-    }
-    let gradient = -(frame * stiffness * frame.transpose());
+        true => -normal.dot(&(state.stiffness * normal)) * normal * normal.transpose(),
+        false => -state.stiffness,
+    };
     let finite = gradient.iter().chain(state.with_pull.iter());
     if !finite.into_iter().all(|component| component.is_finite()) {
         return AffineForce::none(time);
     }
     AffineForce {
-        normal: contact.normal(),
+        normal,
         ..AffineForce::new(time, Vec3::from(pose.position_m), state.with_pull, gradient)
     }
 }

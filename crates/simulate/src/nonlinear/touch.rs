@@ -349,7 +349,7 @@ impl NonlinearOrgan {
         let law = self.composition.pieces[body.on[number]].tip_law((number, tool));
         let law = law.beside(place.mean_curvature());
         let answer = law.force_in_series(&moved, &further);
-        own.stiffness = answer.stiffness;
+        own.stiffness = frame * answer.stiffness * frame.transpose();
         own.limited = answer.limits;
         let goal = -(frame * answer.force);
         let (follows, history) = body.histories[number].foresee(series, elapsed);

@@ -1,6 +1,6 @@
 //! Layers: each is opened by itself, by a blade's depth and by force, and is named by event, summary and score.
 
-use palpate_files::scene::{CutLine, Goal};
+use palpate_files::scene::{CutLine, Goal, ModelKind};
 use palpate_files::session::{Event, Events};
 use palpate_files::{Motion, Pose, Scene};
 use palpate_geometry::Vec3;
@@ -262,12 +262,11 @@ fn a_deepened_cut_yields_as_one_that_was_made_at_once() {
 /// 0.5 mm shallower leaves circular muscle, and the score says so. Judge: the scene's words.
 #[test]
 fn the_myotomy_is_two_strokes_and_a_third_layer_is_a_perforation() {
-    let text =
-        include_str!("../../../../assets/tasks/myotomy.toml").replace("\"hybrid\"", "\"local\"");
-    let text = text.replace("mechanical_triangles = 2500\n", "");
+    let text = include_str!("../../../../assets/tasks/myotomy.toml");
     let text = text.replace("triangles = 14000", "triangles = 6000");
     let drawn = Scene::parse(&text, "myotomy.toml").unwrap();
     let mut scene = draw_variant(&drawn, 0).unwrap();
+    scene.model.kind = ModelKind::Local;
     // The line that the motion follows.
     scene.task.goal = Goal::Cut {
         line: CutLine::straight([0.001, -0.0075, 0.014], [0.001, -0.0075, -0.011]),
