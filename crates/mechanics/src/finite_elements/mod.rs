@@ -43,7 +43,6 @@ pub use mismatch::Mismatch;
 pub use model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation};
 pub use newton::{Equilibrium, Failure};
 pub use path::{Path, PathPoint};
-pub use pressed_faces::PressedFaces;
 pub use punched::{PunchedLines, PunchedMesh};
 pub use relaxation::{RelaxationHistory, RelaxationStep};
 pub use supports::{RigidSurface, Sliding, Supports};

@@ -16,7 +16,7 @@ use crate::Vec3;
 
 /// Faces of a solid of quadratic tetrahedra that a pressure acts on.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct PressedFaces {
+pub(super) struct PressedFaces {
     faces: Vec<PressedFace>,
 }
 

@@ -19,7 +19,7 @@ pub struct Supports<'a> {
     /// Pressures on the walls of cavities that follow them [Pa].
     pub pressures: Vec<(&'a Cavity, f64)>,
     /// Pressures on parts of a solid's boundary that follow them [Pa].
-    pub pressed: Vec<(&'a PressedFaces, f64)>,
+    pub(super) pressed: Vec<(&'a PressedFaces, f64)>,
     /// By how much fluids have made their cavities larger [m³], in the order of the cavities; zero of those beyond.
     pub growths: Vec<f64>,
     /// Forces at the unknowns that do not turn with the body [N], of

@@ -102,7 +102,7 @@ impl Globals {
         let mut marks = [[0.0; 4]; TOOLS];
         for ((capsule, mark), tool) in capsules.iter_mut().zip(&mut marks).zip(tools) {
             let (start, end) = tool.capsule();
-            *capsule = [vector(&start, tool.shape.shaft as f32), vector(&end, 1.0)];
+            *capsule = [vector(&start, tool.shape.shaft as f32), vector(&end, 0.0)];
             if let Some((point, radius)) = tool.mark {
                 *mark = vector(&point, radius as f32);
             }

@@ -120,7 +120,9 @@ def scene_with(scene: palpate.Scene, drawn: Mapping[str, float]) -> palpate.Scen
     organ = content["organ"]
     stiffness, time = drawn.get("tissue.stiffness", 1.0), drawn.get("tissue.relaxation_time", 1.0)
     if stiffness != 1.0 or time != 1.0:
-        for part in (organ, *organ.get("layer", []), *organ.get("inclusion", [])):
+        # A layer without a tissue has that of the organ.
+        layers = [own for own in organ.get("layer", []) if "tissue" in own or "builtin_tissue" in own]
+        for part in (organ, *layers, *organ.get("inclusion", [])):
             _soften(part, stiffness, time)
     if "anchor.size" in drawn:
         if "anchor" not in organ:

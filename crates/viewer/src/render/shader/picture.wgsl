@@ -3,7 +3,7 @@
 struct Capsule {
     // From xyz [m], with the radius [m] in w.
     start: vec4f,
-    // To xyz [m]; w is 1 when there is a tool.
+    // To xyz [m].
     end: vec4f,
 };
 
