@@ -35,33 +35,39 @@ impl History {
 
     /// Force [mN] against seconds before now: of each stretch of time the largest, so that no peak is lost.
     pub(crate) fn force(&self) -> Vec<[f64; 2]> {
-        self.curve(1, 1e3)
+        self.curve(|stretch| largest(stretch, 1))
+    }
+
+    /// The same of a sensor, whose noise has peaks of its own: of each stretch of time the mean.
+    pub(crate) fn mean_force(&self) -> Vec<[f64; 2]> {
+        self.curve(|stretch| {
+            stretch.iter().map(|sample| sample[1]).sum::<f64>() / stretch.len() as f64
+        })
     }
 
     /// Depth [mm] against seconds before now.
     pub(crate) fn depth(&self) -> Vec<[f64; 2]> {
-        self.curve(2, 1e3)
+        self.curve(|stretch| largest(stretch, 2))
     }
 
-    fn curve(&self, column: usize, unit: f64) -> Vec<[f64; 2]> {
-        let Some(now) = self.samples.back().map(|s| s[0]) else {
+    /// A value of each stretch of samples, in thousandths of its unit.
+    fn curve(&self, value: impl Fn(&[&[f64; 3]]) -> f64) -> Vec<[f64; 2]> {
+        let Some(now) = self.samples.back().map(|sample| sample[0]) else {
             return Vec::new();
         };
-        let stretch = SPAN / POINTS as f64;
-        let mut points: Vec<[f64; 2]> = Vec::with_capacity(POINTS + 1);
+        let length = SPAN / POINTS as f64;
         // Stretches are counted from time zero, so that peaks stay where they are as time goes on.
-        let mut last = None;
-        for sample in &self.samples {
-            let number = (sample[0] / stretch).floor();
-            let value = unit * sample[column];
-            match points.last_mut() {
-                Some(point) if last == Some(number) => point[1] = point[1].max(value),
-                _ => points.push([number * stretch - now, value]),
-            }
-            last = Some(number);
-        }
-        points
+        let number = |sample: &[f64; 3]| (sample[0] / length).floor();
+        let samples: Vec<&[f64; 3]> = self.samples.iter().collect();
+        let stretches = samples.chunk_by(|one, other| number(one) == number(other));
+        let point = |own: &[&[f64; 3]]| [number(own[0]) * length - now, 1e3 * value(own)];
+        stretches.map(point).collect()
     }
+}
+
+fn largest(stretch: &[&[f64; 3]], column: usize) -> f64 {
+    let values = stretch.iter().map(|sample| sample[column]);
+    values.fold(f64::NEG_INFINITY, f64::max)
 }
 
 #[cfg(test)]
@@ -80,5 +86,9 @@ mod tests {
         assert!(force.len() <= POINTS + 2);
         let peak = force.iter().fold(0.0_f64, |a, p| a.max(p[1]));
         assert_eq!(peak, 500.0);
+        // Four steps are a stretch.
+        let mean = history.mean_force();
+        let peak = mean.iter().fold(0.0_f64, |a, p| a.max(p[1]));
+        assert!((peak - 200.0).abs() < 1e-9, "{peak}");
     }
 }

@@ -62,7 +62,7 @@ fn felt(window: &RigWindow) -> [Drawn<'_>; 2] {
         None => "way down [mm]",
     };
     [
-        time("force [mN]", "force now", history.force(), FORCE),
+        time("force [mN]", "force now", history.mean_force(), FORCE),
         time(name, "depth now", depth, DEPTH),
     ]
 }
