@@ -176,8 +176,16 @@ impl Work {
     fn play(&self, scene: Scene) -> Result<Prepared, Error> {
         Prepared::of(scene, &self.resources, &self.gpu, &mut |progress| {
             let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
-            let first = told.map_or_else(|| (Instant::now(), progress.part), |told| told.first);
-            *told = Some(Told { progress, first });
+            *told = Some(match *told {
+                // The local model came first, and the whole organ begins anew.
+                Some(before) if progress.part >= before.progress.part => {
+                    Told { progress, ..before }
+                }
+                _ => Told {
+                    progress,
+                    first: (Instant::now(), progress.part),
+                },
+            });
             match self.given_up.load(Ordering::Relaxed) {
                 true => ControlFlow::Break(()),
                 false => ControlFlow::Continue(()),

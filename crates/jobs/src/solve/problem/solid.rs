@@ -273,17 +273,15 @@ impl Load {
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         let pressure = keys.number("pressure_pa")?;
         let force = keys.vector("force_n")?.map(Vec3::from);
-        let size = if pressure.is_some() {
-            "pressure_pa"
-        } else {
-            "force_n"
-        };
-        let is_zero = pressure == Some(0.0) || force == Some(Vec3::zeros());
-        if is_zero {
-            return Err(keys.bad(size, "one that is not zero"));
+        if force == Some(Vec3::zeros()) {
+            return Err(keys.bad("force_n", "a force that is not zero"));
+        }
+        if pressure == Some(0.0) {
+            return Err(keys.bad("pressure_pa", "a pressure that is not zero"));
         }
         let place = Self::place(keys)?;
-        let key = place.as_ref().map_or(size, |(key, _)| key);
+        // Without a place it is a pressure.
+        let key = place.as_ref().map_or("pressure_pa", |(key, _)| key);
         let load = match (force, pressure, place) {
             (Some(_), Some(_), _) => return Err(keys.given_twice("force_n", "pressure_pa")),
             (None, None, _) => {

@@ -3,8 +3,8 @@
 //!
 //! *How we know*: `dicom::…`, on files that another library wrote.
 //!
-//! *Limits*: pixels that are uncompressed or compressed by run lengths; frames that lie on one lattice. Images are listed, not read: a segmentation has a
-//! geometry of its own.
+//! *Limits*: pixels that are uncompressed or compressed by run lengths; frames that lie on one lattice. Images are
+//! listed, not read: a segmentation has a geometry of its own.
 
 mod folder;
 mod frames;

@@ -36,7 +36,7 @@ impl<'o> PixelData<'o> {
         }
     }
 
-    /// The pixels of `frames` frames of `each` bytes, a width of `width` bytes a pixel, one behind the other.
+    /// The pixels of so many `frames`, one behind the other: each frame has `each` bytes, and each pixel `width`.
     pub(super) fn frames(
         self,
         frames: usize,
@@ -97,10 +97,10 @@ fn decode(fragment: &[u8], each: usize, width: usize, data: &mut Vec<u8>) -> Opt
                 128 => continue,
                 129..=255 => 257 - usize::from(head),
             };
-            let mut repeated = None;
-            if head > 128 {
-                repeated = Some(runs.next()?);
-            }
+            let repeated = match head {
+                129.. => Some(runs.next()?),
+                _ => None,
+            };
             for place in places.by_ref().take(count) {
                 data[place] = match repeated {
                     Some(byte) => byte,
