@@ -6,6 +6,7 @@
 mod assembly;
 mod cavity;
 pub mod condensed;
+mod continuation;
 #[cfg(test)]
 mod derivatives;
 mod element;
@@ -26,6 +27,7 @@ mod path;
 mod pressed_faces;
 mod punched;
 mod relaxation;
+pub mod rigid_tool;
 mod sensitivity;
 mod snap;
 pub mod solid;

@@ -97,7 +97,7 @@ impl FiniteElementModel {
         let mapping = Mapping::new(&mesh, formulation == Formulation::Mixed)?;
         let unknowns = number(&mesh, regions, mapping.pressures_per_element);
         let local = unknowns.len() / mesh.len();
-        let (pattern, scatter) = couple(&unknowns, local, &[]);
+        let (pattern, scatter) = couple(&unknowns, local, &[], &[]);
         Ok(Self {
             mesh,
             law,
@@ -116,7 +116,16 @@ impl FiniteElementModel {
     ///
     /// # Errors
     /// When the sides of a cavity are none of the model.
-    pub fn with_fluids(mut self, cavities: Vec<Cavity>) -> Result<Self, Error> {
+    pub fn with_fluids(self, cavities: Vec<Cavity>) -> Result<Self, Error> {
+        self.with_couplings(cavities, std::iter::empty())
+    }
+
+    /// As [`Self::with_fluids`], with displacements of `coupled` nodes that something beside the elements couples.
+    pub(super) fn with_couplings<'n>(
+        mut self,
+        cavities: Vec<Cavity>,
+        coupled: impl Iterator<Item = &'n [u32]>,
+    ) -> Result<Self, Error> {
         let dimension = self.dimension() as u32;
         let mut walls = Vec::with_capacity(cavities.len());
         for cavity in &cavities {
@@ -128,7 +137,14 @@ impl FiniteElementModel {
                     .collect(),
             );
         }
-        (self.pattern, self.scatter) = couple(&self.unknowns, self.local_unknowns(), &walls);
+        let coupled = coupled.map(|nodes| {
+            let each = nodes.iter();
+            each.flat_map(|n| (0..dimension).map(move |i| n * dimension + i))
+                .collect()
+        });
+        let coupled: Vec<Vec<u32>> = coupled.collect();
+        let local = self.local_unknowns();
+        (self.pattern, self.scatter) = couple(&self.unknowns, local, &walls, &coupled);
         self.fluids = cavities;
         Ok(self)
     }
@@ -277,6 +293,8 @@ impl FiniteElementState {
 #[derive(Debug)]
 pub struct FiniteElementWorkspace {
     pub(crate) factors: Factors,
+    /// Whether the factors are good for a further solution, though the tangent has changed since.
+    pub(super) factors_serve: bool,
     /// The tangent, lower triangle, as assembled.
     pub(crate) tangent: Vec<f64>,
     /// The tangent with its supports, as factored.
@@ -316,6 +334,7 @@ impl FiniteElementWorkspace {
             .map_err(|_| Error::NoMemoryForFactors { unknowns: size })?;
         Ok(Self {
             factors,
+            factors_serve: false,
             tangent: vec![0.0; entries],
             supported: vec![0.0; entries],
             residual: vec![0.0; size],
@@ -391,12 +410,20 @@ fn number(mesh: &ElementMesh, regions: &[u32], pressures: usize) -> Vec<u32> {
 }
 
 /// The couplings of unknowns within elements of `local` ones, and the places of each element's lower triangle; a further
-/// unknown is coupled with those of each of the `walls`.
-fn couple(unknowns: &[u32], local: usize, walls: &[Vec<u32>]) -> (Pattern, Vec<u32>) {
+/// unknown is coupled with those of each of the `walls`, and unknowns of each of `coupled` with one another.
+fn couple(
+    unknowns: &[u32],
+    local: usize,
+    walls: &[Vec<u32>],
+    coupled: &[Vec<u32>],
+) -> (Pattern, Vec<u32>) {
     let first = unknowns.iter().max().map_or(0, |&last| last + 1);
     let mut entries = Vec::with_capacity(unknowns.len() * (local + 1) / 2);
     for element in unknowns.chunks_exact(local) {
         entries.extend(lower(element).map(|(row, column)| (column, row)));
+    }
+    for own in coupled {
+        entries.extend(lower(own).map(|(row, column)| (column, row)));
     }
     for (wall, row) in walls.iter().zip(first..) {
         entries.push((row, row));

@@ -65,6 +65,8 @@ impl SolverControls {
 
 /// Shortest part of a step that is tried when an element turns inside out on its way [-].
 const SHORTEST_BEFORE_INVERSION: f64 = 1.0 / 16.0;
+/// Factors serve again while η falls to this part in a step [-].
+const FAST: f64 = 0.01;
 /// What rounding leaves of a sum [-], in its terms.
 const ROUNDING: f64 = 1e-13;
 
@@ -94,16 +96,26 @@ pub(super) fn correct(
         return Err(Failure::Singular);
     }
     let mut iterations = 0;
+    let mut last: Option<f64> = None;
     loop {
         let gap = prescribe(model, supports, &state.unknowns, workspace);
         let size = size_of_residual(model, supports, workspace);
+        if let Some(last) = last {
+            workspace.factors_serve = size.free <= FAST * FAST * last;
+        }
+        last = Some(size.free);
         if gap == 0.0 && iterations >= controls.least && size.is_small(controls.tolerance) {
             return Ok(Equilibrium { iterations });
         }
         if iterations == controls.iterations {
             return Err(Failure::NotConverged);
         }
-        solve(model, supports, workspace)?;
+        // What is fixed stays the same only between increments of tools.
+        let reuse = workspace.factors_serve && gap == 0.0 && supports.contacts.is_some();
+        match reuse {
+            true => solve_again(model, supports, workspace)?,
+            false => solve(model, supports, workspace)?,
+        }
         iterations += 1;
         advance(
             model,
@@ -130,6 +142,14 @@ pub(super) fn assemble(
     }
     for (faces, pressure) in &supports.pressed {
         faces.add_tangent(model, unknowns, -pressure, &mut workspace.tangent);
+    }
+    if let Some(contacts) = supports.contacts {
+        contacts.assemble(
+            model,
+            unknowns,
+            &mut workspace.residual,
+            &mut workspace.tangent,
+        );
     }
     for ((fluid, number), growth) in model.fluids().zip(supports.growths()) {
         fluid.add_constraint(model, unknowns, number, workspace);
@@ -194,9 +214,13 @@ pub(super) fn size_of_residual(
         size.free += across * across / along_surface;
         size.held += normal * normal / along_normal;
     }
-    if !supports.pressures.is_empty() || !supports.pressed.is_empty() {
+    let contacts = supports.contacts;
+    if !supports.pressures.is_empty() || !supports.pressed.is_empty() || contacts.is_some() {
         let mut load = vec![0.0; model.size()];
         supports.add_pressures(model, &workspace.trial, 1.0, &mut load);
+        if let Some(contacts) = contacts {
+            contacts.add_forces(model, &workspace.trial, 1.0, &mut load);
+        }
         size.held += (0..model.displacements())
             .map(|i| load[i].powi(2) / diagonal(i).abs())
             .sum::<f64>();
@@ -263,6 +287,27 @@ pub(super) fn solve(
     }
     workspace.step.copy_from_slice(&right);
     Ok(())
+}
+
+/// The same with the factors of an earlier tangent, where no support moves.
+fn solve_again(
+    model: &FiniteElementModel,
+    supports: &Supports<'_>,
+    workspace: &mut FiniteElementWorkspace,
+) -> Result<(), Failure> {
+    let is_held = held_rows(model, supports);
+    for (row, is_held) in is_held.into_iter().enumerate() {
+        workspace.step[row] = if is_held {
+            0.0
+        } else {
+            -workspace.residual[row]
+        };
+    }
+    workspace.factors.solve(&mut workspace.step);
+    match workspace.step.iter().all(|x| x.is_finite()) {
+        true => Ok(()),
+        false => Err(Failure::Singular),
+    }
 }
 
 /// Turns the unknowns of all sliding nodes into one along the surface's normal and one across, in the

@@ -7,6 +7,7 @@ use super::mismatch::Mismatch;
 use super::model::FiniteElementModel;
 use super::pressed_faces::PressedFaces;
 use super::relaxation::RelaxationStep;
+use super::rigid_tool::Contacts;
 use crate::Vec3;
 
 /// What holds a body and what loads it. Whoever solves with it checks it against the model first.
@@ -22,6 +23,8 @@ pub struct Supports<'a> {
     pub(super) pressed: Vec<(&'a PressedFaces, f64)>,
     /// By how much fluids have made their cavities larger [m³], in the order of the cavities; zero of those beyond.
     pub growths: Vec<f64>,
+    /// Rigid tools that a solid is in contact with.
+    pub(super) contacts: Option<&'a Contacts<'a>>,
     /// Forces at the unknowns that do not turn with the body [N], of
     /// [`FiniteElementModel::body_load`], and how many times they act.
     pub dead_load: Option<(&'a [f64], f64)>,
@@ -157,6 +160,7 @@ impl<'a> Supports<'a> {
             pressures: Vec::new(),
             pressed: Vec::new(),
             growths: Vec::new(),
+            contacts: None,
             dead_load: None,
             relaxing: None,
             stray: None,

@@ -35,6 +35,7 @@ fn hollow(law: Arc<dyn Law>, pressure: f64) -> SolidProblem {
         law: law.clone(),
         regions: vec![cavity(place(), CavityContent::Pressure(pressure))],
         loads: Loads::default(),
+        tools: Vec::new(),
         points: Vec::new(),
         ..pulled(law, place())
     }

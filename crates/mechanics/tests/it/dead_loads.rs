@@ -27,6 +27,7 @@ pub(crate) fn beam(cells: [usize; 3], law: Arc<dyn Law>) -> SolidProblem {
         regions: Vec::new(),
         fibres: None,
         loads: Loads::default(),
+        tools: Vec::new(),
         points: vec![LENGTH * Vec3::x()],
     }
 }

@@ -52,6 +52,7 @@ mod pressed_faces;
 mod punch_edge;
 mod real_organs;
 mod refused_input;
+mod rigid_tools;
 mod slit;
 mod slit_bodies;
 mod slit_closed;

@@ -97,6 +97,7 @@ impl Kidney {
             regions: Vec::new(),
             fibres: None,
             loads: Loads::default(),
+            tools: Vec::new(),
             points: Vec::new(),
         }
     }

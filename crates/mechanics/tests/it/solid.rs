@@ -57,6 +57,7 @@ pub(crate) fn cube(radius: f64, nu: f64, friction: Friction) -> SolidProblem {
         regions: Vec::new(),
         fibres: None,
         loads: Loads::default(),
+        tools: Vec::new(),
         points: Vec::new(),
     }
 }
@@ -294,6 +295,7 @@ fn a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space() {
         regions: Vec::new(),
         fibres: None,
         loads: Loads::default(),
+        tools: Vec::new(),
         points: Vec::new(),
     };
     let round = HemisphereProblem {
@@ -390,6 +392,7 @@ fn real_kidney_under_a_patch() {
         regions: Vec::new(),
         fibres: None,
         loads: Loads::default(),
+        tools: Vec::new(),
         points: Vec::new(),
     };
     let started = std::time::Instant::now();

@@ -61,6 +61,7 @@ pub(crate) fn pulled(law: Arc<dyn Law>, place: RegionPlace) -> SolidProblem {
                 force: 1e-3 * Vec3::x(),
             }],
         },
+        tools: Vec::new(),
         points: vec![
             0.04 * Vec3::x(),
             -0.04 * Vec3::x(),
@@ -249,6 +250,7 @@ fn cells_have_the_tissue_of_their_region() {
                 force: -10.0 * Vec3::z(),
             }],
         },
+        tools: Vec::new(),
         points: vec![Vec3::new(0.5, 0.5, 1.0)],
     };
     let expected = -10.0 * (0.75 / 1e4 + 0.25 / 1e5);

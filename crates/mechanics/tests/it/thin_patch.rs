@@ -55,6 +55,7 @@ fn a_patch_on_a_thin_edge_has_its_area() {
         regions: Vec::new(),
         fibres: None,
         loads: Loads::default(),
+        tools: Vec::new(),
         points: Vec::new(),
     };
     let answer = at(&problem, 0);

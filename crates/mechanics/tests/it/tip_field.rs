@@ -439,6 +439,7 @@ fn real_kidney_error(triangles: usize) -> Option<f64> {
             regions: Vec::new(),
             fibres: None,
             loads: Loads::default(),
+            tools: Vec::new(),
             points: Vec::new(),
         };
         let found = solve(&problem, 0.03, &mut |_| ()).unwrap();

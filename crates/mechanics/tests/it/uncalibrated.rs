@@ -274,6 +274,7 @@ fn solid_in_half_spaces(contact: &LocalContact, nu: f64) -> (f64, f64) {
         regions: Vec::new(),
         fibres: None,
         loads: Loads::default(),
+        tools: Vec::new(),
         points: Vec::new(),
     };
     let found = solid::solve(&problem, 0.02, &mut |_| ()).unwrap();

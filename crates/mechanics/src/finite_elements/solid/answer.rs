@@ -1,7 +1,10 @@
 use nalgebra::Matrix3;
 
 use super::super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
+use super::super::rigid_tool::{ContactSurface, ToolLoad};
 use super::frame::{Conditions, Frame};
+use super::mesh::EDGES;
+use super::solve::ToolIncrement;
 use crate::{FibreField, Strain, Vec3};
 
 /// A solid in equilibrium, in the frame of the scene.
@@ -21,6 +24,8 @@ pub struct SolidAnswer {
     pub points: Vec<Vec3>,
     /// What each cavity has become, in the order of the regions.
     pub cavities: Vec<CavityAnswer>,
+    /// What each tool feels at each step on its path.
+    pub tools: Vec<ToolIncrement>,
     /// Area of the patch at rest [m²].
     pub patch_area: f64,
     /// Number of unknowns.
@@ -63,6 +68,8 @@ pub struct SolidFields {
     pub pressures: Vec<f64>,
     /// Von Mises' equivalent stress of each tetrahedron, of its mean Cauchy stress [Pa].
     pub equivalent_stresses: Vec<f64>,
+    /// Pressure of tools on the boundary at each node [Pa]; empty without tools.
+    pub contact_pressures: Vec<f64>,
     /// Reference axis of the fibres in the middle of each tetrahedron, of length one [-]; empty without fibres.
     pub fibre_axes: Vec<Vec3>,
 }
@@ -89,12 +96,31 @@ impl SolidAnswer {
             mean_displacement: mean_displacement(model, state),
             points: Vec::new(),
             cavities: Vec::new(),
+            tools: Vec::new(),
             patch_area: held.area,
             unknowns: model.size(),
             factor_entries: workspace.factor_entries(),
             fields: SolidFields::new(model, state, frame),
             warnings: Vec::new(),
         }
+    }
+}
+
+impl SolidAnswer {
+    /// What each tool feels at the end of each part of its path.
+    pub fn waypoints(&self) -> Vec<&[ToolLoad]> {
+        let ends = self.tools.iter();
+        let ends = ends.filter(|step| step.along >= 1.0 && step.along.fract() == 0.0);
+        ends.map(|step| step.loads.as_slice()).collect()
+    }
+
+    /// Root mean square over the ends of the parts of its path of the force on a tool [N]; where it touches nothing, the least
+    /// positive number, which has a relative change.
+    pub(super) fn force_on_tool(&self, tool: usize) -> f64 {
+        let ends = self.waypoints();
+        let squares = ends.iter().map(|loads| loads[tool].force.norm_squared());
+        let mean = squares.sum::<f64>() / ends.len().max(1) as f64;
+        mean.sqrt().max(f64::MIN_POSITIVE)
     }
 }
 
@@ -112,8 +138,24 @@ impl SolidFields {
             equivalent_stresses: (0..model.mesh.len())
                 .map(|element| equivalent_stress(model, state, element))
                 .collect(),
+            contact_pressures: Vec::new(),
             fibre_axes: Vec::new(),
         }
+    }
+
+    /// Puts the pressures [Pa] at the corners of `surface` in; in the middles of edges they are the mean.
+    pub(super) fn set_contact_pressures(&mut self, surface: &ContactSurface, pressures: &[f64]) {
+        let mut at_nodes = vec![0.0; self.positions.len()];
+        for (node, pressure) in surface.nodes().zip(pressures) {
+            at_nodes[node] = *pressure;
+        }
+        for cell in self.cells.chunks_exact(10) {
+            for (middle, ends) in cell[4..].iter().zip(EDGES) {
+                let [from, to] = ends.map(|end| at_nodes[cell[end] as usize]);
+                at_nodes[*middle as usize] = 0.5 * (from + to);
+            }
+        }
+        self.contact_pressures = at_nodes;
     }
 
     /// Puts the axes of these fibres in.
@@ -159,7 +201,6 @@ fn mean_displacement(model: &FiniteElementModel, state: &FiniteElementState) -> 
 fn pressures(model: &FiniteElementModel, state: &FiniteElementState) -> Vec<f64> {
     let mut at_nodes = vec![0.0; model.mesh.nodes.len()];
     let local = model.local_unknowns();
-    let ends = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
     for element in 0..model.mesh.len() {
         let numbers = &model.unknowns[element * local..][30..34];
         let corners: Vec<f64> = numbers
@@ -170,7 +211,7 @@ fn pressures(model: &FiniteElementModel, state: &FiniteElementState) -> Vec<f64>
         for (node, pressure) in nodes.iter().zip(&corners) {
             at_nodes[*node as usize] = *pressure;
         }
-        for (node, [a, b]) in nodes[4..].iter().zip(ends) {
+        for (node, [a, b]) in nodes[4..].iter().zip(EDGES) {
             at_nodes[*node as usize] = 0.5 * (corners[a] + corners[b]);
         }
     }

@@ -1,11 +1,38 @@
+use super::super::rigid_tool::RigidShape;
+
 /// What does not fit a solid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SolidError {
-    /// Neither a patch nor a load.
+    /// Neither a patch, a tool nor a load.
     #[error(
-        "nothing moves or loads the body; give a patch, a weight, or a force or pressure on its surface"
+        "nothing moves or loads the body; give a patch, a tool, a weight, or a force or pressure on its surface"
     )]
     NothingLoads,
+    /// A path of a tool without a beginning and an end.
+    #[error("the path of tool {} has no two finite places; give where it begins and where it goes", tool + 1)]
+    NoPath {
+        /// Number of the tool, from 0.
+        tool: usize,
+    },
+    /// The numbers of a tool's shape are of none.
+    #[error(
+        "tool {} has the shape {shape:?}; give positive lengths [m], a half angle between 0 and π/2 rad, a cylinder at least as \
+         long as it is thick, and edges rounded by less than half of what they belong to", tool + 1
+    )]
+    NoShape {
+        /// Number of the tool, from 0.
+        tool: usize,
+        /// The shape given.
+        shape: RigidShape,
+    },
+    /// A coefficient of friction that is none.
+    #[error("tool {} has the coefficient of friction {coefficient}; give a number from 0", tool + 1)]
+    NoFriction {
+        /// Number of the tool, from 0.
+        tool: usize,
+        /// The coefficient given [-].
+        coefficient: f64,
+    },
     /// A density that is none.
     #[error("the density is {density} kg/m3; give a positive number")]
     DensityOutOfRange {

@@ -5,6 +5,7 @@ use super::super::cavity::Cavity;
 use super::super::mesh::ElementMesh;
 use super::super::model::FiniteElementModel;
 use super::super::pressed_faces::PressedFaces;
+use super::super::rigid_tool::{RigidTool, ToolLoad};
 use super::super::supports::Supports;
 use super::problem::MovedPatch;
 use super::supports::Held;
@@ -77,6 +78,25 @@ impl Frame {
         fibres.turned(&self.turn)
     }
 
+    /// A tool in the frame.
+    pub(super) fn with_tool(&self, tool: &RigidTool) -> RigidTool {
+        RigidTool {
+            orientation: self.turn * tool.orientation,
+            path: tool.path.iter().map(|place| self.turn * place).collect(),
+            ..tool.clone()
+        }
+    }
+
+    /// What a tool feels in the frame, in the scene.
+    pub(super) fn load_back(&self, load: &ToolLoad) -> ToolLoad {
+        ToolLoad {
+            position: self.back(&load.position),
+            force: self.back(&load.force),
+            moment: self.back(&load.moment),
+            ..*load
+        }
+    }
+
     /// A vector of the scene in the frame.
     pub(super) fn forth(&self, vector: &Vec3) -> Vec3 {
         self.turn * vector
@@ -99,6 +119,16 @@ pub(super) struct Conditions<'a> {
 }
 
 impl Conditions<'_> {
+    /// Whether there is a patch that moves, or a load.
+    pub(super) fn load_anything(&self) -> bool {
+        let has_fluid = self.growths.iter().any(|growth| *growth != 0.0);
+        let has_pressure = !(self.pressures.is_empty() && self.pressed.is_empty());
+        has_fluid
+            || has_pressure
+            || self.frame.held.contains(&true)
+            || self.load.iter().any(|force| *force != 0.0)
+    }
+
     /// The supports at this `part` [-] of the displacement of the patch and of the loads.
     pub(super) fn supports(&self, model: &FiniteElementModel, part: f64) -> Supports<'_> {
         let Self {

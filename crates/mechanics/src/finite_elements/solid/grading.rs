@@ -24,6 +24,7 @@ use palpate_geometry::{
     fill, fill_graded, refine_to, resolve_levels,
 };
 
+use super::footprint::Footprint;
 use super::mesh::faces;
 use super::patch::{area_of, area_within, faces_within};
 use super::problem::{Body, MovedPatch, SolidProblem};
@@ -81,6 +82,8 @@ pub(super) struct MeshContext<'a> {
     /// Edge of the lattice that filled a surface [m].
     lattice: Option<f64>,
     patch: Option<PatchEdge>,
+    /// What each tool meets.
+    pub(super) footprints: Rc<Vec<Footprint>>,
     /// Points where the anchor ends [m].
     rim: Vec<Vec3>,
     regions: Rc<SolidRegions>,
@@ -152,6 +155,11 @@ impl<'a> MeshContext<'a> {
         let (patch, warnings) = patch.transpose()?.unzip();
         let warnings: Vec<String> = warnings.unwrap_or_default();
         let regions = Rc::new(SolidRegions::new(problem)?);
+        let (low, high) = body.bounds();
+        let footprints = problem.tools.iter();
+        let footprints =
+            footprints.map(|tool| Footprint::new(tool, &triangles, (high - low).max()));
+        let footprints: Rc<Vec<_>> = Rc::new(footprints.collect());
         let context = |filling: TetrahedronMesh, lattice: Option<f64>| {
             let spacing = AT_ANCHOR * filling.quality().longest_edge;
             let rim = triangles.iter();
@@ -162,6 +170,7 @@ impl<'a> MeshContext<'a> {
                 filling,
                 lattice,
                 patch: patch.clone(),
+                footprints: footprints.clone(),
                 regions: regions.clone(),
                 warnings: warnings.clone(),
             }
@@ -251,12 +260,20 @@ impl<'a> MeshContext<'a> {
                 (IN_LAYER * self.regions.map.thickness_at(point) * halved)
                     .max(GROWTH * follow * off)
             });
+            let near_tools = self.footprints.iter().map(|own| {
+                let off = distance(&own.points, point);
+                let in_layer = IN_LAYER * self.regions.map.thickness_at(point) * halved;
+                let near = (2.0 * EDGE * own.size * halved).min(in_layer);
+                near.max(GROWTH * follow * (off - own.size).max(0.0))
+            });
+            let near_tools = near_tools.fold(f64::INFINITY, f64::min);
             let (in_shape, growth) = (IN_SHAPE * halved, AT_SHAPES * follow);
             let near_shapes = self
                 .regions
                 .map
                 .longest_edge_at_shapes(point, in_shape, growth);
             near_patch
+                .min(near_tools)
                 .min(near_anchor)
                 .min(longest)
                 .min(in_layer)
@@ -264,9 +281,18 @@ impl<'a> MeshContext<'a> {
         })?;
         let circle = self.patch.as_ref();
         let circle = circle.map(|at| move |point: &Vec3| (point - at.center).norm() - at.radius);
+        let edges: Vec<_> = self
+            .footprints
+            .iter()
+            .filter_map(Footprint::height)
+            .collect();
         let heights = self.regions.heights();
         let mut levels = Vec::new();
         levels.extend(circle.iter().map(|height| Level {
+            height,
+            boundary_only: true,
+        }));
+        levels.extend(edges.iter().map(|height| Level {
             height,
             boundary_only: true,
         }));
@@ -275,7 +301,8 @@ impl<'a> MeshContext<'a> {
             boundary_only: false,
         }));
         let (mesh, resolved) = resolve_levels(mesh, surface, &levels)?;
-        let (circle, borders) = resolved.split_at(usize::from(circle.is_some()));
+        let (circle, others) = resolved.split_at(usize::from(circle.is_some()));
+        let borders = &others[edges.len()..];
         let (mesh, warnings) = self.regions.put(mesh, borders)?;
         Ok(Graded {
             mesh,

@@ -7,7 +7,7 @@ use super::super::mesh::ElementMesh;
 use crate::Vec3;
 
 /// Corners at the two ends of each middle node of a tetrahedron.
-const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
+pub(super) const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
 
 impl ElementMesh {
     /// Quadratic tetrahedra with straight edges: the vertices keep their numbers, and the middles

@@ -23,6 +23,7 @@
 mod answer;
 mod cavities;
 mod error;
+mod footprint;
 mod frame;
 mod grading;
 mod loads;
@@ -43,3 +44,4 @@ pub use problem::{
     SurfaceLoad, Weight,
 };
 pub use run::{solve, solve_at};
+pub use solve::ToolIncrement;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use palpate_files::scene::{CavityContent, Region};
 use palpate_geometry::{Surface, TetrahedronMesh};
 
+use super::super::rigid_tool::RigidTool;
 use crate::material::law::Law;
 use crate::regions::RegionPlace;
 use crate::{FibreField, Vec3};
@@ -126,6 +127,9 @@ pub struct SolidProblem {
     pub fibres: Option<FibreField>,
     /// What loads it besides. Loads and the displacement of the patch grow together from rest.
     pub loads: Loads,
+    /// Rigid tools that press it, after loads and patch have come to their full size. They move together; one whose path has
+    /// fewer parts waits at its end.
+    pub tools: Vec<RigidTool>,
     /// Points of the body whose displacement is asked for [m].
     pub points: Vec<Vec3>,
 }

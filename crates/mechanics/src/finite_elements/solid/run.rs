@@ -4,15 +4,18 @@ use super::super::cavity::Cavity;
 use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
 use super::super::mesh::ElementMesh;
 use super::super::model::{FiniteElementModel, FiniteElementWorkspace, Formulation};
+use super::super::rigid_tool::{ContactSurface, Contacts, RigidTool};
 use super::answer::SolidAnswer;
 use super::cavities::SolidMesh;
+use super::error::SolidError;
 use super::frame::{Conditions, Frame};
 use super::grading::MeshContext;
 use super::loads::{self, BoundaryLoads};
 use super::mesh::faces;
 use super::problem::{Body, RegionContent, SolidProblem, SolidRegion};
-use super::solve::equilibrium;
+use super::solve::{ToolIncrement, equilibrium};
 use super::supports::Held;
+use crate::contact::FrictionLaw;
 use crate::{Error, FibreError, Law, Vec3};
 
 /// More unknowns than these are refused: their factors would have about ten gigabytes.
@@ -55,6 +58,10 @@ pub fn solve(
         )];
         if problem.patch.is_some() {
             quantities.push(Quantity::new("force", vec![answer.force_along]));
+        }
+        if !problem.tools.is_empty() {
+            let forces = (0..problem.tools.len()).map(|tool| answer.force_on_tool(tool));
+            quantities.push(Quantity::new("forces on the tools", forces.collect()));
         }
         if !answer.points.is_empty() {
             let squares = answer.points.iter().map(Vec3::norm_squared);
@@ -148,8 +155,23 @@ impl SolidProblem {
             })?,
             false => Vec::new(),
         };
-        let model =
-            model.with_fluids(fluids.into_iter().map(|(wall, _)| wall.clone()).collect())?;
+        let tools: Vec<RigidTool> = self
+            .tools
+            .iter()
+            .map(|tool| frame.with_tool(tool))
+            .collect();
+        let rest = tetrahedra.vertices();
+        let surface = ContactSurface::new(
+            solid.outer.iter().map(|face| face.nodes),
+            &model.mesh.nodes,
+            |node| {
+                let mut met = self.tools.iter().zip(context.footprints.iter());
+                met.any(|(tool, footprint)| footprint.may_touch(tool, &rest[node]))
+            },
+        );
+        let fluids = fluids.into_iter().map(|(wall, _)| wall.clone()).collect();
+        let model = model.with_couplings(fluids, surface.couplings())?;
+        let contacts = (!tools.is_empty()).then(|| Contacts::new(&surface, &tools));
         let mut workspace = FiniteElementWorkspace::new(&model)?;
         let mut load = match &self.loads.weight {
             Some(weight) => {
@@ -178,10 +200,11 @@ impl SolidProblem {
             pressed: &on_surface.pressures,
             growths: &growths,
         };
-        let state = equilibrium(&model, &conditions, &mut workspace, &mut |part| {
+        let solved = equilibrium(&model, &conditions, contacts, &mut workspace, &mut |part| {
             let part = begin + (1.0 - begin) * part;
             progress(Progress { part, mesh });
         })?;
+        let state = solved.state;
         let along = self.patch.map(|patch| patch.displacement);
         let mut answer = SolidAnswer::new(&model, &state, &workspace, &conditions, along.as_ref());
         let moved = |place: &loads::Place| {
@@ -193,6 +216,17 @@ impl SolidProblem {
         answer.cavities = solid.answers(&model, &state);
         answer.points = places.iter().map(moved).collect();
         answer.fields.surface = solid.surface();
+        if let Some(contacts) = &solved.contacts {
+            answer
+                .fields
+                .set_contact_pressures(&surface, &contacts.pressures());
+            let increments = solved.increments.into_iter();
+            let back = increments.map(|ToolIncrement { along, loads }| ToolIncrement {
+                along,
+                loads: loads.iter().map(|load| frame.load_back(load)).collect(),
+            });
+            answer.tools = back.collect();
+        }
         answer.fields.regions = regions;
         if let Some(fibres) = &self.fibres {
             answer.fields.set_fibres(fibres);
@@ -207,6 +241,30 @@ impl SolidProblem {
             ));
         }
         Ok(answer)
+    }
+
+    fn check_tools(&self) -> Result<(), SolidError> {
+        for (tool, own) in self.tools.iter().enumerate() {
+            let places = own.path.iter();
+            let is_path = places
+                .clone()
+                .all(|place| place.iter().all(|x| x.is_finite()));
+            if own.path.len() < 2 || !is_path {
+                return Err(SolidError::NoPath { tool });
+            }
+            if !own.shape.exists() {
+                return Err(SolidError::NoShape {
+                    tool,
+                    shape: own.shape,
+                });
+            }
+            if let FrictionLaw::Coulomb(coefficient) = own.friction
+                && !(coefficient >= 0.0 && coefficient.is_finite())
+            {
+                return Err(SolidError::NoFriction { tool, coefficient });
+            }
+        }
+        Ok(())
     }
 
     fn check(&self) -> Result<(), Error> {
@@ -232,7 +290,9 @@ impl SolidProblem {
         }
         let presses = |region: &SolidRegion| matches!(&region.content, RegionContent::Cavity(content) if content.own_pressure() != 0.0);
         let is_pressed = self.regions.iter().any(presses);
-        self.loads.check(self.patch.is_some() || is_pressed)?;
+        let is_moved = self.patch.is_some() || !self.tools.is_empty();
+        self.loads.check(is_moved || is_pressed)?;
+        self.check_tools()?;
         if self.loads.weight.is_some() {
             let densities = self.regions.iter().filter_map(SolidRegion::density);
             loads::check_densities(densities)?;
@@ -267,7 +327,7 @@ fn growths(
         growths: &[],
     };
     let mut workspace = FiniteElementWorkspace::new(model)?;
-    let state = equilibrium(model, &conditions, &mut workspace, at_part)?;
+    let state = equilibrium(model, &conditions, None, &mut workspace, at_part)?.state;
     let walls = fluids.iter().map(|(wall, _)| wall);
     Ok(walls
         .map(|wall| wall.growth(model, &state.unknowns))

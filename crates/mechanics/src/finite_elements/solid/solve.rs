@@ -3,8 +3,10 @@
 //! A linear system whose matrix carries the small pressure block of `assembly` is solved with one
 //! factor: the true residual goes through it again until it is gone.
 
+use super::super::continuation::{Increments, Steps, continue_to, extrapolated};
 use super::super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
 use super::super::newton::{self, Failure, equilibrate};
+use super::super::rigid_tool::{Contacts, ToolLoad};
 use super::super::supports::Supports;
 use super::frame::Conditions;
 use crate::{Error, Strain};
@@ -13,62 +15,181 @@ use crate::{Error, Strain};
 const TOLERANCE: f64 = 1e-9;
 const MOST_SOLUTIONS: usize = 4;
 
-/// The first step, and the shortest before giving up [parts of the way].
-const FIRST: f64 = 0.25;
-const SHORTEST: f64 = 1e-3;
+/// Steps of the loads and of each part of the tools' paths [-].
+const STEPS: Steps = Steps {
+    next: 0.25,
+    longest: 1.0,
+    shortest: 1e-3,
+    easy: 5,
+    hard: usize::MAX,
+};
 
-/// Brings a body at rest to where the patch has gone all of its way and all loads act; `at_part` hears how far it is.
-pub(super) fn equilibrium(
+/// The same while tools move. Slip depends on the path, and backward differences of it have an error of the first power of the
+/// step.
+const TOOL_STEPS: Steps = Steps {
+    next: 0.5,
+    longest: 1.0,
+    shortest: 1e-3,
+    easy: 20,
+    hard: 60,
+};
+
+/// Contact is found when a further augmentation would change its forces by this part of them [-].
+const CONTACT_TOLERANCE: f64 = 1e-5;
+const MOST_AUGMENTATIONS: usize = 40;
+
+/// After so many of them what faces a tool stays the same.
+const FACED: usize = 3;
+
+/// A solid in equilibrium.
+pub(super) struct Solved<'a> {
+    pub(super) state: FiniteElementState,
+    /// What touches it at the end of the tools' paths.
+    pub(super) contacts: Option<Contacts<'a>>,
+    /// What each tool feels at each step.
+    pub(super) increments: Vec<ToolIncrement>,
+}
+
+/// What tools feel at a place of their paths.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ToolIncrement {
+    /// How many parts of their paths lie behind them [-].
+    pub along: f64,
+    /// Of each tool.
+    pub loads: Vec<ToolLoad>,
+}
+
+/// Brings a body at rest to where the patch has gone all of its way and all loads act, and then along the paths of tools;
+/// `at_part` hears how far it is.
+pub(super) fn equilibrium<'a>(
     model: &FiniteElementModel,
     conditions: &Conditions<'_>,
+    contacts: Option<Contacts<'a>>,
     workspace: &mut FiniteElementWorkspace,
     at_part: &mut dyn FnMut(f64),
-) -> Result<FiniteElementState, Error> {
+) -> Result<Solved<'a>, Error> {
     let mut state = FiniteElementState::at_rest(model);
-    if model.law.volume().strain == Strain::Small {
+    if model.law.volume().strain == Strain::Small && contacts.is_none() {
         let supports = conditions.supports(model, 1.0);
         linear(model, &supports, &mut state, workspace)
             .map_err(|failure| Error::NoSolid { part: 0.0, failure })?;
         at_part(1.0);
-        return Ok(state);
+        return Ok(Solved {
+            state,
+            contacts: None,
+            increments: Vec::new(),
+        });
     }
-    let (mut part, mut step) = (0.0_f64, FIRST);
-    let mut before: Option<(f64, Vec<f64>)> = None;
-    while part < 1.0 {
-        let goal = if part + 1.01 * step >= 1.0 {
-            1.0
-        } else {
-            part + step
+    let parts = contacts.as_ref().map_or(0, Contacts::parts);
+    let whole = 1.0 + parts as f64;
+    let mut run = SolidRun {
+        model,
+        conditions,
+        workspace,
+        reached: 0.0,
+        state,
+        contacts,
+        before: None,
+    };
+    if let Some(contacts) = &mut run.contacts {
+        contacts.close_increment(model, &run.state.unknowns);
+    }
+    let mut increments = Vec::new();
+    let mut steps = STEPS;
+    let first = usize::from(!conditions.load_anything());
+    run.reached = first as f64;
+    for part in first..=parts {
+        if part > 0 {
+            steps = TOOL_STEPS;
+            // The path turns.
+            run.before = None;
+        }
+        let mut at_step = |run: &mut SolidRun<'_, 'a>| {
+            if let Some(contacts) = &run.contacts {
+                increments.push(ToolIncrement {
+                    along: (run.reached - 1.0).max(0.0),
+                    loads: contacts.loads(model, &run.state.unknowns),
+                });
+            }
+            at_part(run.reached / whole);
         };
-        let mut trial = state.clone();
-        if let Some((then, old)) = &before {
-            let ahead = (goal - part) / (part - then);
-            for (x, old) in trial.unknowns.iter_mut().zip(old) {
-                *x += ahead * (*x - old);
+        continue_to(&mut run, &mut steps, 1.0 + part as f64, &mut at_step).map_err(|failure| {
+            Error::NoSolid {
+                part: run.reached / whole,
+                failure,
             }
-        }
-        let supports = conditions.supports(model, goal);
-        match equilibrate(model, &supports, &mut trial, workspace) {
-            Ok(done) => {
-                let old = std::mem::replace(&mut state, trial);
-                before = Some((part, old.unknowns));
-                part = goal;
-                at_part(part);
-                if done.iterations <= 5 {
-                    step *= 1.5;
-                }
-            }
-            Err(_) if step > SHORTEST => {
-                step = 0.5 * (goal - part);
-                if before.is_some() {
-                    // A step that was predicted badly is tried again from where the body stands.
-                    before = None;
-                }
-            }
-            Err(failure) => return Err(Error::NoSolid { part, failure }),
-        }
+        })?;
     }
-    Ok(state)
+    Ok(Solved {
+        state: run.state,
+        contacts: run.contacts,
+        increments,
+    })
+}
+
+/// A solid on its way: in the first unit of length all loads grow, in those that follow tools move.
+struct SolidRun<'a, 'c> {
+    model: &'a FiniteElementModel,
+    conditions: &'a Conditions<'a>,
+    workspace: &'a mut FiniteElementWorkspace,
+    reached: f64,
+    state: FiniteElementState,
+    contacts: Option<Contacts<'c>>,
+    before: Option<(f64, Vec<f64>)>,
+}
+
+impl Increments for SolidRun<'_, '_> {
+    fn reached(&self) -> f64 {
+        self.reached
+    }
+
+    fn advance(&mut self, goal: f64) -> Result<usize, Failure> {
+        // A step that was predicted badly is tried again from where the body stands.
+        let before = self.before.take();
+        let then = before
+            .as_ref()
+            .map(|(at, unknowns)| (*at, unknowns.as_slice()));
+        let mut trial = FiniteElementState {
+            unknowns: extrapolated((self.reached, &self.state.unknowns), then, goal),
+        };
+        let mut contacts = self
+            .contacts
+            .as_ref()
+            .map(|contacts| contacts.moved(goal - 1.0));
+        if let Some(contacts) = &mut contacts {
+            contacts.face(self.model, &trial.unknowns);
+        }
+        self.workspace.factors_serve = false;
+        let mut solutions = 0;
+        let mut last = f64::INFINITY;
+        for augmentation in 0.. {
+            let mut supports = self.conditions.supports(self.model, goal.min(1.0));
+            supports.contacts = contacts.as_ref();
+            solutions += equilibrate(self.model, &supports, &mut trial, self.workspace)?.iterations;
+            let Some(contacts) = &mut contacts else {
+                break;
+            };
+            let change = contacts.augment(self.model, &trial.unknowns);
+            // Changes fall by a constant factor: the next one is about this.
+            let next = change * (change / last).min(1.0);
+            last = change;
+            if augmentation < FACED {
+                contacts.face(self.model, &trial.unknowns);
+            }
+            if augmentation > FACED && next <= CONTACT_TOLERANCE || change == 0.0 {
+                contacts.close_increment(self.model, &trial.unknowns);
+                break;
+            }
+            if augmentation == MOST_AUGMENTATIONS {
+                return Err(Failure::NotConverged);
+            }
+        }
+        let old = std::mem::replace(&mut self.state, trial);
+        self.before = Some((self.reached, old.unknowns));
+        self.contacts = contacts;
+        self.reached = goal;
+        Ok(solutions)
+    }
 }
 
 fn linear(

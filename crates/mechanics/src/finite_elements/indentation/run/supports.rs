@@ -18,6 +18,7 @@ impl IndentationRun {
             pressures: Vec::new(),
             pressed: Vec::new(),
             growths: Vec::new(),
+            contacts: None,
             dead_load: None,
             relaxing,
             stray: None,

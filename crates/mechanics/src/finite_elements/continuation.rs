@@ -1,0 +1,97 @@
+//! Continuation: one equilibrium after the other along a path, in steps as long as they converge easily.
+
+use super::newton::Failure;
+
+/// A body that follows a path of supports and loads.
+pub(super) trait Increments {
+    /// How far it is, in any unit.
+    fn reached(&self) -> f64;
+
+    /// Finds the equilibrium at `goal`, which is from then on where it is; on failure it stays where it was. Answers the
+    /// number of solutions of the linear system that this took.
+    fn advance(&mut self, goal: f64) -> Result<usize, Failure>;
+}
+
+/// Lengths of steps, in the unit of the path.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Steps {
+    /// The next one.
+    pub(super) next: f64,
+    pub(super) longest: f64,
+    /// A shorter one is not tried.
+    pub(super) shortest: f64,
+    /// Steps grow after so many solutions or fewer.
+    pub(super) easy: usize,
+    /// They shrink after more than these.
+    pub(super) hard: usize,
+}
+
+impl Steps {
+    /// The next step when `left` are left; two equal steps rather than one and a crumb.
+    pub(super) fn step(&self, left: f64) -> f64 {
+        match left <= self.next {
+            true => left,
+            false => self.next.min(0.5 * left),
+        }
+    }
+
+    /// After a `step` that took this number of solutions.
+    pub(super) fn succeeded(&mut self, step: f64, solutions: usize) {
+        if solutions <= self.easy {
+            self.next = (1.5 * step).max(self.next).min(self.longest);
+        } else if solutions > self.hard {
+            self.next = 0.7 * step;
+        }
+    }
+
+    /// After a `step` that failed; whether a shorter one is worth it.
+    pub(super) fn failed(&mut self, step: f64) -> bool {
+        let again = step > self.shortest;
+        if again {
+            self.next = 0.5 * step;
+        }
+        again
+    }
+}
+
+/// Goes on to `end`; `at_step` hears of each equilibrium on the way.
+pub(super) fn continue_to<R: Increments>(
+    run: &mut R,
+    steps: &mut Steps,
+    end: f64,
+    mut at_step: impl FnMut(&mut R),
+) -> Result<(), Failure> {
+    while run.reached() < end {
+        let from = run.reached();
+        let step = steps.step(end - from);
+        let goal = if step == end - from { end } else { from + step };
+        match run.advance(goal) {
+            Ok(solutions) => {
+                steps.succeeded(step, solutions);
+                at_step(run);
+            }
+            Err(failure) => {
+                if !steps.failed(step) {
+                    return Err(failure);
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The unknowns at `goal` of a body that goes on as `before`, each at a place of the path.
+pub(super) fn extrapolated(
+    (now, unknowns): (f64, &[f64]),
+    before: Option<(f64, &[f64])>,
+    goal: f64,
+) -> Vec<f64> {
+    let mut ahead = unknowns.to_vec();
+    if let Some((then, old)) = before {
+        let part = (goal - now) / (now - then);
+        for (x, old) in ahead.iter_mut().zip(old) {
+            *x += part * (*x - old);
+        }
+    }
+    ahead
+}

@@ -1,0 +1,519 @@
+//! Forces between rigid tools and a boundary, by the augmented Lagrangian method [Simo and Laursen 1992].
+//!
+//! At each corner of the boundary the mean distance g to the tool and the mean slip s since the last increment give
+//!   p = max(0, λ − ε g),  t = λₜ − ε s, cut to |t| ≤ μ λ,
+//! a pressure and a traction with the multipliers λ, λₜ of the last equilibrium and a penalty ε. They take the places of the
+//! multipliers until they agree with them: then g = 0 where tissue presses, s = 0 where it sticks, and |t| = μ p along the slip
+//! where it slips. With the multiplier in the cone of friction the tangent of each equilibrium is symmetric, and exact; the
+//! direction of the normal in t is that of the last one too.
+//!
+//! *How we know*: `tests::the_tangent_is_the_derivative_of_the_forces`, `rigid_tools::…`.
+
+use nalgebra::Matrix3;
+
+use super::super::model::FiniteElementModel;
+use super::shape::{RigidDistance, RigidTool};
+use super::surface::{ContactCorner, ContactSurface};
+use crate::Vec3;
+use crate::contact::FrictionLaw;
+
+/// ε in shear moduli over the size of the faces at a corner [-]. An augmentation leaves about this part of what was left.
+const PENALTY: f64 = 1000.0;
+
+/// Contact of tools, each at a place of its own, with a boundary.
+#[derive(Debug, Clone)]
+pub(in super::super) struct Contacts<'a> {
+    pub(in super::super) surface: &'a ContactSurface,
+    tools: &'a [RigidTool],
+    /// Where the tools are [m].
+    positions: Vec<Vec3>,
+    /// For each tool and, within it, each corner.
+    touches: Vec<Touch>,
+}
+
+/// Least cosine between the inward normals of a face and of the tool's surface where the tool can press the face [-]. Beyond a
+/// sharp edge tissue is near the tool, and is not under it.
+const FACING: f64 = 0.5;
+
+/// A corner of the boundary at a tool.
+#[derive(Debug, Clone, PartialEq)]
+struct Touch {
+    /// Weights in the mean distance of the points that face the tool [-]; empty where none does.
+    weights: Vec<f64>,
+    /// The area that these stand for [m²].
+    area: f64,
+    /// λ [Pa].
+    pressure: f64,
+    /// λₜ, on the tissue [Pa].
+    traction: Vec3,
+    /// Away from the tool [-].
+    normal: Vec3,
+    /// Where it was beside the tool at the last increment, if it touched [m].
+    from: Option<Vec3>,
+}
+
+/// What a tool feels of the tissue.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ToolLoad {
+    /// Where the tool is [m].
+    pub position: Vec3,
+    /// The force of the tissue on it [N].
+    pub force: Vec3,
+    /// The moment of that about its position [N m].
+    pub moment: Vec3,
+    /// Force normal to its surface [N], summed over the contact.
+    pub normal_force: f64,
+    /// Area of the boundary at rest that touches it [m²].
+    pub area: f64,
+    /// The part of that which slips [m²].
+    pub slipping_area: f64,
+}
+
+/// A corner at a tool in a deformed body.
+struct Evaluated {
+    /// Mean distance [m].
+    gap: f64,
+    /// Gap per displacement of each node of the corner [-].
+    slopes: Vec<Vec3>,
+    /// The same of the mean position [-].
+    shares: Vec<f64>,
+    /// Mean position [m].
+    mean: Vec3,
+    normal: Vec3,
+    distances: Vec<RigidDistance>,
+}
+
+/// What acts at a corner.
+struct Forces {
+    /// [Pa]
+    pressure: f64,
+    /// On the tissue [Pa].
+    traction: Vec3,
+    /// −∂t/∂s [Pa/m].
+    stiffness: Matrix3<f64>,
+    slips: bool,
+}
+
+impl<'a> Contacts<'a> {
+    /// Tools at the beginning of their paths, which touch nothing yet.
+    pub(in super::super) fn new(surface: &'a ContactSurface, tools: &'a [RigidTool]) -> Self {
+        let none = Touch {
+            weights: Vec::new(),
+            area: 0.0,
+            pressure: 0.0,
+            traction: Vec3::zeros(),
+            normal: Vec3::zeros(),
+            from: None,
+        };
+        Self {
+            surface,
+            tools,
+            positions: tools.iter().map(|tool| tool.position(0.0)).collect(),
+            touches: vec![none; tools.len() * surface.corners.len()],
+        }
+    }
+
+    /// The same with all tools at this place of their paths.
+    pub(in super::super) fn moved(&self, along: f64) -> Self {
+        let positions = self.tools.iter().map(|tool| tool.position(along));
+        Self {
+            positions: positions.collect(),
+            ..self.clone()
+        }
+    }
+
+    /// How many parts the longest path of a tool has.
+    pub(in super::super) fn parts(&self) -> usize {
+        let paths = self.tools.iter().map(|tool| tool.path.len());
+        paths.max().unwrap_or(0).saturating_sub(1)
+    }
+
+    /// All corners, tool by tool.
+    fn each(&self) -> impl Iterator<Item = (usize, &'a ContactCorner, &Touch)> {
+        let count = self.surface.corners.len().max(1);
+        let touches = self.touches.chunks(count).enumerate();
+        touches.flat_map(|(tool, touches)| {
+            let corners = self.surface.corners.iter().zip(touches);
+            corners.map(move |(corner, touch)| (tool, corner, touch))
+        })
+    }
+
+    /// ε [Pa/m]; as stiff where a small part of the faces is under the tool as where all is.
+    fn penalty(model: &FiniteElementModel, corner: &ContactCorner, touch: &Touch) -> f64 {
+        let part = touch.area / corner.area;
+        PENALTY * model.shear_modulus / (corner.area.sqrt() * part.max(f64::MIN_POSITIVE))
+    }
+
+    fn evaluate(
+        &self,
+        model: &FiniteElementModel,
+        unknowns: &[f64],
+        tool: usize,
+        corner: &ContactCorner,
+        touch: &Touch,
+    ) -> Evaluated {
+        let places = corner.places(&model.mesh.nodes, unknowns);
+        let (tool, position) = (&self.tools[tool], &self.positions[tool]);
+        let weights = touch.weights.iter().copied().chain(std::iter::repeat(0.0));
+        let mut found = Evaluated {
+            gap: 0.0,
+            slopes: vec![Vec3::zeros(); places.len()],
+            shares: vec![0.0; places.len()],
+            mean: Vec3::zeros(),
+            normal: Vec3::zeros(),
+            distances: Vec::with_capacity(corner.points.len()),
+        };
+        for (point, weight) in corner.points.iter().zip(weights) {
+            let at = point.position(&places);
+            let beside = tool.beside(&at, position);
+            found.gap += weight * beside.distance;
+            found.mean += point.weight * at;
+            found.normal += weight * beside.normal;
+            for (&node, share) in point.nodes.iter().zip(point.shares) {
+                found.slopes[node] += weight * share * beside.normal;
+                found.shares[node] += point.weight * share;
+            }
+            found.distances.push(beside);
+        }
+        found
+    }
+
+    /// What acts at a corner, if anything.
+    fn forces(
+        &self,
+        penalty: f64,
+        tool: usize,
+        touch: &Touch,
+        found: &Evaluated,
+    ) -> Option<Forces> {
+        let pressure = touch.pressure - penalty * found.gap;
+        // What decides on friction stays the same until the next augmentation.
+        let rubs = touch.pressure > 0.0;
+        if touch.area == 0.0 || (pressure <= 0.0 && !rubs) {
+            return None;
+        }
+        let mut forces = Forces {
+            pressure: pressure.max(0.0),
+            traction: Vec3::zeros(),
+            stiffness: Matrix3::zeros(),
+            slips: false,
+        };
+        let most = match self.tools[tool].friction {
+            FrictionLaw::Frictionless => return Some(forces),
+            FrictionLaw::Bonded => f64::INFINITY,
+            FrictionLaw::Coulomb(coefficient) => coefficient * touch.pressure,
+        };
+        let Some(from) = touch.from.filter(|_| rubs) else {
+            return Some(forces);
+        };
+        let plane = Matrix3::identity() - touch.normal * touch.normal.transpose();
+        let slip = plane * (found.mean - self.positions[tool] - from);
+        let trial = touch.traction - penalty * slip;
+        let size = trial.norm();
+        if size <= most {
+            forces.traction = trial;
+            forces.stiffness = penalty * plane;
+        } else {
+            let along = trial / size;
+            forces.traction = most * along;
+            forces.stiffness = most / size * penalty * (plane - along * along.transpose());
+            forces.slips = true;
+        }
+        Some(forces)
+    }
+
+    /// Finds which parts of the boundary face the tools, with these displacements.
+    pub(in super::super) fn face(&mut self, model: &FiniteElementModel, unknowns: &[f64]) {
+        let each = self.each().map(|(tool, corner, touch)| {
+            let places = corner.places(&model.mesh.nodes, unknowns);
+            let (tool, position) = (&self.tools[tool], &self.positions[tool]);
+            let weights = corner.points.iter().map(|point| {
+                let beside = tool.beside(&point.position(&places), position);
+                match beside.normal.dot(&point.normal(&places)) <= -FACING {
+                    true => point.weight,
+                    false => 0.0,
+                }
+            });
+            let mut weights: Vec<f64> = weights.collect();
+            let part: f64 = weights.iter().sum();
+            if part > 0.0 {
+                weights.iter_mut().for_each(|weight| *weight /= part);
+            } else {
+                weights.clear();
+            }
+            Touch {
+                weights,
+                area: part * corner.area,
+                ..touch.clone()
+            }
+        });
+        let touches = each.collect();
+        self.touches = touches;
+    }
+
+    /// Adds the forces on the nodes, `factor` times, to `out` [N].
+    pub(in super::super) fn add_forces(
+        &self,
+        model: &FiniteElementModel,
+        unknowns: &[f64],
+        factor: f64,
+        out: &mut [f64],
+    ) {
+        for (tool, corner, touch) in self.each() {
+            let found = self.evaluate(model, unknowns, tool, corner, touch);
+            if let Some(forces) =
+                self.forces(Self::penalty(model, corner, touch), tool, touch, &found)
+            {
+                add_forces(corner, touch.area, &found, &forces, factor, out);
+            }
+        }
+    }
+
+    /// Adds the forces with the sign of a residual, and the tangent, which is exact and symmetric.
+    pub(in super::super) fn assemble(
+        &self,
+        model: &FiniteElementModel,
+        unknowns: &[f64],
+        residual: &mut [f64],
+        tangent: &mut [f64],
+    ) {
+        for (tool, corner, touch) in self.each() {
+            let found = self.evaluate(model, unknowns, tool, corner, touch);
+            let penalty = Self::penalty(model, corner, touch);
+            let Some(forces) = self.forces(penalty, tool, touch, &found) else {
+                continue;
+            };
+            add_forces(corner, touch.area, &found, &forces, -1.0, residual);
+            let count = corner.nodes.len();
+            let stiffness = if forces.pressure > 0.0 { penalty } else { 0.0 };
+            let mut blocks = vec![Matrix3::zeros(); count * count];
+            for (a, b) in (0..count).flat_map(|a| (0..count).map(move |b| (a, b))) {
+                blocks[a * count + b] = touch.area
+                    * (stiffness * found.slopes[a] * found.slopes[b].transpose()
+                        + found.shares[a] * found.shares[b] * forces.stiffness);
+            }
+            let weighted = corner.points.iter().zip(&touch.weights);
+            for ((point, weight), beside) in weighted.zip(&found.distances) {
+                let bend = -touch.area * forces.pressure * *weight * beside.curvature;
+                for (&a, share) in point.nodes.iter().zip(point.shares) {
+                    for (&b, other) in point.nodes.iter().zip(point.shares) {
+                        blocks[a * count + b] += share * other * bend;
+                    }
+                }
+            }
+            for (a, b) in (0..count).flat_map(|a| (0..count).map(move |b| (a, b))) {
+                let block = &blocks[a * count + b];
+                for (i, k) in (0..3).flat_map(|i| (0..3).map(move |k| (i, k))) {
+                    let row = 3 * corner.nodes[a] as usize + i;
+                    let column = 3 * corner.nodes[b] as usize + k;
+                    if row >= column {
+                        tangent[model.pattern.index(row, column)] += block[(i, k)];
+                    }
+                }
+            }
+        }
+    }
+
+    /// Puts the pressures and tractions of an equilibrium in the places of the multipliers. The sum of all changes over the
+    /// sum of the pressures [-], both weighted by area.
+    pub(in super::super) fn augment(
+        &mut self,
+        model: &FiniteElementModel,
+        unknowns: &[f64],
+    ) -> f64 {
+        let (mut changes, mut pressures) = (0.0, 0.0);
+        let each = self.each().map(|(tool, corner, touch)| {
+            let found = self.evaluate(model, unknowns, tool, corner, touch);
+            let forces = self.forces(Self::penalty(model, corner, touch), tool, touch, &found);
+            let (pressure, mut traction) =
+                forces.map_or((0.0, Vec3::zeros()), |own| (own.pressure, own.traction));
+            let normal = found.normal.try_normalize(0.0).unwrap_or(touch.normal);
+            let change = (pressure - touch.pressure).abs() + (traction - touch.traction).norm();
+            changes += touch.area * change;
+            pressures += touch.area * pressure;
+            traction -= traction.dot(&normal) * normal;
+            Touch {
+                pressure,
+                traction,
+                normal,
+                ..touch.clone()
+            }
+        });
+        let touches = each.collect();
+        self.touches = touches;
+        if changes == 0.0 {
+            0.0
+        } else {
+            changes / pressures
+        }
+    }
+
+    /// Notes where tissue touches: from there it slips in the next increment. Call it after [`Self::augment`].
+    pub(in super::super) fn close_increment(
+        &mut self,
+        model: &FiniteElementModel,
+        unknowns: &[f64],
+    ) {
+        let each = self.each().map(|(tool, corner, touch)| {
+            let found = self.evaluate(model, unknowns, tool, corner, touch);
+            // What just touches without a pressure sticks from the beginning.
+            let touches = found.gap <= 1e-9 * corner.area.sqrt();
+            Touch {
+                from: (touch.pressure > 0.0 || touches).then(|| found.mean - self.positions[tool]),
+                normal: found.normal.try_normalize(0.0).unwrap_or(touch.normal),
+                ..touch.clone()
+            }
+        });
+        let touches = each.collect();
+        self.touches = touches;
+    }
+
+    /// What each tool feels.
+    pub(in super::super) fn loads(
+        &self,
+        model: &FiniteElementModel,
+        unknowns: &[f64],
+    ) -> Vec<ToolLoad> {
+        let start = self.positions.iter().map(|&position| ToolLoad {
+            position,
+            ..ToolLoad::default()
+        });
+        let mut loads: Vec<ToolLoad> = start.collect();
+        for (tool, corner, touch) in self.each() {
+            let found = self.evaluate(model, unknowns, tool, corner, touch);
+            let Some(forces) =
+                self.forces(Self::penalty(model, corner, touch), tool, touch, &found)
+            else {
+                continue;
+            };
+            let places = corner.places(&model.mesh.nodes, unknowns);
+            let load = &mut loads[tool];
+            load.area += touch.area;
+            load.normal_force += touch.area * forces.pressure;
+            if forces.slips {
+                load.slipping_area += touch.area;
+            }
+            let weighted = corner.points.iter().zip(&touch.weights);
+            for ((point, weight), beside) in weighted.zip(&found.distances) {
+                let on_tissue = touch.area
+                    * (*weight * forces.pressure * beside.normal + point.weight * forces.traction);
+                load.force -= on_tissue;
+                load.moment -= (point.position(&places) - load.position).cross(&on_tissue);
+            }
+        }
+        loads
+    }
+
+    /// The pressure at each corner of the surface, of all tools [Pa].
+    pub(in super::super) fn pressures(&self) -> Vec<f64> {
+        let count = self.surface.corners.len();
+        let mut pressures = vec![0.0; count];
+        for (touch, place) in self.touches.iter().zip((0..count).cycle()) {
+            pressures[place] += touch.pressure;
+        }
+        pressures
+    }
+}
+
+fn add_forces(
+    corner: &ContactCorner,
+    area: f64,
+    found: &Evaluated,
+    forces: &Forces,
+    factor: f64,
+    out: &mut [f64],
+) {
+    let slopes = found.slopes.iter().zip(&found.shares);
+    for (&node, (slope, share)) in corner.nodes.iter().zip(slopes) {
+        let force = factor * area * (forces.pressure * slope + *share * forces.traction);
+        for axis in 0..3 {
+            out[3 * node as usize + axis] += force[axis];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use nalgebra::Rotation3;
+    use palpate_geometry::TetrahedronMesh;
+
+    use super::super::super::mesh::ElementMesh;
+    use super::super::super::model::{FiniteElementWorkspace, Formulation};
+    use super::super::super::solid::faces;
+    use super::super::shape::RigidShape;
+    use super::*;
+    use crate::NeoHookean;
+
+    /// Judge: central differences, of corners that stick, that slip and that have just come in.
+    #[test]
+    fn the_tangent_is_the_derivative_of_the_forces() {
+        let mesh = TetrahedronMesh::block(Vec3::zeros(), Vec3::repeat(1.0), [2; 3]).unwrap();
+        let elements = ElementMesh::from_tetrahedra(&mesh);
+        let sides = faces(&mesh);
+        let top = |node: usize| mesh.vertices()[node].z > 0.99;
+        let sides = sides.iter().map(|face| face.nodes);
+        let surface = ContactSurface::new(sides, &elements.nodes, top);
+        let law = Arc::new(NeoHookean::compressible(1.0, 4.0).unwrap());
+        let model = FiniteElementModel::new(elements, law, Formulation::Mixed)
+            .unwrap()
+            .with_couplings(Vec::new(), surface.couplings())
+            .unwrap();
+        let tools = [RigidTool {
+            shape: RigidShape::Sphere { radius: 1.0 },
+            orientation: Rotation3::identity(),
+            friction: FrictionLaw::Coulomb(0.4),
+            path: vec![Vec3::new(0.4, 0.6, 2.01), Vec3::new(0.43, 0.6, 1.9)],
+        }];
+        let moved = |scale: f64, shift: f64| -> Vec<f64> {
+            let each = 0..model.size();
+            each.map(|i| scale * (1.7 * i as f64 + shift).sin())
+                .collect()
+        };
+        let mut contacts = Contacts::new(&surface, &tools);
+        let start = moved(0.002, 0.0);
+        contacts.face(&model, &start);
+        contacts.close_increment(&model, &start);
+        contacts = contacts.moved(1.0);
+        contacts.augment(&model, &start);
+        contacts.close_increment(&model, &start);
+        for touch in contacts.touches.iter_mut().step_by(2) {
+            touch.pressure *= 40.0;
+        }
+        let at = moved(0.004, 0.3);
+        let mut workspace = FiniteElementWorkspace::new(&model).unwrap();
+        let forces = |unknowns: &[f64]| {
+            let mut out = vec![0.0; model.size()];
+            contacts.add_forces(&model, unknowns, -1.0, &mut out);
+            out
+        };
+        let (residual, tangent) = (&mut workspace.residual, &mut workspace.tangent);
+        contacts.assemble(&model, &at, residual, tangent);
+        let each = contacts.each().filter_map(|(tool, corner, touch)| {
+            let found = contacts.evaluate(&model, &at, tool, corner, touch);
+            contacts.forces(
+                Contacts::penalty(&model, corner, touch),
+                tool,
+                touch,
+                &found,
+            )
+        });
+        let slips: Vec<bool> = each.map(|forces| forces.slips).collect();
+        assert!(slips.contains(&true) && slips.contains(&false), "{slips:?}");
+        let direction = moved(1.0, 1.1);
+        let mut product = vec![0.0; model.size()];
+        model.pattern.multiply(tangent, &direction, &mut product);
+        let step = 1e-6;
+        let [up, down] = [step, -step].map(|by| {
+            let moved: Vec<f64> = at.iter().zip(&direction).map(|(x, d)| x + by * d).collect();
+            forces(&moved)
+        });
+        let size = product.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let each = up.iter().zip(&down).zip(&product);
+        let off = each.map(|((up, down), product)| ((up - down) / (2.0 * step) - product).powi(2));
+        let off = off.sum::<f64>().sqrt();
+        println!("{off} of {size}");
+        assert!(off < 1e-7 * size, "{off} of {size}");
+    }
+}
