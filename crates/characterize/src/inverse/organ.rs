@@ -111,6 +111,7 @@ impl Organ {
             fibres: None,
             regions: Vec::new(),
             loads: Loads::default(),
+            tools: Vec::new(),
             points: Vec::new(),
         };
         let corner = Vec3::repeat(half);

@@ -257,6 +257,7 @@ fn real_kidney_returns_its_tissue() {
             fibres: None,
             regions: Vec::new(),
             loads: Loads::default(),
+            tools: Vec::new(),
             points: Vec::new(),
         };
         solve(&problem, 0.05, &mut |_| ())

@@ -293,6 +293,8 @@ impl FiniteElementState {
 #[derive(Debug)]
 pub struct FiniteElementWorkspace {
     pub(crate) factors: Factors,
+    /// The largest size of forces in contact so far [J], beside which a body that is left is at rest.
+    pub(super) largest_held: f64,
     /// Whether the factors are good for a further solution, though the tangent has changed since.
     pub(super) factors_serve: bool,
     /// The tangent, lower triangle, as assembled.
@@ -334,6 +336,7 @@ impl FiniteElementWorkspace {
             .map_err(|_| Error::NoMemoryForFactors { unknowns: size })?;
         Ok(Self {
             factors,
+            largest_held: 0.0,
             factors_serve: false,
             tangent: vec![0.0; entries],
             supported: vec![0.0; entries],

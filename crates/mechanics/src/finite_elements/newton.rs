@@ -65,6 +65,8 @@ impl SolverControls {
 
 /// Shortest part of a step that is tried when an element turns inside out on its way [-].
 const SHORTEST_BEFORE_INVERSION: f64 = 1.0 / 16.0;
+/// Forces of tools below this part of the largest so far are as good as none [-].
+const LEFT: f64 = 1e-3;
 /// Factors serve again while η falls to this part in a step [-].
 const FAST: f64 = 0.01;
 /// What rounding leaves of a sum [-], in its terms.
@@ -99,7 +101,11 @@ pub(super) fn correct(
     let mut last: Option<f64> = None;
     loop {
         let gap = prescribe(model, supports, &state.unknowns, workspace);
-        let size = size_of_residual(model, supports, workspace);
+        let mut size = size_of_residual(model, supports, workspace);
+        if supports.contacts.is_some() {
+            workspace.largest_held = size.held.max(workspace.largest_held);
+            size.held = size.held.max(LEFT * LEFT * workspace.largest_held);
+        }
         if let Some(last) = last {
             workspace.factors_serve = size.free <= FAST * FAST * last;
         }

@@ -173,6 +173,7 @@ fn organ(rows: &Rows<'_>, simulation: &Simulation) -> Result<SolidOrgan, Error> 
         regions: Vec::new(),
         fibres: None,
         loads: Loads::default(),
+        tools: Vec::new(),
         points: Vec::new(),
     };
     let found = solve(&problem, ACCURACY, &mut rows.meshes("organ, "))?;

@@ -62,6 +62,7 @@ fn real_liver_of_20000_triangles() {
             regions: Vec::new(),
             fibres: None,
             loads: Loads::default(),
+            tools: Vec::new(),
             points: Vec::new(),
         };
         let judge = solve(&problem, 0.03, &mut |_| ()).unwrap();

@@ -195,6 +195,7 @@ fn a_pulled_hemisphere_is_that_of_finite_elements() {
             regions: Vec::new(),
             fibres: None,
             loads: Loads::default(),
+            tools: Vec::new(),
             points: Vec::new(),
         };
         let expected = solve_at(&problem, 0, &mut |_| {}).unwrap().force;

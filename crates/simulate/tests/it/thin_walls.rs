@@ -143,6 +143,7 @@ fn the_esophagus_is_that_of_finite_elements() {
         regions: Vec::new(),
         fibres: None,
         loads: Loads::default(),
+        tools: Vec::new(),
         points: Vec::new(),
     };
     let solid = solve(&solid, 0.03, &mut |_| ()).unwrap();

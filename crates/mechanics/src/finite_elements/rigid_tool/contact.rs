@@ -31,9 +31,15 @@ pub(in super::super) struct Contacts<'a> {
     touches: Vec<Touch>,
 }
 
-/// Least cosine between the inward normals of a face and of the tool's surface where the tool can press the face [-]. Beyond a
-/// sharp edge tissue is near the tool, and is not under it.
-const FACING: f64 = 0.5;
+/// The penalty on slip in that on distance [-]. Newton's method finds from sticking to slipping more easily where it is softer.
+const TANGENTIAL: f64 = 0.05;
+
+/// Of the force that makes tissue slip, the part from which it counts as slipping [-].
+const SLIPPING: f64 = 0.999;
+
+/// Cosines between the inward normals of a face and of the tool's surface up to which the tool does not press the face, and from
+/// which it does [-]. Beyond a sharp edge tissue is near the tool, and is not under it.
+const FACING: [f64; 2] = [0.3, 0.7];
 
 /// A corner of the boundary at a tool.
 #[derive(Debug, Clone, PartialEq)]
@@ -207,12 +213,14 @@ impl<'a> Contacts<'a> {
             return Some(forces);
         };
         let plane = Matrix3::identity() - touch.normal * touch.normal.transpose();
+        let penalty = penalty * TANGENTIAL;
         let slip = plane * (found.mean - self.positions[tool] - from);
         let trial = touch.traction - penalty * slip;
         let size = trial.norm();
         if size <= most {
             forces.traction = trial;
             forces.stiffness = penalty * plane;
+            forces.slips = size > SLIPPING * most;
         } else {
             let along = trial / size;
             forces.traction = most * along;
@@ -229,10 +237,9 @@ impl<'a> Contacts<'a> {
             let (tool, position) = (&self.tools[tool], &self.positions[tool]);
             let weights = corner.points.iter().map(|point| {
                 let beside = tool.beside(&point.position(&places), position);
-                match beside.normal.dot(&point.normal(&places)) <= -FACING {
-                    true => point.weight,
-                    false => 0.0,
-                }
+                let cosine = -beside.normal.dot(&point.normal(&places));
+                let part = ((cosine - FACING[0]) / (FACING[1] - FACING[0])).clamp(0.0, 1.0);
+                point.weight * part * part * (3.0 - 2.0 * part)
             });
             let mut weights: Vec<f64> = weights.collect();
             let part: f64 = weights.iter().sum();

@@ -39,7 +39,7 @@ const CONTACT_TOLERANCE: f64 = 1e-5;
 const MOST_AUGMENTATIONS: usize = 40;
 
 /// After so many of them what faces a tool stays the same.
-const FACED: usize = 3;
+const FACED: usize = 1;
 
 /// A solid in equilibrium.
 pub(super) struct Solved<'a> {

@@ -66,6 +66,7 @@ pub(crate) fn solution(
             }),
             on_surface: case.loads.iter().map(|load| load.load.clone()).collect(),
         },
+        tools: Vec::new(),
         points: places,
     };
     let solved = |mechanical: &SolidProblem| {
