@@ -10,6 +10,6 @@ pub use answer::Answer;
 pub use problem::Problem;
 pub use solution::{
     Displacements, Figures, FrictionFigures, PatchFigures, PointFigures, Profile, SolidFigures,
-    Solution, TubeFigures, Wanted, solve,
+    Solution, ToolFigures, TubeFigures, Wanted, solve,
 };
 pub use table::in_words;

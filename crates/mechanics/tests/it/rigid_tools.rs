@@ -217,10 +217,7 @@ fn jaws_hold_and_pull() {
         tool(bar, grip, &closing(-0.001, -7e-4)),
         tool(bar, grip, &closing(0.011, 0.0107)),
     ];
-    let answer = at(
-        &small_cube(neo_hookean(), tools),
-        -1,
-    );
+    let answer = at(&small_cube(neo_hookean(), tools), -1);
     let loads = *answer.waypoints().last().unwrap();
     println!("{loads:?}");
     let force: Vec3 = loads.iter().map(|load| load.force).sum();

@@ -7,6 +7,7 @@ mod hemisphere;
 mod indentation;
 mod regions;
 mod solid;
+mod tools;
 mod tube;
 mod uniaxial;
 

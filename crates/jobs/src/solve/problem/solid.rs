@@ -10,6 +10,7 @@ use palpate_mechanics::finite_elements::solid::{LoadPlace, SurfaceLoad};
 
 use super::fibres::Fibres;
 use super::regions::{self, SolidPart};
+use super::tools::Tool;
 use super::{BOND_MEANINGS, BONDS, required_table};
 use crate::Error as JobError;
 
@@ -22,6 +23,7 @@ pub(crate) struct Solid {
     /// Where the fibres of the tissue point to, if it has any.
     pub(crate) fibres: Option<Box<Fibres>>,
     pub(crate) patch: Option<Patch>,
+    pub(crate) tools: Vec<Tool>,
     /// [m/s²]
     pub(crate) gravity: Option<Vec3>,
     pub(crate) loads: Vec<Load>,
@@ -94,10 +96,17 @@ impl Solid {
         Key::table(
             "patch",
             Patch::KEYS,
-            "The part of the surface that is moved. A patch, gravity or a load has to be there.",
+            "The part of the surface that is moved. A patch, a tool, gravity or a load has to be there.",
         )
         .optional("", "nothing is moved")
         .in_template(),
+        Key::tables(
+            "tool",
+            Tool::KEYS,
+            "Rigid tools that press the body where they meet it, and are dragged along it. They move when gravity, loads and \
+             the patch have come to their full size.",
+        )
+        .optional("", "none"),
         Key::vector(
             "gravity_m_per_s2",
             Domain::ACCELERATION,
@@ -149,6 +158,9 @@ impl Solid {
             return Err(keys.bad("gravity_m_per_s2", expected).into());
         }
         let loads = keys.tables("load")?;
+        let tools = keys.tables("tool")?;
+        let tools = tools.iter().enumerate();
+        let tools = tools.map(|(number, keys)| Tool::from_keys(keys, number));
         let named = keys.tables("point")?;
         let points = named.iter().enumerate();
         let points = points.map(|(number, keys)| Point::from_keys(keys, number));
@@ -160,6 +172,7 @@ impl Solid {
             anchor,
             fibres: Fibres::from_keys(keys, folder)?.map(Box::new),
             patch: patch.map(|keys| Patch::from_keys(&keys)).transpose()?,
+            tools: tools.collect::<Result<_, _>>()?,
             gravity,
             loads: loads
                 .iter()
@@ -170,11 +183,12 @@ impl Solid {
             fits,
         };
         let is_loaded = solid.gravity.is_some() || !solid.loads.is_empty();
-        if solid.patch.is_none() && !is_loaded && !solid.parts.iter().any(SolidPart::presses) {
+        let is_moved = solid.patch.is_some() || !solid.tools.is_empty();
+        if !is_moved && !is_loaded && !solid.parts.iter().any(SolidPart::presses) {
             return Err(keys.missing(
                 "patch",
                 "what moves or loads the body: `patch = { center_m = [0.0, 0.0, 0.05], radius_m = 0.003, \
-                 displacement_m = [0.0, 0.0, -0.001] }`, `gravity_m_per_s2 = [0.0, 0.0, -9.81]`, a `[[load]]` or the \
+                 displacement_m = [0.0, 0.0, -0.001] }`, a `[[tool]]`, `gravity_m_per_s2 = [0.0, 0.0, -9.81]`, a `[[load]]` or the \
                  pressure of a `cavity`",
             )
             .into());
@@ -188,9 +202,9 @@ impl Solid {
     /// Whether there is something to fit the stiffness to.
     fn can_fit(&self, keys: &Keys<'_>) -> Result<(), Error> {
         let measured = self.points.iter().filter_map(|point| point.measured);
-        if self.patch.is_some() {
+        if self.patch.is_some() || !self.tools.is_empty() {
             let expected =
-                "false with a patch, whose displacement does not depend on the stiffness";
+                "false with a patch or a tool, whose displacement does not depend on the stiffness";
             return Err(keys.bad("fit_stiffness", expected));
         }
         if measured.map(|(_, way)| way.abs()).sum::<f64>() == 0.0 {

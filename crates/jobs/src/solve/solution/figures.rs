@@ -69,7 +69,11 @@ impl Figures {
             Self::Solid(solid) => {
                 let points = solid.points.iter();
                 let force = solid.patch.as_ref().map_or([0.0; 3], |patch| patch.force_n);
+                let tools = solid.tools.iter();
                 all(&[&force, &solid.reaction_n])
+                    && tools
+                        .flat_map(|tool| tool.force_n.iter().flatten())
+                        .all(|x| x.is_finite())
                     && points
                         .flat_map(|point| point.displacement_m)
                         .all(f64::is_finite)
@@ -126,6 +130,9 @@ pub struct SolidFigures {
     pub displacement_m: Option<Displacements>,
     /// On the tissue where it is held [N].
     pub reaction_n: [f64; 3],
+    /// What each tool, or each of its jaws, feels at the places of its path.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub tools: Vec<ToolFigures>,
     /// Displacements that were asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub points: Vec<PointFigures>,
@@ -165,6 +172,25 @@ pub struct CavityFigures {
     pub volume_at_rest_m3: f64,
     /// The same in the deformed body [m³].
     pub volume_m3: f64,
+}
+
+/// The figures of a rigid tool, or of one of its jaws, at each place of its path.
+#[derive(Debug, Clone, Serialize)]
+pub struct ToolFigures {
+    /// Its name.
+    pub name: String,
+    /// Where it is [m].
+    pub position_m: Vec<[f64; 3]>,
+    /// On the tool [N].
+    pub force_n: Vec<[f64; 3]>,
+    /// On the tool, about its position [N m].
+    pub moment_n_m: Vec<[f64; 3]>,
+    /// Normal to the tool's surface, summed over the contact [N].
+    pub normal_force_n: Vec<f64>,
+    /// The part of the surface at rest that touches it [m²].
+    pub contact_area_m2: Vec<f64>,
+    /// What of that slips [m²].
+    pub slipping_area_m2: Vec<f64>,
 }
 
 /// The figures of a patch that is moved.

@@ -13,7 +13,7 @@ mod warnings;
 
 pub use figures::{
     Displacements, Figures, FrictionFigures, PatchFigures, PointFigures, Profile, SolidFigures,
-    TubeFigures,
+    ToolFigures, TubeFigures,
 };
 
 use std::time::Instant;

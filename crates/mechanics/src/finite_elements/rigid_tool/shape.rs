@@ -73,7 +73,7 @@ pub(in super::super) struct RigidDistance {
 
 impl RigidShape {
     /// Whether its numbers are those of a shape.
-    pub(in super::super) fn exists(&self) -> bool {
+    pub fn exists(&self) -> bool {
         let rounds = |edge: f64, half: f64| edge >= 0.0 && edge < half;
         match *self {
             Self::Sphere { radius } => radius > 0.0 && radius.is_finite(),

@@ -35,18 +35,20 @@ pub(super) fn grid(fields: &SolidFields) -> Vec<u8> {
             FieldValues::Vectors(&fields.fibre_axes),
         ));
     }
-    unstructured_grid(
-        &fields.positions,
-        &cells,
-        &[
-            field(
-                "displacement_m",
-                FieldValues::Vectors(&fields.displacements),
-            ),
-            field("mean_stress_pa", FieldValues::Scalars(&fields.pressures)),
-        ],
-        &in_cells,
-    )
+    let mut at_nodes = vec![
+        field(
+            "displacement_m",
+            FieldValues::Vectors(&fields.displacements),
+        ),
+        field("mean_stress_pa", FieldValues::Scalars(&fields.pressures)),
+    ];
+    if !fields.contact_pressures.is_empty() {
+        at_nodes.push(field(
+            "contact_pressure_pa",
+            FieldValues::Scalars(&fields.contact_pressures),
+        ));
+    }
+    unstructured_grid(&fields.positions, &cells, &at_nodes, &in_cells)
 }
 
 /// How far the surface moves: by its distance from the patch, or along the longest axis where there is none.

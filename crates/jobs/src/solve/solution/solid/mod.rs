@@ -1,6 +1,7 @@
 mod fields;
 mod points;
 mod regions;
+mod tools;
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -66,7 +67,11 @@ pub(crate) fn solution(
             }),
             on_surface: case.loads.iter().map(|load| load.load.clone()).collect(),
         },
-        tools: Vec::new(),
+        tools: case
+            .tools
+            .iter()
+            .flat_map(|tool| tool.bodies.clone())
+            .collect(),
         points: places,
     };
     let solved = |mechanical: &SolidProblem| {
@@ -117,7 +122,17 @@ pub(crate) fn solution(
     }
     let answer = found.answer;
     warnings.extend(found.warnings);
-    warnings.extend(answer.warnings);
+    warnings.extend(answer.warnings.iter().cloned());
+    let turned = answer.fields.displacements.iter().map(Vec3::norm);
+    let farthest = turned.fold(0.0, f64::max);
+    let (low, high) = mechanical.body.bounds();
+    if patch.is_none() && problem.is_small_strain() && farthest > LARGE_WAY * (high - low).max() {
+        warnings.push(format!(
+            "the linear law is for small strain and small rotation, but the body moves by {:.3} of its length; a \
+             hyperelastic law follows large ones",
+            farthest / (high - low).max()
+        ));
+    }
     let mut tables = Vec::new();
     if let Some(patch) = patch {
         let length = patch.displacement.norm();
@@ -130,17 +145,7 @@ pub(crate) fn solution(
             .with("y [mN]", [1e3 * on_tool.y])
             .with("z [mN]", [1e3 * on_tool.z]);
         tables.push(table);
-    } else {
-        let turned = answer.fields.displacements.iter().map(Vec3::norm);
-        let farthest = turned.fold(0.0, f64::max);
-        let (low, high) = mechanical.body.bounds();
-        if problem.is_small_strain() && farthest > LARGE_WAY * (high - low).max() {
-            warnings.push(format!(
-                "the linear law is for small strain and small rotation, but the body moves by {:.3} of its length; a \
-                 hyperelastic law follows large ones",
-                farthest / (high - low).max()
-            ));
-        }
+    } else if case.tools.is_empty() {
         let reaction = answer.reaction;
         let table = Table::default()
             .with("largest displacement [mm]", [1e3 * farthest])
@@ -148,6 +153,11 @@ pub(crate) fn solution(
             .with("y [mN]", [1e3 * reaction.y])
             .with("z [mN]", [1e3 * reaction.z]);
         tables.push(table);
+    }
+    let tools = tools::figures(case, &answer);
+    if !tools.is_empty() {
+        tables.push(tools::table(&tools));
+        warnings.extend(tools::warnings(&tools));
     }
     let points = points::figures(case, &mechanical.points, &answer.points);
     if !points.is_empty() {
@@ -193,7 +203,10 @@ pub(crate) fn solution(
     Ok(Solution {
         heading: heading(case),
         tables,
-        plot: fields::around_patch(case, &answer.fields),
+        plot: match case.tools.is_empty() {
+            true => fields::around_patch(case, &answer.fields),
+            false => tools::along_paths(case, &answer),
+        },
         figures: Figures::Solid(SolidFigures {
             patch: patch.map(|patch| PatchFigures {
                 force_n: (-answer.force).into(),
@@ -202,6 +215,7 @@ pub(crate) fn solution(
             }),
             displacement_m: Displacements::of(case, &points),
             reaction_n: answer.reaction.into(),
+            tools,
             points,
             regions,
             cavities,
