@@ -3,8 +3,8 @@
 //!
 //! *How we know*: `dicom::…`, on files that another library wrote.
 //!
-//! *Limits*: pixels that are uncompressed or compressed by run lengths; frames that lie on one lattice. Images are
-//! listed, not read: a segmentation has a geometry of its own.
+//! *Limits*: pixels that are uncompressed, or compressed by run lengths, lossless JPEG, JPEG 2000 or deflate, but not by
+//! JPEG-LS; frames that lie on one lattice. Images are listed, not read: a segmentation has a geometry of its own.
 
 mod folder;
 mod frames;
@@ -17,6 +17,7 @@ use std::path::{Path, PathBuf};
 
 use dicom_dictionary_std::uids;
 use dicom_object::{FileDicomObject, FileMetaTable, InMemDicomObject, OpenFileOptions, Tag};
+use flate2::read::DeflateDecoder;
 
 pub use folder::{DicomFolder, DicomSeries, read_dicom_folder};
 
@@ -53,7 +54,8 @@ pub(super) fn read_segmentation(bytes: &[u8]) -> Result<LabelMap, ReadFault> {
     segmentation::label_map(&object)
 }
 
-/// The object in a file.
+/// The object in a file. A deflated data set [DICOM PS3.5, A.5] is decompressed, up to as many bytes as a file
+/// may have, and its transfer syntax is then that of the decompressed data.
 fn read_object(
     mut file: impl Read + Seek,
     options: OpenFileOptions,
@@ -63,16 +65,34 @@ fn read_object(
     check_lengths(&mut file, META_BEGIN..meta_end.min(end), Encoding::Explicit)?;
     file.seek(SeekFrom::Start(PREAMBLE as u64))
         .map_err(ReadFault::Unreadable)?;
-    let meta = FileMetaTable::from_reader(&mut file).map_err(invalid)?;
-    let encoding = match meta.transfer_syntax() {
-        uids::IMPLICIT_VR_LITTLE_ENDIAN => Encoding::Implicit,
-        BIG_ENDIAN => Encoding::BigEndian,
-        _ => Encoding::Explicit,
+    let mut meta = FileMetaTable::from_reader(&mut file).map_err(invalid)?;
+    let object = match meta.transfer_syntax() {
+        uids::DEFLATED_EXPLICIT_VR_LITTLE_ENDIAN => {
+            meta.transfer_syntax = uids::EXPLICIT_VR_LITTLE_ENDIAN.to_owned();
+            meta.update_information_group_length();
+            let mut header = MAGIC.to_vec();
+            meta.write(&mut header).map_err(invalid)?;
+            let data = inflated(file)?;
+            check_lengths(
+                &mut Cursor::new(&data),
+                0..data.len() as u64,
+                Encoding::Explicit,
+            )?;
+            options.from_reader(Cursor::new(header).chain(Cursor::new(data)))
+        }
+        syntax => {
+            let encoding = match syntax {
+                uids::IMPLICIT_VR_LITTLE_ENDIAN => Encoding::Implicit,
+                BIG_ENDIAN => Encoding::BigEndian,
+                _ => Encoding::Explicit,
+            };
+            let begin = file.stream_position().map_err(ReadFault::Unreadable)?;
+            check_lengths(&mut file, begin..end, encoding)?;
+            file.rewind().map_err(ReadFault::Unreadable)?;
+            options.from_reader(file)
+        }
     };
-    let begin = file.stream_position().map_err(ReadFault::Unreadable)?;
-    check_lengths(&mut file, begin..end, encoding)?;
-    file.rewind().map_err(ReadFault::Unreadable)?;
-    options.from_reader(file).map_err(invalid)
+    object.map_err(invalid)
 }
 
 /// Where the elements before the data set end, as the first of them says; where they begin if the file is too short.
@@ -86,6 +106,22 @@ fn meta_end(file: &mut (impl Read + Seek)) -> io::Result<u64> {
         }
         Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => Ok(META_BEGIN),
         Err(error) => Err(error),
+    }
+}
+
+fn inflated(file: impl Read) -> Result<Vec<u8>, ReadFault> {
+    let mut data = Vec::new();
+    let mut stream = DeflateDecoder::new(file).take(MOST_BYTES + 1);
+    stream
+        .read_to_end(&mut data)
+        .map_err(ReadFault::BadCompression)?;
+    match data.len() as u64 {
+        found if found > MOST_BYTES => Err(ReadFault::TooLarge {
+            what: "bytes",
+            found,
+            most: MOST_BYTES,
+        }),
+        _ => Ok(data),
     }
 }
 
