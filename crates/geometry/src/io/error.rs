@@ -281,6 +281,16 @@ pub enum ReadFault {
     /// Compressed bytes that cannot be unpacked.
     #[error("the compressed part is damaged ({0}); copy or save the file again")]
     BadCompression(std::io::Error),
+    /// A compressed frame of a DICOM file that cannot be decompressed.
+    #[error(
+        "frame {frame} of the compressed pixels is invalid ({cause}); copy or export the file again, or decompress it with `gdcmconv --raw IN OUT` for instance"
+    )]
+    BadFrame {
+        /// Number of the frame in the file, from one.
+        frame: usize,
+        /// By the decoder.
+        cause: String,
+    },
     /// A DICOM file that breaks its standard.
     #[error("the DICOM data cannot be read ({cause}); copy or export the file again")]
     Dicom {
@@ -367,6 +377,7 @@ impl ReadFault {
             | Self::UnknownMapExtension { .. }
             | Self::BadHeader { .. }
             | Self::BadCompression(_)
+            | Self::BadFrame { .. }
             | Self::Dicom { .. }
             | Self::NotASegmentation { .. }
             | Self::NotOneSegmentation { .. }

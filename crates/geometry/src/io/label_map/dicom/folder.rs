@@ -1,12 +1,12 @@
 use std::collections::BTreeMap;
 use std::fs::{self, File};
-use std::io::Read;
+use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use dicom_dictionary_std::tags;
-use dicom_object::OpenFileOptions;
+use dicom_object::{FileDicomObject, InMemDicomObject, OpenFileOptions};
 
-use super::{MAGIC, PREAMBLE, Values, is_dicom};
+use super::{MAGIC, PREAMBLE, Values, is_dicom, read_object};
 use crate::{ReadError, ReadFault, Vec3};
 
 /// Files that are looked at, at most.
@@ -71,12 +71,7 @@ pub(super) fn read_here(path: &Path) -> Result<DicomFolder, ReadFault> {
     // By the identifier of the series, which says nothing of a person.
     let mut series: BTreeMap<String, SeriesImages> = BTreeMap::new();
     for file in files {
-        let object = has_magic(&file).then(|| {
-            OpenFileOptions::new()
-                .read_until(tags::PIXEL_DATA)
-                .open_file(&file)
-        });
-        let Some(Ok(object)) = object else {
+        let Some(object) = header(&file) else {
             found.others += 1;
             continue;
         };
@@ -129,10 +124,15 @@ fn collect(folder: &Path, deeper: usize, files: &mut Vec<PathBuf>) -> Result<(),
     Ok(())
 }
 
-fn has_magic(file: &Path) -> bool {
+/// What a DICOM file has before its pixels; none if it is another or a damaged file.
+fn header(file: &Path) -> Option<FileDicomObject<InMemDicomObject>> {
+    let mut file = BufReader::new(File::open(file).ok()?);
     let mut bytes = [0; PREAMBLE + MAGIC.len()];
-    let read = File::open(file).and_then(|mut file| file.read_exact(&mut bytes));
-    read.is_ok() && is_dicom(&bytes)
+    file.read_exact(&mut bytes).ok()?;
+    let options = OpenFileOptions::new().read_until(tags::PIXEL_DATA);
+    is_dicom(&bytes)
+        .then(|| read_object(file, options).ok())
+        .flatten()
 }
 
 impl SeriesImages {

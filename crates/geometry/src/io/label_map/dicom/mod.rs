@@ -3,21 +3,25 @@
 //!
 //! *How we know*: `dicom::…`, on files that another library wrote.
 //!
-//! *Limits*: pixels that are uncompressed or compressed by run lengths; frames that lie on one lattice. Images are
-//! listed, not read: a segmentation has a geometry of its own.
+//! *Limits*: pixels that are uncompressed, or compressed by run lengths, lossless JPEG, JPEG 2000 or deflate, but not by
+//! JPEG-LS; frames that lie on one lattice. Images are listed, not read: a segmentation has a geometry of its own.
 
 mod folder;
 mod frames;
+mod lengths;
 mod pixel_data;
 mod segmentation;
 
-use std::io::Cursor;
+use std::io::{self, Cursor, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-use dicom_object::{FileDicomObject, InMemDicomObject, OpenFileOptions, Tag};
+use dicom_dictionary_std::uids;
+use dicom_object::{FileDicomObject, FileMetaTable, InMemDicomObject, OpenFileOptions, Tag};
+use flate2::read::DeflateDecoder;
 
 pub use folder::{DicomFolder, DicomSeries, read_dicom_folder};
 
+use self::lengths::{Encoding, check_lengths};
 use crate::io::text::shortened;
 use crate::io::{MOST_BYTES, read_whole};
 use crate::{LabelMap, ReadFault};
@@ -25,8 +29,17 @@ use crate::{LabelMap, ReadFault};
 /// What stands after the preamble of a file.
 const MAGIC: &[u8] = b"DICM";
 
+/// Explicit big-endian, which is retired.
+const BIG_ENDIAN: &str = "1.2.840.10008.1.2.2";
+
 /// Bytes of the preamble.
 const PREAMBLE: usize = 128;
+
+/// Where the elements before the data set begin [bytes].
+const META_BEGIN: u64 = (PREAMBLE + MAGIC.len()) as u64;
+
+/// Bytes of the first of these elements, whose last four are the length of the others.
+const META_LENGTH_SIZE: usize = 12;
 
 /// Whether a file that begins with `bytes` is of DICOM.
 pub(super) fn is_dicom(bytes: &[u8]) -> bool {
@@ -37,8 +50,79 @@ pub(super) fn is_dicom(bytes: &[u8]) -> bool {
 
 /// The label map of a segmentation object.
 pub(super) fn read_segmentation(bytes: &[u8]) -> Result<LabelMap, ReadFault> {
-    let object = OpenFileOptions::new().from_reader(Cursor::new(bytes));
-    segmentation::label_map(&object.map_err(invalid)?)
+    let object = read_object(Cursor::new(bytes), OpenFileOptions::new())?;
+    segmentation::label_map(&object)
+}
+
+/// The object in a file. A deflated data set [DICOM PS3.5, A.5] is decompressed, up to as many bytes as a file
+/// may have, and its transfer syntax is then that of the decompressed data.
+fn read_object(
+    mut file: impl Read + Seek,
+    options: OpenFileOptions,
+) -> Result<FileDicomObject<InMemDicomObject>, ReadFault> {
+    let end = file.seek(SeekFrom::End(0)).map_err(ReadFault::Unreadable)?;
+    let meta_end = meta_end(&mut file).map_err(ReadFault::Unreadable)?;
+    check_lengths(&mut file, META_BEGIN..meta_end.min(end), Encoding::Explicit)?;
+    file.seek(SeekFrom::Start(PREAMBLE as u64))
+        .map_err(ReadFault::Unreadable)?;
+    let mut meta = FileMetaTable::from_reader(&mut file).map_err(invalid)?;
+    let object = match meta.transfer_syntax() {
+        uids::DEFLATED_EXPLICIT_VR_LITTLE_ENDIAN => {
+            meta.transfer_syntax = uids::EXPLICIT_VR_LITTLE_ENDIAN.to_owned();
+            meta.update_information_group_length();
+            let mut header = MAGIC.to_vec();
+            meta.write(&mut header).map_err(invalid)?;
+            let data = inflated(file)?;
+            check_lengths(
+                &mut Cursor::new(&data),
+                0..data.len() as u64,
+                Encoding::Explicit,
+            )?;
+            options.from_reader(Cursor::new(header).chain(Cursor::new(data)))
+        }
+        syntax => {
+            let encoding = match syntax {
+                uids::IMPLICIT_VR_LITTLE_ENDIAN => Encoding::Implicit,
+                BIG_ENDIAN => Encoding::BigEndian,
+                _ => Encoding::Explicit,
+            };
+            let begin = file.stream_position().map_err(ReadFault::Unreadable)?;
+            check_lengths(&mut file, begin..end, encoding)?;
+            file.rewind().map_err(ReadFault::Unreadable)?;
+            options.from_reader(file)
+        }
+    };
+    object.map_err(invalid)
+}
+
+/// Where the elements before the data set end, as the first of them says; where they begin if the file is too short.
+fn meta_end(file: &mut (impl Read + Seek)) -> io::Result<u64> {
+    let mut first = [0; META_LENGTH_SIZE];
+    file.seek(SeekFrom::Start(META_BEGIN))?;
+    match file.read_exact(&mut first) {
+        Ok(()) => {
+            let length = u32::from_le_bytes([first[8], first[9], first[10], first[11]]);
+            Ok(META_BEGIN + META_LENGTH_SIZE as u64 + u64::from(length))
+        }
+        Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => Ok(META_BEGIN),
+        Err(error) => Err(error),
+    }
+}
+
+fn inflated(file: impl Read) -> Result<Vec<u8>, ReadFault> {
+    let mut data = Vec::new();
+    let mut stream = DeflateDecoder::new(file).take(MOST_BYTES + 1);
+    stream
+        .read_to_end(&mut data)
+        .map_err(ReadFault::BadCompression)?;
+    match data.len() as u64 {
+        found if found > MOST_BYTES => Err(ReadFault::TooLarge {
+            what: "bytes",
+            found,
+            most: MOST_BYTES,
+        }),
+        _ => Ok(data),
+    }
 }
 
 /// The only segmentation object in a folder, and its bytes.

@@ -5,7 +5,7 @@ use dicom_object::{FileDicomObject, InMemDicomObject};
 
 use super::Values;
 use super::frames::Lattice;
-use super::pixel_data::PixelData;
+use super::pixel_data::{FrameFormat, PixelData};
 use crate::io::label_map::placed;
 use crate::io::label_map::voxels::size;
 use crate::{LabelMap, ReadFault};
@@ -42,16 +42,24 @@ impl Pixels {
         }
     }
 
-    /// Bytes of so many pixels.
-    fn bytes(self, pixels: usize) -> usize {
+    /// The same after decompression, which gives a byte for each bit.
+    fn decompressed(self) -> Self {
         match self {
-            Self::Bits => pixels.div_ceil(8),
-            Self::Parts(_) => pixels,
-            Self::Numbers(width) => width * pixels,
+            Self::Bits => Self::Parts(1),
+            other => other,
         }
     }
 
-    /// The label of a pixel, counted over all frames; `own` is that of the frame.
+    /// Bits of a pixel.
+    fn bits(self) -> usize {
+        match self {
+            Self::Bits => 1,
+            Self::Parts(_) => 8,
+            Self::Numbers(width) => 8 * width,
+        }
+    }
+
+    /// The label of a pixel, by its number in `data`; `own` is that of the frame.
     fn label(self, data: &[u8], pixel: usize, own: u16) -> u16 {
         let is_own = match self {
             Self::Bits => (data[pixel / 8] >> (pixel % 8)) & 1 == 1,
@@ -74,34 +82,45 @@ pub(super) fn label_map(object: &FileDicomObject<InMemDicomObject>) -> Result<La
             modality: modality.take(16).collect(),
         });
     }
-    let stored = PixelData::of(object)?;
     let pixels = Pixels::of(&values)?;
     let lattice = Lattice::of(&values)?;
+    let frames = lattice.slices.len();
+    let stored = PixelData::of(object, frames)?;
     let side = |tag| values.number(tag).unwrap_or(0);
     let [columns, rows] = [side(tags::COLUMNS), side(tags::ROWS)];
     // One more at either end: frames without a label may have been left out.
     let size = size([columns, rows, lattice.count as i64 + 2])?;
     let area = size[0] * size[1];
-    let frames = lattice.slices.len();
-    let data = match (&stored, pixels) {
-        // Each frame of compressed bits would begin a byte of its own.
-        (PixelData::RunLengths(_), Pixels::Bits) => {
-            return Err(ReadFault::UnreadEncoding {
-                what: "a segmentation of compressed bits",
-                remedy: "save it uncompressed, with `gdcmconv --raw` for instance",
+    let format = FrameFormat {
+        columns: size[0],
+        rows: size[1],
+        bits: pixels.bits(),
+    };
+    if let PixelData::Native(data) = &stored {
+        let expected = (area as u64 * frames as u64 * format.bits as u64).div_ceil(8);
+        if (data.len() as u64) < expected {
+            return Err(ReadFault::Truncated {
+                what: "the frames",
+                expected,
+                found: data.len() as u64,
             });
         }
-        (PixelData::Native(_), Pixels::Bits) => {
-            stored.frames(1, pixels.bytes(area.saturating_mul(frames)), 1)?
-        }
-        _ => stored.frames(frames, pixels.bytes(area), pixels.bytes(1))?,
-    };
+    }
     let own_labels = frame_labels(&values, pixels, frames)?;
     let mut labels = vec![0; area * size[2]];
     let mut shared = 0_usize;
+    let mut is_lossy = PixelData::may_be_lossy(object);
+    let mut decoded = Vec::new();
     for (frame, (&slice, &own)) in lattice.slices.iter().zip(&own_labels).enumerate() {
+        let (data, first, pixels) = match &stored {
+            PixelData::Native(data) => (data.as_ref(), frame * area, pixels),
+            PixelData::Compressed(codec, frames) => {
+                is_lossy |= codec.decode(frames, frame, format, &mut decoded)?;
+                (decoded.as_slice(), 0, pixels.decompressed())
+            }
+        };
         for (pixel, kept) in labels[(slice + 1) * area..][..area].iter_mut().enumerate() {
-            let label = pixels.label(&data, frame * area + pixel, own);
+            let label = pixels.label(data, first + pixel, own);
             if label != 0 {
                 shared += usize::from(*kept != 0 && *kept != label);
                 *kept = label;
@@ -109,6 +128,13 @@ pub(super) fn label_map(object: &FileDicomObject<InMemDicomObject>) -> Result<La
         }
     }
     let mut warnings = Vec::new();
+    if is_lossy {
+        warnings.push(
+            "the compression of the pixels may be lossy, so labels may be wrong; compare them with the original, or \
+             store the segmentation without loss"
+                .to_owned(),
+        );
+    }
     if shared > 0 {
         warnings.push(format!(
             "{shared} voxels belong to several segments; each is taken for the one whose frame comes last"
