@@ -256,7 +256,7 @@ impl WallsInStep {
         }
     }
 
-    /// p A of a fluid [N] under the `pressure` [Pa], and the reverse.
+    /// A of the wall around a fluid [m²].
     pub(super) fn area(&self, model: &NonlinearModel, fluid: usize) -> f64 {
         model.walls[self.fluids[fluid]].area
     }

@@ -78,6 +78,11 @@ impl NonlinearModel {
                 };
             }
         })?;
+        for (own, wall) in state.cavities.iter_mut().zip(&self.walls) {
+            if let WallLoad::Pressure(pressure) = wall.load {
+                own.hold(pressure);
+            }
+        }
         state.stop();
         self.settled = Some(Box::new(state));
         Ok(self)
