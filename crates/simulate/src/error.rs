@@ -138,6 +138,11 @@ pub enum Error {
         /// Its name.
         name: String,
     },
+    /// The organ has no equilibrium with the pressures in its cavities.
+    #[error(
+        "the organ does not come to rest under the pressure in its cavities, which its tissue bears as it is when it has relaxed; lower their `pressure_pa`"
+    )]
+    CavityPressure,
     /// Two inclusions share a place.
     #[error("the `organ.inclusion`s {one:?} and {other:?} overlap; move them apart")]
     InclusionsOverlap {
@@ -280,6 +285,7 @@ impl Error {
             | Self::InclusionOutside { .. }
             | Self::InclusionsOverlap { .. }
             | Self::CavityNotEnclosed { .. }
+            | Self::CavityPressure
             | Self::OtherSession { .. }
             | Self::NoExpert { .. }
             | Self::EmptySession

@@ -192,9 +192,14 @@ impl Composition {
         }
         let model = NonlinearModel::hollow(&merged.mesh, &cavities, moduli, is_fixed)?
             .relaxing(&self.series, numbers)?;
-        Ok(match &self.gravity {
-            Some(gravity) => model.under_gravity(densities, gravity)?,
-            None => model.under_pressure()?,
+        let settled = match &self.gravity {
+            Some(gravity) => model.under_gravity(densities, gravity),
+            None => model.under_pressure(),
+        };
+        let is_pressed = cavities.iter().any(|own| own.content.own_pressure() != 0.0);
+        settled.map_err(|error| match error {
+            palpate_mechanics::Error::UnsoundResponse { .. } if is_pressed => Error::CavityPressure,
+            other => other.into(),
         })
     }
 
