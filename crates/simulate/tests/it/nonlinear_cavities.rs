@@ -90,7 +90,7 @@ fn judge(content: CavityContent, depth: f64) -> (f64, CavityAnswer) {
 
 /// Judge: finite elements (`palpate solve`), whose patch of the tip's area is bonded and moved as far, which is a fifth of its radius.
 /// Tolerances, those that the model is asked for: force 5 %, pressure 5 %, volume of a fluid 0.5 %. Empty, the ball loses volume as in
-/// the judge within 5 % of what it loses.
+/// the judge within 5 % of what it loses, and the force is as much smaller.
 #[test]
 #[ignore = "slow: two minutes, most of them the judge's"]
 fn a_press_over_a_cavity_is_that_of_finite_elements() {
@@ -119,9 +119,10 @@ fn a_press_over_a_cavity_is_that_of_finite_elements() {
             }
             CavityContent::Pressure(_) => assert!((lost / of - 1.0).abs() < 0.05, "{lost} {of}"),
         }
-        forces.push(force);
+        forces.push([force, expected]);
     }
-    assert!(forces[0] < 0.95 * forces[1], "{forces:?}");
+    let [softer, exact] = [0, 1].map(|k| forces[0][k] / forces[1][k]);
+    assert!((softer - exact).abs() < 0.01, "{softer} {exact}");
 }
 
 /// A fluid under pressure and that pressure alone bulge the organ alike before anything touches it; pressed, the fluid keeps its volume
