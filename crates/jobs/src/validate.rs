@@ -177,7 +177,8 @@ fn scene(path: &Path) -> Result<Validated, Error> {
 /// Reads the files that the layers and inclusions of a body name.
 fn parts(layers: &[Layer], inclusions: &[Inclusion]) -> Result<Vec<String>, Error> {
     let tissues = layers.iter().map(|layer| &layer.tissue);
-    let tissues = tissues.chain(inclusions.iter().map(|inclusion| &inclusion.tissue));
+    let of_inclusions = inclusions.iter().filter_map(Inclusion::tissue);
+    let tissues = tissues.chain(of_inclusions);
     for tissue in tissues {
         palpate_simulate::read_tissue(tissue)?;
     }

@@ -201,6 +201,18 @@ impl RegionMap {
         }
     }
 
+    /// Volume [m³] and area [m²] of a shape or of what a surface encloses; none of what has no border of its own.
+    pub fn volume_and_area(&self, number: usize) -> Option<[f64; 2]> {
+        match self.region(number)? {
+            Mapped::Layer { .. } => None,
+            Mapped::Shape(shape) => Some(shape.volume_and_area()),
+            Mapped::Enclosed(Enclosed { surface, .. }) => {
+                let mesh = surface.mesh();
+                Some([mesh.volume().abs(), mesh.area()])
+            }
+        }
+    }
+
     /// Distance to the outer surface [m]; infinite without layers.
     fn depth(&self, place: &Vec3) -> f64 {
         let outer = self.outer.as_ref();

@@ -8,7 +8,9 @@ mod trace;
 use std::path::{Path, PathBuf};
 
 use palpate_files::{Claim, Error, Incomplete, Motion, Overwrite, Scene, write_whole};
-use palpate_simulate::{Flow, SessionFolder, Simulation, Summary, check_motion, play};
+use palpate_simulate::{
+    CavitySummary, Flow, SessionFolder, Simulation, Summary, check_motion, play,
+};
 use palpate_viewer::FrameWriter;
 use serde::Serialize;
 
@@ -140,6 +142,19 @@ pub(crate) fn record(
     Ok(report)
 }
 
+/// A cavity, for a person.
+fn cavity_line(cavity: &CavitySummary) -> String {
+    format!(
+        "\n{}: {:.0} Pa at the end, {:.0} to {:.0} Pa; {:.2} cm³, at rest {:.2} cm³",
+        cavity.name,
+        cavity.pressure,
+        cavity.lowest,
+        cavity.highest,
+        1e6 * cavity.volume,
+        1e6 * cavity.volume_at_rest
+    )
+}
+
 impl Report {
     fn new(
         mut summary: Summary,
@@ -178,7 +193,7 @@ impl Report {
         let times = &summary.step_times;
         format!(
             "{} steps, {} contact{}, peak force {:.4} N, largest depth {:.2} mm\n\
-             a step took {:.0} µs (median), {:.0} µs (99 %), {:.0} µs (99.9 %), {:.0} µs at most{}{}{}",
+             a step took {:.0} µs (median), {:.0} µs (99 %), {:.0} µs (99.9 %), {:.0} µs at most{}{}{}{}",
             summary.steps,
             summary.contacts,
             if summary.contacts == 1 { "" } else { "s" },
@@ -189,6 +204,7 @@ impl Report {
             1e6 * times.p99_9,
             1e6 * times.max,
             summary.cuts.as_ref().map_or(String::new(), cuts::line),
+            summary.cavities.iter().map(cavity_line).collect::<String>(),
             self.beside
                 .as_ref()
                 .map_or(String::new(), BesideAnswer::line),

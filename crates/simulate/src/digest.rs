@@ -15,9 +15,9 @@
 use std::fmt::{Debug, Write};
 
 use palpate_files::scene::{
-    Calibration, Cutting, DeviceKind, Enhancement, InclusionPlace, InclusionShape,
-    IntegrationPoints, Jaws, Layer, LocalSettings, Model, Nodule, Region, RegionBox, RegionPlane,
-    RegionSphere, Tip, Tool,
+    Calibration, CavityContent, Cutting, DeviceKind, Enhancement, Inclusion, InclusionPlace,
+    InclusionShape, IntegrationPoints, Jaws, Layer, LocalSettings, Model, Nodule, Region,
+    RegionBox, RegionPlane, RegionSphere, Tip, Tool,
 };
 use palpate_files::{Scene, Tissue};
 use palpate_geometry::Surface;
@@ -160,7 +160,7 @@ fn canonical(scene: &Scene, tissue: &Tissue) -> Form {
         .organ
         .inclusions
         .iter()
-        .for_each(|inclusion| form.inclusion(&inclusion.place));
+        .for_each(|inclusion| form.inclusion(inclusion));
     if scene.organ.self_contact {
         form.numbers("self_friction", &[scene.organ.self_friction]);
     }
@@ -173,7 +173,7 @@ fn canonical(scene: &Scene, tissue: &Tissue) -> Form {
         form.numbers("soft", &[soft.nodes as f64, neighbour.friction]);
         soft.layers.iter().for_each(|layer| form.layer(layer));
         let inclusions = soft.inclusions.iter();
-        inclusions.for_each(|inclusion| form.inclusion(&inclusion.place));
+        inclusions.for_each(|inclusion| form.inclusion(inclusion));
     }
     form
 }
@@ -380,8 +380,14 @@ impl Form {
         }
     }
 
-    /// A surface is told by its vertices.
-    fn inclusion(&mut self, place: &InclusionPlace) {
+    /// A surface is told by its vertices, and a tissue stands among those that are felt.
+    fn inclusion(&mut self, inclusion: &Inclusion) {
+        match inclusion.cavity() {
+            Some(CavityContent::Pressure(pressure)) => self.numbers("cavity", &[pressure]),
+            Some(CavityContent::Fluid(pressure)) => self.numbers("fluid", &[pressure]),
+            None => {}
+        }
+        let place = &inclusion.place;
         let InclusionPlace::Shape(shape) = place else {
             return;
         };

@@ -130,6 +130,19 @@ pub enum Error {
         /// How far [m].
         outside: f64,
     },
+    /// The elements do not enclose a cavity.
+    #[error(
+        "the elements of the nonlinear model do not enclose the cavity {name:?}: it is too small for them, or too close to the surface or to another one; make it larger, move it, or raise `model.nodes`"
+    )]
+    CavityNotEnclosed {
+        /// Its name.
+        name: String,
+    },
+    /// The organ has no equilibrium with the pressures in its cavities.
+    #[error(
+        "the organ does not come to rest under the pressure in its cavities, which its tissue bears as it is when it has relaxed; lower their `pressure_pa`"
+    )]
+    CavityPressure,
     /// Two inclusions share a place.
     #[error("the `organ.inclusion`s {one:?} and {other:?} overlap; move them apart")]
     InclusionsOverlap {
@@ -271,6 +284,8 @@ impl Error {
             | Self::NoduleOutside { .. }
             | Self::InclusionOutside { .. }
             | Self::InclusionsOverlap { .. }
+            | Self::CavityNotEnclosed { .. }
+            | Self::CavityPressure
             | Self::OtherSession { .. }
             | Self::NoExpert { .. }
             | Self::EmptySession

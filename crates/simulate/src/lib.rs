@@ -89,7 +89,7 @@ pub use session_folder::{SessionFolder, SessionFolderWriter, read_experts};
 pub use simulation::Simulation;
 pub use state::{SimulationState, SimulationWorkspace, ToolState};
 pub use step::{TRUSTED_DEPTH, shape, show, step, touch};
-pub use summary::{CutSummary, LayerCut, StepTimes, Summary};
+pub use summary::{CavitySummary, CutSummary, LayerCut, StepTimes, Summary};
 pub use target::check_target;
 pub use tool::Tool;
 pub use trocar::{ShaftFriction, Trocar};

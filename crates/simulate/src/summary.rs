@@ -3,6 +3,7 @@ use std::time::Duration;
 use palpate_files::session::Event;
 use serde::Serialize;
 
+use crate::nonlinear::Body;
 use crate::swings::Swings;
 use crate::{Simulation, SimulationState, SimulationWorkspace, TRUSTED_DEPTH};
 
@@ -28,6 +29,9 @@ pub struct Summary {
     /// What was cut, if anything could be.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cuts: Option<CutSummary>,
+    /// What became of each cavity.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub cavities: Vec<CavitySummary>,
     /// Whether it was stopped before its end.
     pub interrupted: bool,
     /// Plain sentences on warnings.
@@ -53,6 +57,28 @@ pub struct CutSummary {
     pub perforations: u64,
     /// The cuts through each layer, from outside; empty for an organ without layers.
     pub layers: Vec<LayerCut>,
+}
+
+/// What became of a cavity.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CavitySummary {
+    /// Its name in the scene.
+    pub name: String,
+    /// The pressure in it at the end [Pa].
+    #[serde(rename = "pressure_pa")]
+    pub pressure: f64,
+    /// The lowest after a step [Pa].
+    #[serde(rename = "lowest_pressure_pa")]
+    pub lowest: f64,
+    /// The highest after a step [Pa].
+    #[serde(rename = "highest_pressure_pa")]
+    pub highest: f64,
+    /// Its volume before anything touches the organ [m³].
+    #[serde(rename = "volume_at_rest_m3")]
+    pub volume_at_rest: f64,
+    /// Its volume at the end [m³].
+    #[serde(rename = "volume_m3")]
+    pub volume: f64,
 }
 
 /// The cuts through a layer.
@@ -93,6 +119,8 @@ pub(crate) struct Tally {
     without_equilibrium: u64,
     off_model: u64,
     perforations: u64,
+    /// The lowest and the highest pressure in each cavity [Pa].
+    pressures: Vec<[f64; 2]>,
 }
 
 impl Tally {
@@ -110,11 +138,20 @@ impl Tally {
             without_equilibrium: 0,
             off_model: 0,
             perforations: 0,
+            pressures: Vec::new(),
         }
     }
 
     pub(crate) fn add(&mut self, time: Duration, state: &SimulationState) {
         self.times.push(time);
+        let pressures = state.body.iter().flat_map(Body::cavity_pressures);
+        for (number, pressure) in pressures.enumerate() {
+            if number == self.pressures.len() {
+                self.pressures.push([pressure; 2]);
+            }
+            let [lowest, highest] = &mut self.pressures[number];
+            (*lowest, *highest) = (lowest.min(pressure), highest.max(pressure));
+        }
         self.swings.resize(state.tools.len(), Swings::default());
         for (swings, tool) in self.swings.iter_mut().zip(&state.tools) {
             swings.add(tool.row.time_s, tool.row.depth_m);
@@ -219,6 +256,7 @@ impl Tally {
                 .to_owned(),
         );
         Summary {
+            cavities: self.cavities(simulation, state),
             steps: self.times.len() as u64,
             step_times: StepTimes::of(&mut self.times),
             contacts: self.contacts,
@@ -242,6 +280,29 @@ impl Tally {
             interrupted,
             warnings,
         }
+    }
+}
+
+impl Tally {
+    fn cavities(&self, simulation: &Simulation, state: &SimulationState) -> Vec<CavitySummary> {
+        let (Some(organ), Some(body)) = (&simulation.nonlinear, &state.body) else {
+            return Vec::new();
+        };
+        let at_rest = Body::at_rest(organ, 0);
+        let volumes = at_rest.cavity_volumes().zip(body.cavity_volumes());
+        let pressures = body.cavity_pressures().zip(&self.pressures);
+        let each = organ.cavities().zip(volumes).zip(pressures);
+        let each = each.map(
+            |((name, (volume_at_rest, volume)), (pressure, &[lowest, highest]))| CavitySummary {
+                name: name.to_owned(),
+                pressure,
+                lowest,
+                highest,
+                volume_at_rest,
+                volume,
+            },
+        );
+        each.collect()
     }
 }
 

@@ -1,10 +1,12 @@
+use std::f64::consts::PI;
 use std::ops::Bound::Included;
 use std::path::{Path, PathBuf};
 
-use super::{LengthUnit, Shape, TissueChoice};
+use super::part::CAVITY;
+use super::{CavityContent, LengthUnit, PartContent, Shape, TissueChoice};
 use crate::{Domain, Error, Key, Keys};
 
-/// A part of an organ with a tissue of its own, such as a tumour or a vessel. The nonlinear model feels it.
+/// A part of an organ with a tissue of its own, such as a tumour or a vessel, or a cavity. The nonlinear model feels it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inclusion {
     /// Its name, for people.
@@ -12,7 +14,7 @@ pub struct Inclusion {
     /// Where it is.
     pub place: InclusionPlace,
     /// What it is made of.
-    pub tissue: TissueChoice,
+    pub content: PartContent,
 }
 
 /// Where an inclusion is.
@@ -60,6 +62,22 @@ pub enum InclusionShape {
 }
 
 impl Inclusion {
+    /// Its tissue; none of a cavity.
+    pub fn tissue(&self) -> Option<&TissueChoice> {
+        match &self.content {
+            PartContent::Tissue(tissue) => Some(tissue),
+            PartContent::Cavity(_) => None,
+        }
+    }
+
+    /// What is in it, if it is a cavity.
+    pub fn cavity(&self) -> Option<CavityContent> {
+        match self.content {
+            PartContent::Tissue(_) => None,
+            PartContent::Cavity(content) => Some(content),
+        }
+    }
+
     /// The keys of an inclusion.
     pub const KEYS: &'static [Key] = &[
         Key::text("name", "What people call it.").optional("\"tumour\"", "its number"),
@@ -85,18 +103,19 @@ impl Inclusion {
         Shape::KEYS[1],
         TissueChoice::KEYS[0],
         TissueChoice::KEYS[1],
+        CAVITY,
     ];
 
     /// The inclusion of a table with these keys, the `number`th from 0; paths begin in `folder`.
     ///
     /// # Errors
-    /// When the table has no shape or two, or no tissue.
+    /// When the table has no shape or two, or neither a tissue nor a cavity or both.
     pub fn from_keys(keys: &Keys<'_>, number: usize, folder: &Path) -> Result<Self, Error> {
         let name = keys.text("name")?;
         Ok(Self {
             name: name.unwrap_or_else(|| format!("inclusion {}", number + 1)),
             place: InclusionPlace::from_keys(keys, folder)?,
-            tissue: TissueChoice::from_keys(keys, folder)?,
+            content: PartContent::from_keys(keys, folder)?,
         })
     }
 }
@@ -233,6 +252,27 @@ impl InclusionShape {
                     0.0
                 };
                 norm(less(own, way.map(|x| part * x))) - radius_m
+            }
+        }
+    }
+
+    /// Its volume [m³], and its area [m²]; of an ellipsoid an upper bound of that.
+    pub fn volume_and_area(&self) -> [f64; 2] {
+        let ball = |radius: f64| [4.0 / 3.0 * PI * radius.powi(3), 4.0 * PI * radius * radius];
+        match *self {
+            Self::Ball { radius_m, .. } => ball(radius_m),
+            Self::Ellipsoid { radii_m, .. } => {
+                let volume = 4.0 / 3.0 * PI * radii_m.iter().product::<f64>();
+                [volume, 3.0 * volume / self.smallest_radius()]
+            }
+            Self::Capsule {
+                from_m,
+                to_m,
+                radius_m,
+            } => {
+                let (way, [volume, area]) = (less(to_m, from_m), ball(radius_m));
+                let side = 2.0 * PI * radius_m * dot(way, way).sqrt();
+                [volume + 0.5 * radius_m * side, area + side]
             }
         }
     }

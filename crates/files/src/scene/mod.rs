@@ -162,9 +162,11 @@ impl Scene {
         let does = Asked {
             cuts: cutting.is_some(),
             bends: touched.self_contact || around.iter().any(|body| body.soft.is_some()),
+            is_hollow: touched.inclusions.iter().any(|own| own.cavity().is_some()),
         };
         let model = Model::from_keys(model.as_ref(), &touched, &tools, does)?;
         if model.kind != ModelKind::Nonlinear {
+            organ::refuse_cavities(organ)?;
             if let Some(second) = further.first() {
                 let shape = ["mesh", "builtin"]
                     .into_iter()

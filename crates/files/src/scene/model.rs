@@ -134,6 +134,8 @@ pub(super) struct Asked {
     pub(super) cuts: bool,
     /// Whether neighbours bend, or the organ touches itself.
     pub(super) bends: bool,
+    /// Whether a body has cavities.
+    pub(super) is_hollow: bool,
 }
 
 /// The least model that answers what these tools do, and why.
@@ -147,6 +149,8 @@ fn choose(organ: &Organ, tools: &[Tool], asked: Asked) -> (ModelKind, &'static s
     if asked.bends {
         let reason = "it alone has bodies that bend and touch";
         (ModelKind::Nonlinear, reason)
+    } else if asked.is_hollow {
+        (ModelKind::Nonlinear, "it alone has cavities")
     } else if asked.cuts || any(&[ToolKind::Scissors, ToolKind::Hook]) || !organ.layers.is_empty() {
         (ModelKind::Hybrid, "a cut changes its forces alone")
     } else if any(&[ToolKind::Grasper]) {

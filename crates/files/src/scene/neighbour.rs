@@ -38,7 +38,7 @@ pub struct SoftNeighbour {
     pub tissue: TissueChoice,
     /// Its layers from outside to inside; a `[[neighbour]]` has none.
     pub layers: Vec<Layer>,
-    /// Parts of another tissue in it; a `[[neighbour]]` has none.
+    /// Parts of another tissue in it, and cavities; a `[[neighbour]]` has none.
     pub inclusions: Vec<Inclusion>,
     /// Where it is held, in the scene; none for the attachment of a built-in organ, which stands where it does.
     pub anchor: Option<Region>,

@@ -22,7 +22,7 @@ pub struct Organ {
     pub touchable: Option<Region>,
     /// Its layers from outside to inside; empty for an organ of one tissue.
     pub layers: Vec<Layer>,
-    /// Parts of another tissue in it.
+    /// Parts of another tissue in it, and cavities.
     pub inclusions: Vec<Inclusion>,
     /// Stiff balls in it.
     pub nodules: Vec<Nodule>,
@@ -88,14 +88,14 @@ impl Organ {
         Key::tables(
             "inclusion",
             Inclusion::KEYS,
-            "Parts of another tissue, such as a tumour or a vessel. The nonlinear model feels them.",
+            "Parts of another tissue, such as a tumour or a vessel, and cavities. The nonlinear model feels them.",
         )
         .optional("", "none"),
         Key::tables(
             "region",
             BodyPart::OF_SURFACE,
-            "Layers, in the order of the file after those of `layer`, and inclusions, after those of `inclusion`: both in one \
-             list.",
+            "Layers, in the order of the file after those of `layer`, and inclusions and cavities, after those of `inclusion`: \
+             all in one list.",
         )
         .optional("", "none"),
         Key::tables(
@@ -190,12 +190,11 @@ pub(super) fn parts(
             content,
             key: shape,
         } = BodyPart::from_keys(keys, number, folder)?;
-        let PartContent::Tissue(tissue) = content else {
-            let expected = "a tissue, for the models of `simulate` have no cavities yet";
-            return Err(keys.bad("cavity", expected));
-        };
         match place {
             PartPlace::Layer(thickness_m) => {
+                let PartContent::Tissue(tissue) = content else {
+                    return Err(keys.bad("cavity", "a tissue, as a layer is of one"));
+                };
                 key = "region";
                 layers.push(Layer {
                     name,
@@ -208,7 +207,7 @@ pub(super) fn parts(
             PartPlace::Inclusion(place) => inclusions.push(Inclusion {
                 name,
                 place,
-                tissue,
+                content,
             }),
             PartPlace::Label(_) | PartPlace::Group(_) => {
                 return Err(keys.bad(
@@ -223,6 +222,19 @@ pub(super) fn parts(
         return Err(keys.bad(key, "at most 6 layers: a session has an event for each"));
     }
     Ok((layers, inclusions))
+}
+
+/// Refuses the cavities of an organ, for a model that has none.
+pub(super) fn refuse_cavities(organ: &Keys<'_>) -> Result<(), Error> {
+    for key in ["inclusion", "region"] {
+        for part in organ.tables(key)? {
+            part.refuse(
+                "cavity",
+                "a tissue, for only `model.kind = \"nonlinear\"` has cavities",
+            )?;
+        }
+    }
+    Ok(())
 }
 
 const STIFFER: Domain =

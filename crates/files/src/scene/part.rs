@@ -60,11 +60,11 @@ const SURFACE: Key = Key::path(
 /// The largest number of a region in a file.
 const LARGEST: u64 = 1_000_000_000;
 
-const CAVITY: Key = Key::table(
+pub(super) const CAVITY: Key = Key::table(
     "cavity",
     CavityContent::KEYS,
-    "In place of a tissue: a cavity that tissue encloses, such as a gall bladder; `{}` is an empty one. For `palpate solve` \
-     alone.",
+    "In place of a tissue: a cavity that tissue encloses, such as a gall bladder; `{}` is an empty one. Of the \
+     models of a scene only the nonlinear one has it.",
 )
 .optional("", "it is of a tissue");
 
@@ -142,7 +142,7 @@ impl BodyPart {
 }
 
 impl PartContent {
-    fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
+    pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
         let Some(cavity) = keys.table("cavity")? else {
             return Ok(Self::Tissue(TissueChoice::from_keys(keys, folder)?));
         };
@@ -151,7 +151,9 @@ impl PartContent {
                 return Err(keys.given_twice("cavity", key));
             }
         }
-        keys.refuse("layer", "a shape that tissue encloses")?;
+        if keys.contains("layer") {
+            return Err(keys.bad("layer", "a shape that tissue encloses"));
+        }
         Ok(Self::Cavity(CavityContent::from_keys(&cavity)?))
     }
 }

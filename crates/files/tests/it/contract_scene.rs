@@ -95,8 +95,8 @@ fn regions_of_an_organ_are_layers_and_inclusions() {
     };
     assert_eq!(lump.place, InclusionPlace::Shape(ball));
     assert_eq!(
-        lump.tissue,
-        TissueChoice::File(PathBuf::from("scenes/lump.toml"))
+        lump.tissue(),
+        Some(&TissueChoice::File(PathBuf::from("scenes/lump.toml")))
     );
     let mesh = InclusionPlace::Mesh {
         path: PathBuf::from("scenes/vessel.stl"),
@@ -136,11 +136,6 @@ fn regions_that_are_none_are_refused() {
             "is a surface",
         ],
     );
-    let hollow = format!(
-        "[organ]\n{ORGAN}[[organ.region]]\ncavity = {{}}\nball = {{ center_m = [0, 0, 0.03], radius_m = 0.005 }}\n\
-         {NONLINEAR}"
-    );
-    refused(&hollow, &["`organ.region[0].cavity`", "have no cavities"]);
     refused(
         &region("layer = { thickness_m = 0.001 }\nsurface = \"a.stl\""),
         &["`organ.region[0].surface` is given although `organ.region[0].layer`"],
@@ -154,6 +149,54 @@ fn regions_that_are_none_are_refused() {
     refused(
         &format!("[organ]\n{ORGAN}{}", layer.repeat(7)),
         &["`organ.region`", "at most 6 layers"],
+    );
+}
+
+/// A cavity stands in place of a tissue, in a table of either kind, and `auto` takes the only model that has it.
+#[test]
+fn an_organ_has_cavities() {
+    let ball = "ball = { center_m = [0, 0, 0.03], radius_m = 0.005 }";
+    let hollow = |part: &str, cavity: &str, model: &str| {
+        format!("[organ]\n{ORGAN}[[organ.{part}]]\n{ball}\ncavity = {cavity}\n{model}")
+    };
+    let auto = "[model]\nkind = \"auto\"\n";
+    for (cavity, content) in [
+        ("{}", CavityContent::Pressure(0.0)),
+        ("{ pressure_pa = -50.0 }", CavityContent::Pressure(-50.0)),
+        (
+            "{ constant_volume = true, pressure_pa = 900.0 }",
+            CavityContent::Fluid(900.0),
+        ),
+    ] {
+        for part in ["region", "inclusion"] {
+            let scene = parse(&hollow(part, cavity, auto));
+            assert_eq!(scene.model.kind, ModelKind::Nonlinear);
+            assert_eq!(scene.organ.inclusions[0].cavity(), Some(content));
+        }
+    }
+    for kind in ["", "[model]\nkind = \"hybrid\"\n"] {
+        refused(
+            &hollow("region", "{}", kind),
+            &[
+                "line 7",
+                "`organ.region[0].cavity`",
+                "`model.kind = \"nonlinear\"`",
+            ],
+        );
+    }
+    refused(
+        &hollow("inclusion", "{ volume_m3 = 1e-6 }", auto),
+        &["line 7", "volume_m3"],
+    );
+    refused(
+        &hollow("inclusion", "{}\nbuiltin_tissue = \"pig-liver\"", auto),
+        &["`organ.inclusion[0].builtin_tissue` is given although `organ.inclusion[0].cavity`"],
+    );
+    refused(
+        &format!(
+            "[organ]\n{ORGAN}[[organ.region]]\nlayer = {{ thickness_m = 0.001 }}\ncavity = {{}}\n{auto}"
+        ),
+        &["`organ.region[0].layer`", "a shape that tissue encloses"],
     );
 }
 

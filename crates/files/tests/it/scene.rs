@@ -113,7 +113,7 @@ fn inclusions_and_weight_are_understood() {
     };
     assert_eq!(stone.place, mesh);
     let tissue = PathBuf::from("scenes/vessel.toml");
-    assert_eq!(capsule.tissue, TissueChoice::File(tissue));
+    assert_eq!(capsule.tissue(), Some(&TissueChoice::File(tissue)));
 }
 
 #[test]

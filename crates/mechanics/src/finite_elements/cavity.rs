@@ -13,6 +13,8 @@
 //! *Limits*: an edge of the wall that is free to move off those planes would feel a wrong force; `pressed_faces` is for
 //! such parts of a boundary.
 
+use std::sync::LazyLock;
+
 use super::assembly::PRESSURE_REGULARIZATION;
 use super::element::ElementKind;
 use super::mismatch::Mismatch;
@@ -192,8 +194,8 @@ fn side_volume(model: &FiniteElementModel, unknowns: &[f64], side: &[u32]) -> Si
     let places = moved(model, unknowns, side);
     match places.len() {
         3 => meridian(&places),
-        6 => wall(&places, &TRIANGLE.map(triangle_point)),
-        _ => wall(&places, &square_points()),
+        6 => wall(&places, &TRIANGLE_PAIRS),
+        _ => wall(&places, &SQUARE_PAIRS),
     }
 }
 
@@ -320,45 +322,60 @@ pub(super) fn triangle_point(([x, y], weight): ([f64; 2], f64)) -> SidePoint<6> 
     }
 }
 
-/// V = ⅓ ∫ x · (x_ξ × x_η) dξ dη.
-fn wall<const N: usize>(places: &[Vec3], points: &[SidePoint<N>]) -> SideVolume {
+/// What the volume V = ⅓ ∫ x · (x_ξ × x_η) dξ dη at a side of N nodes is made of. It is cubic in their places, so that its third
+/// derivative is constant:
+///
+/// ```text
+/// c_ab = Σ_c T_abc x_c,   ∂²V/∂x_a ∂x_b: d_b ↦ d_b × c_ab,   ∂V/∂x_a = ½ Σ_b x_b × c_ab,   V = ⅓ Σ_a x_a · ∂V/∂x_a
+/// ```
+pub(crate) type Pairs<const N: usize> = [[[f64; N]; N]; N];
+
+/// T of six nodes.
+pub(crate) static TRIANGLE_PAIRS: LazyLock<Pairs<6>> =
+    LazyLock::new(|| pairs(&TRIANGLE.map(triangle_point)));
+
+/// T of nine nodes.
+static SQUARE_PAIRS: LazyLock<Pairs<9>> = LazyLock::new(|| pairs(&square_points()));
+
+fn pairs<const N: usize>(points: &[SidePoint<N>]) -> Pairs<N> {
+    let mut sum = [[[0.0; N]; N]; N];
+    for point in points {
+        let SidePoint {
+            value,
+            along,
+            across,
+            weight,
+        } = point;
+        for (a, b) in (0..N * N).map(|k| (k / N, k % N)) {
+            let minor = |f: &[f64; N], g: &[f64; N]| weight / 3.0 * (f[a] * g[b] - g[a] * f[b]);
+            for c in 0..N {
+                sum[a][b][c] += minor(value, along) * across[c]
+                    + minor(along, across) * value[c]
+                    + minor(across, value) * along[c];
+            }
+        }
+    }
+    sum
+}
+
+fn wall<const N: usize>(places: &[Vec3], pairs: &Pairs<N>) -> SideVolume {
     let count = 3 * N;
     let mut out = SideVolume {
         volume: 0.0,
         gradient: vec![0.0; count],
         curvature: vec![0.0; count * count],
     };
-    for point in points {
-        let SidePoint {
-            value,
-            along,
-            across,
-            ..
-        } = point;
-        let sum = |f: &[f64; N]| f.iter().zip(places).map(|(f, x)| *f * x).sum::<Vec3>();
-        let (x, e, h) = (sum(value), sum(along), sum(across));
-        let weight = point.weight / 3.0;
-        out.volume += weight * x.dot(&e.cross(&h));
-        for a in 0..N {
-            // The triple product is linear in each of x, x_ξ, x_η.
-            let gradient =
-                value[a] * e.cross(&h) + along[a] * h.cross(&x) + across[a] * x.cross(&e);
-            for i in 0..3 {
-                out.gradient[3 * a + i] += weight * gradient[i];
-            }
-            for b in 0..N {
-                let pair = (value[a] * along[b] - along[a] * value[b]) * h
-                    + (along[a] * across[b] - across[a] * along[b]) * x
-                    + (across[a] * value[b] - value[a] * across[b]) * e;
-                // u_a · (u_b × pair) is bilinear: the cross matrix of pair, turned.
-                let cross = pair.cross_matrix();
-                for i in 0..3 {
-                    for k in 0..3 {
-                        out.curvature[(3 * a + i) * count + 3 * b + k] -= weight * cross[(i, k)];
-                    }
-                }
+    for (a, b) in (0..N * N).map(|k| (k / N, k % N)) {
+        let pair: Vec3 = pairs[a][b].iter().zip(places).map(|(t, x)| *t * x).sum();
+        let gradient = 0.5 * places[b].cross(&pair);
+        let cross = pair.cross_matrix();
+        for i in 0..3 {
+            out.gradient[3 * a + i] += gradient[i];
+            for k in 0..3 {
+                out.curvature[(3 * a + i) * count + 3 * b + k] -= cross[(i, k)];
             }
         }
+        out.volume += places[a].dot(&gradient) / 3.0;
     }
     out
 }

@@ -37,6 +37,7 @@ pub mod tube;
 pub mod uniaxial;
 
 pub use cavity::Cavity;
+pub(crate) use cavity::TRIANGLE_PAIRS;
 pub use element::ElementKind;
 pub use equilibrium::equilibrate;
 pub use linear_system::LinearSystem;

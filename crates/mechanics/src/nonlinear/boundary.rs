@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use palpate_geometry::{AabbTree, TetrahedronMesh, TriangleMesh};
 
-use crate::finite_elements::solid::{Face, faces};
+use crate::finite_elements::solid::Face;
 use crate::{Error, LinearElastic, Vec3};
 
 /// A load takes a face at the centroids of its equal parts, in so many rows.
@@ -17,7 +17,7 @@ const REACH_IN_SIZES: f64 = 1.2;
 /// 48 J₃(k R)/(k R)³ of the weights it is 48² ∫ J₃²(x) x⁻⁶ dx.
 const MEAN_INVERSE_DISTANCE: f64 = 2.408_17;
 
-/// The boundary of the tetrahedra of a body.
+/// The boundary of the tetrahedra of a body, without the walls of cavities.
 #[derive(Debug, Clone)]
 pub struct Boundary {
     faces: Vec<BoundaryFace>,
@@ -62,8 +62,8 @@ pub struct SpreadLoad {
 const NOWHERE: u32 = u32::MAX;
 
 impl Boundary {
-    pub(super) fn new(mesh: &TetrahedronMesh) -> Result<Self, Error> {
-        let numbers = faces(mesh);
+    /// That of the faces with these `numbers` of nodes.
+    pub(super) fn new(mesh: &TetrahedronMesh, numbers: &[Face]) -> Result<Self, Error> {
         let corners = numbers.iter().map(|face| face.corners).collect();
         let triangles = TriangleMesh::new(mesh.vertices().to_vec(), corners);
         let triangles = triangles.map_err(|_| Error::NoElements)?;
@@ -108,14 +108,6 @@ impl Boundary {
             sizes,
             around,
         })
-    }
-
-    /// All nodes of the boundary, ascending.
-    pub fn nodes(&self) -> Vec<u32> {
-        let mut nodes: Vec<u32> = self.faces.iter().flat_map(|face| face.nodes).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        nodes
     }
 
     /// Areas of its faces [m²], in their order.

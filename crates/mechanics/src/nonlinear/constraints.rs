@@ -1,4 +1,4 @@
-//! The conditions of a step and their forces: those of tools, which hold, and those of contacts, which are active or open,
+//! The conditions of a step and their forces: those of tools and of fluids in cavities, which hold, and those of contacts, which are active or open,
 //! stick or slide (`friction`).
 //!
 //! The active contacts are found once in a step, with the forces of the tools, by the compliance of the body at rest, turned with
@@ -9,6 +9,7 @@
 
 use nalgebra::Matrix3;
 
+use super::cavities::WallsInStep;
 use super::complementarity::Complementarity;
 use super::contact::{Contacts, MOST_CONTACTS, ROWS, UnilateralContact};
 use super::coupling::{Coupling, Rows, influence};
@@ -45,10 +46,11 @@ impl<'a> Conditions<'a> {
     }
 }
 
-/// All conditions of a step: rows of tools, then of contacts.
+/// All conditions of a step: rows of tools, of fluids, then of contacts.
 #[derive(Debug, Clone)]
 pub(super) struct Constraints {
     pub(super) tools: Rows,
+    pub(super) walls: WallsInStep,
     pub(super) contacts: Contacts,
     pub(super) problem: Complementarity,
     /// Forces, the direction of the iterations, and a change of either [N].
@@ -73,10 +75,11 @@ pub(super) struct Constraints {
 
 impl Constraints {
     pub(super) fn new(model: &NonlinearModel, tools: usize) -> Self {
-        let rows = 3 * tools + ROWS * MOST_CONTACTS;
+        let rows = 3 * tools + model.walls.len() + ROWS * MOST_CONTACTS;
         let size = 3 * model.nodes().len();
         Self {
             tools: Rows::new(model, tools),
+            walls: WallsInStep::new(model),
             contacts: Contacts::new(model.nodes().len()),
             problem: Complementarity::new(rows),
             force: vec![0.0; rows],
@@ -95,7 +98,12 @@ impl Constraints {
     }
 
     pub(super) fn count(&self) -> usize {
-        self.tools.rows.len() + self.contacts.listed.len()
+        self.bilateral() + self.contacts.listed.len()
+    }
+
+    /// How many rows come before those of contacts.
+    pub(super) fn bilateral(&self) -> usize {
+        self.tools.rows.len() + self.walls.fluids.len()
     }
 
     /// Takes the conditions of a step, and S of all of them.
@@ -113,24 +121,35 @@ impl Constraints {
         self.tools.list(couplings);
         self.tools.prepare(body, couplings);
         self.contacts.prepare(body, contacts, state);
-        let tools = self.tools.rows.len();
+        let pressures = state.cavities.iter().map(|memory| memory.pressure);
+        self.walls.prepare(body, pressures, &mut self.scratch);
+        let (tools, first) = (self.tools.rows.len(), self.bilateral());
         for i in 0..tools {
             for j in 0..tools {
                 *self.problem.at(i, j) =
                     self.tools.own[(i, j)] + self.tools.shared(couplings, (i, j));
             }
         }
+        for row in tools..first {
+            for other in 0..=row {
+                let shared = self.walls.along(row - tools, self.influence(other));
+                *self.problem.at(row, other) = shared;
+                *self.problem.at(other, row) = shared;
+            }
+            let pressure = state.cavities[self.walls.fluids[row - tools]].pressure;
+            self.force[row] = pressure * self.walls.area(body.model, row - tools);
+        }
         for (number, contact) in self.contacts.listed.iter().enumerate() {
-            let row = tools + number;
-            for tool in 0..tools {
-                let shared = contact.along(self.tools.influence(tool));
-                *self.problem.at(row, tool) = shared;
-                *self.problem.at(tool, row) = shared;
+            let row = first + number;
+            for other in 0..first {
+                let shared = contact.along(self.influence(other));
+                *self.problem.at(row, other) = shared;
+                *self.problem.at(other, row) = shared;
             }
             for other in 0..=number {
                 let shared = self.contacts.shared(number, other);
-                *self.problem.at(row, tools + other) = shared;
-                *self.problem.at(tools + other, row) = shared;
+                *self.problem.at(row, first + other) = shared;
+                *self.problem.at(first + other, row) = shared;
             }
             *self.problem.at(row, row) += contact.compliance;
             self.force[row] = if number < self.contacts.normals() {
@@ -144,6 +163,14 @@ impl Constraints {
             *force = state.tools[row.tool].force.dot(&row.direction);
         }
         self.direction.fill(0.0);
+    }
+
+    /// A column of Z of a tool or a fluid [m/N].
+    fn influence(&self, row: usize) -> &[f32] {
+        match row.checked_sub(self.tools.rows.len()) {
+            None => self.tools.influence(row),
+            Some(fluid) => self.walls.influence(fluid),
+        }
     }
 
     /// Changes the displacements `guess` [m] by Z t, so that every condition holds: the `change` [m].
@@ -166,10 +193,13 @@ impl Constraints {
                 self.violation[number] = own - left.dot(&row.direction);
             }
         }
-        let tools = self.tools.rows.len();
+        let (tools, first) = (self.tools.rows.len(), self.bilateral());
+        for row in tools..first {
+            self.violation[row] = self.walls.violation(body.model, row - tools);
+        }
         for (number, contact) in self.contacts.listed.iter().enumerate() {
-            let own = contact.compliance * self.force[tools + number];
-            self.violation[tools + number] = contact.gap(guess) + own;
+            let own = contact.compliance * self.force[first + number];
+            self.violation[first + number] = contact.gap(guess) + own;
         }
         self.solve_forces();
         self.find_columns(body);
@@ -180,9 +210,9 @@ impl Constraints {
     /// Projects `z`, the preconditioned `residual`, onto the conditions.
     #[inline(always)]
     pub(super) fn project(&mut self, body: Turned<'_>, residual: &[f32], z: &mut [f32]) {
-        self.tools.project(residual, &mut self.violation);
-        let tools = self.tools.rows.len();
-        for (violation, contact) in self.violation[tools..]
+        self.project_bilateral(residual);
+        let first = self.bilateral();
+        for (violation, contact) in self.violation[first..]
             .iter_mut()
             .zip(&self.contacts.listed)
         {
@@ -195,14 +225,22 @@ impl Constraints {
         self.add_displacement(body, z);
     }
 
+    /// How far the `residual` [N] would move the rows of tools and fluids [m].
+    #[inline(always)]
+    fn project_bilateral(&mut self, residual: &[f32]) {
+        self.tools.project(residual, &mut self.violation);
+        let fluids = &mut self.violation[self.tools.rows.len()..];
+        self.walls.project(residual, fluids);
+    }
+
     /// The next direction: the last projection, and `kept` [-] times the direction before. Returns its energy in the own
     /// compliances of the conditions, twice [J].
     pub(super) fn update_direction(&mut self, kept: f64) -> f64 {
-        let (count, tools) = (self.count(), self.tools.rows.len());
+        let (count, first) = (self.count(), self.bilateral());
         for (direction, t) in self.direction.iter_mut().zip(&self.t[..count]) {
             *direction = kept * *direction + t;
         }
-        let contacts = self.contacts.listed.iter().zip(&self.direction[tools..]);
+        let contacts = self.contacts.listed.iter().zip(&self.direction[first..]);
         let own = contacts.map(|(contact, direction)| contact.compliance * direction * direction);
         self.tools.own_curvature(&self.direction) + own.sum::<f64>()
     }
@@ -232,18 +270,18 @@ impl Constraints {
     /// Finds the forces that leave the least of the `residual` [N] at the `displacements` [m].
     #[inline(always)]
     pub(super) fn finish(&mut self, body: Turned<'_>, residual: &[f32], displacements: &[f64]) {
-        self.tools.project(residual, &mut self.violation);
+        self.project_bilateral(residual);
         if !self.contacts.listed.is_empty() {
             let Turned { model, rotations } = body;
             model
                 .rest
                 .apply(rotations, residual, &mut self.displaced, &mut self.scratch);
         }
-        let tools = self.tools.rows.len();
+        let first = self.bilateral();
         for (number, contact) in self.contacts.listed.iter().enumerate() {
-            self.violation[tools + number] = contact.gap(displacements)
+            self.violation[first + number] = contact.gap(displacements)
                 + contact.along(&self.displaced)
-                + contact.compliance * self.force[tools + number];
+                + contact.compliance * self.force[first + number];
         }
         self.solve_forces();
     }
@@ -251,6 +289,7 @@ impl Constraints {
     /// Keeps the forces in `state`.
     pub(super) fn remember(
         &mut self,
+        model: &NonlinearModel,
         couplings: &[Option<Coupling<'_>>],
         state: &mut NonlinearState,
     ) {
@@ -270,6 +309,10 @@ impl Constraints {
                 }
             }
         }
+        let fluids = &self.force[self.tools.rows.len()..];
+        for (fluid, (number, force)) in self.walls.fluids.iter().zip(fluids).enumerate() {
+            state.cavities[*number].pressure = force / self.walls.area(model, fluid);
+        }
         self.remember_contacts(state);
     }
 
@@ -279,14 +322,14 @@ impl Constraints {
         &mut self,
         motion: impl Fn(usize, &Vec3) -> Vec3 + Clone,
     ) -> Matrix3<f64> {
-        let (count, tools) = (self.count(), self.tools.rows.len());
+        let (count, first) = (self.count(), self.bilateral());
         let normals = self.contacts.normals();
         let rubs = self.contacts.rubs.iter();
         let along = rubs.flat_map(|rub| [(rub.normal, rub.along), (rub.normal, rub.along + 1)]);
         let rows = (0..normals).map(|row| (row, row)).chain(along);
         let rows = rows.map(|(contact, row)| {
             let direction = &self.contacts.listed[row].normal;
-            (tools + row, motion(contact, direction))
+            (first + row, motion(contact, direction))
         });
         let mut sum = Matrix3::zeros();
         for axis in 0..3 {
@@ -309,11 +352,11 @@ impl Constraints {
     #[inline(always)]
     fn find_columns(&mut self, body: Turned<'_>) {
         self.with_columns.clear();
-        let (tools, size) = (self.tools.rows.len(), self.load.len());
+        let (first, size) = (self.bilateral(), self.load.len());
         let is_used = |row: usize| self.t[row] != 0.0 || self.problem.is_free(row);
-        let used = (tools..self.count()).filter(|&row| is_used(row));
+        let used = (first..self.count()).filter(|&row| is_used(row));
         if used.clone().count() <= MOST_COLUMNS {
-            self.with_columns.extend(used.map(|row| row - tools));
+            self.with_columns.extend(used.map(|row| row - first));
         }
         let columns = self.columns.chunks_exact_mut(size);
         for (column, &number) in columns.zip(&self.with_columns) {
@@ -326,22 +369,24 @@ impl Constraints {
     #[inline(always)]
     fn add_displacement(&mut self, body: Turned<'_>, x: &mut [f32]) {
         self.tools.add_influence(&self.t, x);
-        let tools = self.tools.rows.len();
+        let fluids = &self.t[self.tools.rows.len()..];
+        self.walls.add_influence(fluids, x);
+        let first = self.bilateral();
         if !self.with_columns.is_empty() {
             let columns = self.columns.chunks_exact(self.load.len());
             for (column, &number) in columns.zip(&self.with_columns) {
-                let t = self.t[tools + number] as f32;
+                let t = self.t[first + number] as f32;
                 for (x, z) in x.iter_mut().zip(column) {
                     *x += t * z;
                 }
             }
             return;
         }
-        if self.t[tools..self.count()].iter().all(|t| *t == 0.0) {
+        if self.t[first..self.count()].iter().all(|t| *t == 0.0) {
             return;
         }
         self.load.fill(0.0);
-        let forces = &self.t[self.tools.rows.len()..];
+        let forces = &self.t[first..];
         for (contact, force) in self.contacts.listed.iter().zip(forces) {
             contact.add(*force, &mut self.load);
         }
@@ -356,7 +401,8 @@ impl Constraints {
     #[inline(always)]
     fn add(&self, couplings: &[Option<Coupling<'_>>], forces: &[f64], load: &mut [f32]) {
         self.tools.add_load(couplings, forces, load);
-        let forces = &forces[self.tools.rows.len()..];
+        self.walls.add_load(&forces[self.tools.rows.len()..], load);
+        let forces = &forces[self.bilateral()..];
         for (contact, force) in self.contacts.listed.iter().zip(forces) {
             contact.add(*force, load);
         }

@@ -28,7 +28,7 @@ use super::law::Moduli;
 use super::model::NonlinearModel;
 use super::state::NonlinearState;
 use crate::Vec3;
-use crate::finite_elements::solid::faces;
+use crate::finite_elements::solid::Face;
 
 /// Contacts of a step, at most.
 pub const MOST_CONTACTS: usize = 192;
@@ -122,15 +122,17 @@ impl BoundaryPoint {
     /// Those of a quadrature, which may touch what stands still and the boundary itself.
     pub(super) fn of_quadrature(
         mesh: &TetrahedronMesh,
+        faces: &[Face],
         moduli: &[Moduli<f64>],
         edge: f64,
     ) -> Vec<Self> {
-        Self::all(mesh, moduli, edge, &[AT.to_vec()])
+        Self::all(mesh, faces, moduli, edge, &[AT.to_vec()])
     }
 
     /// Both [`TOOL_POINTS`] of each face, one face after the other, which may touch tools.
     pub(super) fn for_tools(
         mesh: &TetrahedronMesh,
+        faces: &[Face],
         moduli: &[Moduli<f64>],
         edge: f64,
     ) -> Vec<Self> {
@@ -139,18 +141,19 @@ impl BoundaryPoint {
             for_each_part(count.isqrt(), |part| parts.push(part));
             parts
         });
-        Self::all(mesh, moduli, edge, &parts)
+        Self::all(mesh, faces, moduli, edge, &parts)
     }
 
     /// Those of each face at barycentric coordinates [-]: each of `sets` shares the area equally.
     fn all(
         mesh: &TetrahedronMesh,
+        faces: &[Face],
         moduli: &[Moduli<f64>],
         edge: f64,
         sets: &[Vec<[f64; 3]>],
     ) -> Vec<Self> {
         let mut points = Vec::new();
-        for face in faces(mesh) {
+        for face in faces {
             let [a, b, c] = face.corners.map(|node| mesh.vertices()[node.index()]);
             let area = 0.5 * (b - a).cross(&(c - a)).norm();
             let Moduli { c10, c01, .. } = moduli[face.tetrahedron];

@@ -26,33 +26,33 @@ const STANDS: f64 = 1e-3;
 impl Constraints {
     /// What holds in each row at the beginning of a step: what slid before still does.
     pub(super) fn begin_kinds(&mut self, state: &NonlinearState) {
-        let (tools, normals) = (self.tools.rows.len(), self.contacts.normals());
+        let (first, normals) = (self.bilateral(), self.contacts.normals());
         let kinds = &mut self.problem.kinds;
-        kinds[..tools].fill(Kind::Bilateral);
-        kinds[tools..tools + normals].fill(Kind::Unilateral);
+        kinds[..first].fill(Kind::Bilateral);
+        kinds[first..first + normals].fill(Kind::Unilateral);
         for rub in &self.contacts.rubs {
             let slot = self.contacts.listed[rub.normal].slot;
             let kind = match state.rubbed_at(slot).slides {
                 true => Kind::Open,
                 false => Kind::Bilateral,
             };
-            kinds[tools + rub.along..][..2].fill(kind);
+            kinds[first + rub.along..][..2].fill(kind);
         }
     }
 
     /// Forces for what the conditions lack where these do not change; the changes into `t`.
     pub(super) fn solve_forces(&mut self) {
-        let (count, tools) = (self.count(), self.tools.rows.len());
+        let (count, first) = (self.count(), self.bilateral());
         for row in 0..count {
             let carried =
-                (tools..count).map(|column| self.problem.get(row, column) * self.force[column]);
+                (first..count).map(|column| self.problem.get(row, column) * self.force[column]);
             self.known[row] = self.violation[row] - carried.sum::<f64>();
             self.slid[row] = match self.problem.kinds[row] {
                 Kind::Open => self.force[row],
                 Kind::Bilateral | Kind::Unilateral => 0.0,
             };
         }
-        for row in tools..tools + self.contacts.normals() {
+        for row in first..first + self.contacts.normals() {
             self.problem.active[row] = self.force[row] > 0.0;
         }
         for _ in 0..MOST_TRIALS {
@@ -66,7 +66,7 @@ impl Constraints {
         }
         self.keep_cones();
         for row in 0..count {
-            let before = if row < tools { 0.0 } else { self.force[row] };
+            let before = if row < first { 0.0 } else { self.force[row] };
             self.t[row] = self.problem.x[row] - before;
             self.force[row] += self.t[row];
         }
@@ -74,8 +74,8 @@ impl Constraints {
 
     /// The rows of a contact with friction: along its normal, and the first of the two along the surface.
     fn rows(&self, rub: &Rub) -> (usize, usize) {
-        let tools = self.tools.rows.len();
-        (tools + rub.normal, tools + rub.along)
+        let first = self.bilateral();
+        (first + rub.normal, first + rub.along)
     }
 
     /// What the forces that slide displace a row by [m].
@@ -94,8 +94,8 @@ impl Constraints {
         if self.contacts.rubs.is_empty() {
             return false;
         }
-        let (count, tools) = (self.count(), self.tools.rows.len());
-        let normals = tools + self.contacts.normals();
+        let (count, first) = (self.count(), self.bilateral());
+        let normals = first + self.contacts.normals();
         for row in normals..count {
             if self.problem.kinds[row] == Kind::Open {
                 self.problem.x[row] = self.slid[row];
@@ -105,7 +105,7 @@ impl Constraints {
         for _ in 0..SWEEPS {
             for row in 0..normals {
                 self.problem.relax(row, count);
-                if row >= tools {
+                if row >= first {
                     self.problem.x[row] = self.problem.x[row].max(0.0);
                 }
             }
@@ -161,11 +161,11 @@ impl Constraints {
 
     /// Keeps the forces of contacts in `state`, and where their points stick.
     pub(super) fn remember_contacts(&mut self, state: &mut NonlinearState) {
-        let tools = self.tools.rows.len();
+        let first = self.bilateral();
         self.remembered.clear();
         let normals = &self.contacts.listed[..self.contacts.normals()];
         for (number, contact) in normals.iter().enumerate() {
-            if self.force[tools + number] > 0.0 {
+            if self.force[first + number] > 0.0 {
                 let begun = Rubbed {
                     anchor: match contact.is_between {
                         false => contact.displacement(&state.displacements),
@@ -180,7 +180,7 @@ impl Constraints {
                 };
                 self.remembered.push(ContactMemory {
                     slot: contact.slot,
-                    force: self.force[tools + number],
+                    force: self.force[first + number],
                     rubbed,
                 });
             }

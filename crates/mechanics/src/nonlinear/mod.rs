@@ -13,12 +13,15 @@
 //! No matrix is assembled in a step: the product of the stiffness with a vector is the change of the elements'
 //! forces. All of it works in single precision, eight elements at a time; displacements are kept in double.
 //!
+//! Cavities press on their walls (`cavities`); a fluid in one keeps its volume.
+//!
 //! *How we know*: `nonlinear::…`.
 //!
 //! *Limits*: quasi-static: no mass. A step does not solve to convergence; its error against it is in
 //! `docs/theory/large_deformation.md`.
 
 mod boundary;
+mod cavities;
 mod complementarity;
 mod constraints;
 mod contact;
@@ -31,9 +34,11 @@ mod kernel;
 mod lanes;
 mod law;
 mod model;
+mod predictor;
 mod relaxation;
 mod rest;
 mod rotation;
+mod settling;
 mod state;
 mod state_transfer;
 mod step;
@@ -43,6 +48,7 @@ mod touching;
 mod touching_search;
 
 pub use boundary::{Boundary, SpreadLoad};
+pub use cavities::BodyCavity;
 pub use constraints::Conditions;
 pub use contact::{Against, BoundaryPoint, MOST_CONTACTS, TOOL_POINTS, UnilateralContact};
 pub use coupling::Coupling;

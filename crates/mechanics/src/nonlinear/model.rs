@@ -1,10 +1,12 @@
+use std::collections::{BTreeSet, HashSet};
 use std::ops::Range;
 
 use nalgebra::Matrix3;
 use palpate_geometry::TetrahedronMesh;
 
 use super::boundary::{Boundary, SpreadLoad};
-use super::contact::BoundaryPoint;
+use super::cavities::{BodyCavity, Wall};
+use super::contact::{AT, BoundaryPoint};
 use super::elements::{NODES, Pack};
 use super::embedded::EmbeddedPoints;
 use super::law::Moduli;
@@ -12,6 +14,7 @@ use super::relaxation::Relaxation;
 use super::rest::{Influence, RestFactors};
 use super::state::NonlinearState;
 use super::step::Workspace;
+use crate::finite_elements::solid::{Face, faces, take_walls};
 use crate::finite_elements::{ElementMesh, Mismatch};
 use crate::{Error, PronySeries, Vec3};
 
@@ -27,7 +30,9 @@ pub struct NonlinearModel {
     pub(super) packs: Vec<Pack<f32>>,
     pub(super) rest: RestFactors,
     pub(super) relaxation: Option<Relaxation>,
-    /// Weight on each node [N]; none without gravity. And the body as it hangs.
+    /// Its cavities.
+    pub(super) walls: Vec<Wall>,
+    /// Weight on each node [N]; none without gravity. And the body at rest under that and the pressures in its cavities.
     pub(super) weight: Vec<f32>,
     pub(super) settled: Option<Box<NonlinearState>>,
     /// 1/volume of the elements around each node [1/m³].
@@ -43,6 +48,8 @@ pub struct NonlinearModel {
     /// Ten nodes for each tetrahedron.
     elements: Vec<u32>,
     boundary: Boundary,
+    /// Whether each face of the mesh is one of `boundary`, rather than of the wall of a cavity.
+    is_outer: Vec<bool>,
     points: Vec<BoundaryPoint>,
     tool_points: Vec<BoundaryPoint>,
 }
@@ -56,6 +63,22 @@ impl NonlinearModel {
     /// When a list has another length, nothing is fixed, the influences need more than [`MOST_INFLUENCE_BYTES`], or
     /// the stiffness at rest is not positive.
     pub fn new(
+        mesh: &TetrahedronMesh,
+        moduli: &[Moduli<f64>],
+        is_fixed: impl Fn(usize, &Vec3) -> bool,
+        can_be_loaded: impl Fn(usize, &Vec3) -> bool,
+    ) -> Result<Self, Error> {
+        Self::within(
+            &Faces::new(mesh, &[]),
+            mesh,
+            moduli,
+            is_fixed,
+            can_be_loaded,
+        )
+    }
+
+    fn within(
+        faces: &Faces,
         mesh: &TetrahedronMesh,
         moduli: &[Moduli<f64>],
         is_fixed: impl Fn(usize, &Vec3) -> bool,
@@ -110,9 +133,11 @@ impl NonlinearModel {
             loaded,
             nodes: places,
             farthest: (FARTHEST * mean_edge(mesh)) as f32,
-            boundary: Boundary::new(mesh)?,
-            points: BoundaryPoint::of_quadrature(mesh, moduli, mean_edge(mesh)),
-            tool_points: BoundaryPoint::for_tools(mesh, moduli, mean_edge(mesh)),
+            boundary: Boundary::new(mesh, &faces.outer)?,
+            is_outer: faces.are_outer(),
+            points: BoundaryPoint::of_quadrature(mesh, &faces.all, moduli, mean_edge(mesh)),
+            tool_points: BoundaryPoint::for_tools(mesh, &faces.outer, moduli, mean_edge(mesh)),
+            walls: Vec::new(),
             mesh: mesh.clone(),
             elements: numbers,
         })
@@ -128,19 +153,40 @@ impl NonlinearModel {
         moduli: &[Moduli<f64>],
         is_fixed: impl Fn(usize, &Vec3) -> bool,
     ) -> Result<Self, Error> {
-        let nodes = Boundary::new(mesh)?.nodes();
+        Self::hollow(mesh, &[], moduli, is_fixed)
+    }
+
+    /// As [`Self::on_boundary`], with `cavities`, whose walls are neither held nor touched by tools. Pressures act from the first step on,
+    /// unless the body comes to rest under them before ([`Self::under_pressure`]).
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn hollow(
+        mesh: &TetrahedronMesh,
+        cavities: &[BodyCavity],
+        moduli: &[Moduli<f64>],
+        is_fixed: impl Fn(usize, &Vec3) -> bool,
+    ) -> Result<Self, Error> {
+        let faces = Faces::new(mesh, cavities);
+        let (outer, all) = (nodes(&faces.outer), nodes(&faces.all));
         let ElementMesh { elements, .. } = ElementMesh::from_tetrahedra(mesh);
         let mut owners = vec![0; elements.iter().max().map_or(0, |most| *most as usize + 1)];
         for (place, node) in elements.iter().enumerate() {
             owners[*node as usize] = place / NODES;
         }
-        let is_on = |node: usize| nodes.binary_search(&(node as u32)).is_ok();
-        Self::new(
+        let is_on = |nodes: &[u32], node: usize| nodes.binary_search(&(node as u32)).is_ok();
+        let mut model = Self::within(
+            &faces,
             mesh,
             moduli,
-            |node, place| is_on(node) && is_fixed(owners[node], place),
-            |node, _| is_on(node),
-        )
+            |node, place| is_on(&outer, node) && is_fixed(owners[node], place),
+            |node, _| is_on(&all, node),
+        )?;
+        let walls = cavities.iter().zip(&faces.walls);
+        let walls =
+            walls.map(|(own, wall)| Wall::new(wall, &model.nodes, own.content, own.filling));
+        model.walls = walls.collect();
+        Ok(model)
     }
 
     /// The same body of tissues that relax: each element by the one of `series` with its number.
@@ -185,6 +231,37 @@ impl NonlinearModel {
     /// The points of its boundary that may touch tools: of each face both [`super::TOOL_POINTS`], one face after the other.
     pub fn tool_points(&self) -> &[BoundaryPoint] {
         &self.tool_points
+    }
+
+    /// Volume of a cavity in `state`, and at rest without any load [m³].
+    ///
+    /// # Panics
+    /// When there is no such cavity.
+    pub fn cavity_volumes(&self, state: &NonlinearState, cavity: usize) -> [f64; 2] {
+        let wall = &self.walls[cavity];
+        [wall.volume(&self.nodes, &state.displacements), wall.at_rest]
+    }
+
+    /// The volume of the fluid in a cavity over that of the cavity at rest without any load [-]; none without a fluid under
+    /// pressure.
+    ///
+    /// # Panics
+    /// When there is no such cavity.
+    pub fn filling(&self, cavity: usize) -> Option<f64> {
+        self.walls[cavity].filling
+    }
+
+    /// Whether it moves under its weight and the pressures in it, before anything else loads it.
+    pub fn is_settled(&self) -> bool {
+        self.settled.is_some()
+    }
+
+    /// Whether a point of [`Self::boundary_points`] is on the outer boundary, rather than on the wall of a cavity.
+    ///
+    /// # Panics
+    /// When there is no such point.
+    pub fn is_outer(&self, point: usize) -> bool {
+        self.is_outer[point / AT.len()]
     }
 
     /// Room for a load on its boundary.
@@ -248,6 +325,39 @@ impl NonlinearModel {
     pub fn workspace(&self, tools: usize) -> Workspace {
         Workspace::new(self, tools)
     }
+}
+
+/// The faces of a mesh.
+struct Faces {
+    all: Vec<Face>,
+    /// Those that are not of a wall, and those of the wall of each cavity.
+    outer: Vec<Face>,
+    walls: Vec<Vec<Face>>,
+}
+
+impl Faces {
+    fn new(mesh: &TetrahedronMesh, cavities: &[BodyCavity]) -> Self {
+        let all = faces(mesh);
+        let walls: Vec<_> = cavities.iter().map(|own| own.wall.clone()).collect();
+        let mut outer = all.clone();
+        let walls = take_walls(&mut outer, &walls);
+        Self { all, outer, walls }
+    }
+
+    /// Whether each of all is an outer one.
+    fn are_outer(&self) -> Vec<bool> {
+        let walls = self.walls.iter().flatten();
+        let of_walls: HashSet<_> = walls.map(|face| face.corners).collect();
+        let all = self.all.iter();
+        all.map(|face| !of_walls.contains(&face.corners)).collect()
+    }
+}
+
+/// The nodes of faces, ascending.
+pub(super) fn nodes(faces: &[Face]) -> Vec<u32> {
+    let nodes = faces.iter().flat_map(|face| face.nodes);
+    let nodes: BTreeSet<u32> = nodes.map(|node| node as u32).collect();
+    nodes.into_iter().collect()
 }
 
 /// Mean length of the edges [m].

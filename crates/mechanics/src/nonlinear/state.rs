@@ -27,6 +27,7 @@ pub struct NonlinearState {
     /// Rotations of the nodes in the last step, each column by column [-].
     pub(super) rotations: Vec<[f32; 9]>,
     pub(super) tools: Vec<ToolMemory>,
+    pub(super) cavities: Vec<CavityMemory>,
     /// Force of the contact at each point of the boundary with what stands still [N], then with the boundary itself.
     pub(super) pressed: Vec<f64>,
     pub(super) rubbed: Vec<Rubbed>,
@@ -77,6 +78,31 @@ pub(super) struct ToolMemory {
     pub(super) force_in_series: Vec3,
 }
 
+/// The pressure in a cavity in the last step, and in the one before [Pa].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct CavityMemory {
+    pub(super) pressure: f64,
+    before: f64,
+}
+
+impl CavityMemory {
+    /// Continues the last change by a `part` [-] of it.
+    pub(super) fn continue_by(&mut self, part: f64) {
+        let pressure = self.pressure + part * (self.pressure - self.before);
+        (self.pressure, self.before) = (pressure, self.pressure);
+    }
+
+    /// Takes that back.
+    pub(super) fn stay(&mut self) {
+        self.pressure = self.before;
+    }
+
+    /// Has had this pressure [Pa] for long.
+    pub(super) fn hold(&mut self, pressure: f64) {
+        (self.pressure, self.before) = (pressure, pressure);
+    }
+}
+
 impl NonlinearState {
     /// The body at rest, beside `tools` tools.
     pub fn at_rest(model: &NonlinearModel, tools: usize) -> Self {
@@ -95,6 +121,7 @@ impl NonlinearState {
             is_smooth: true,
             rotations: vec![UNTURNED; nodes],
             tools: vec![tool; tools],
+            cavities: vec![CavityMemory::default(); model.walls.len()],
             pressed: vec![0.0; 2 * model.boundary_points().len()],
             rubbed: vec![Rubbed::default(); 2 * model.boundary_points().len()],
             on_tools: vec![ContactMemory::default(); MOST_CONTACTS],
@@ -120,12 +147,16 @@ impl NonlinearState {
             self.earlier.copy_from_slice(&settled.displacements);
             self.rotations.copy_from_slice(&settled.rotations);
             self.stress.copy_from_slice(&settled.stress);
+            self.cavities.copy_from_slice(&settled.cavities);
         } else {
             self.displacements.fill(0.0);
             self.before.fill(0.0);
             self.earlier.fill(0.0);
             self.rotations.fill(UNTURNED);
             self.stress.fill(Remembered::default());
+            for (own, wall) in self.cavities.iter_mut().zip(&model.walls) {
+                own.hold(wall.content.own_pressure());
+            }
         }
         self.fading.fill(0.0);
         self.pressed.fill(0.0);
@@ -169,6 +200,17 @@ impl NonlinearState {
     pub(super) fn stop(&mut self) {
         self.before.copy_from_slice(&self.displacements);
         self.earlier.copy_from_slice(&self.displacements);
+        for own in &mut self.cavities {
+            own.hold(own.pressure);
+        }
+    }
+
+    /// The pressure in a cavity after the last step [Pa].
+    ///
+    /// # Panics
+    /// When there is no such cavity.
+    pub fn cavity_pressure(&self, cavity: usize) -> f64 {
+        self.cavities[cavity].pressure
     }
 
     /// Weighted mean of the displacements of `nodes` [m].
@@ -364,6 +406,7 @@ impl NonlinearState {
     pub(super) fn is_finite(&self) -> bool {
         let sum: f64 = self.displacements.iter().sum();
         let forces = self.tools.iter().flat_map(|tool| tool.force.iter());
-        sum.is_finite() && forces.sum::<f64>().is_finite()
+        let pressures = self.cavities.iter().map(|own| own.pressure);
+        sum.is_finite() && forces.chain(&[pressures.sum()]).sum::<f64>().is_finite()
     }
 }

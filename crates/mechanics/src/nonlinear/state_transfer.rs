@@ -89,6 +89,9 @@ impl StateTransfer {
                 state.rubbed[own] = before.rubbed[other];
             }
         }
+        for (own, other) in state.cavities.iter_mut().zip(&before.cavities) {
+            own.hold(other.pressure);
+        }
         for (own, other) in state.tools.iter_mut().zip(&before.tools) {
             own.is_coupled = other.is_coupled;
             (own.force, own.force_in_series) = (other.force, other.force_in_series);

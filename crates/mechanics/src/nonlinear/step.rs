@@ -1,10 +1,10 @@
 use nalgebra::Matrix3;
 
 use super::constraints::{Conditions, Constraints, Turned};
-use super::contact::Against;
 use super::coupling::Coupling;
 use super::kernel::{self, Deformed};
 use super::model::NonlinearModel;
+use super::predictor;
 use super::relaxation::{Relaxation, StepShares};
 use super::rotation;
 use super::state::NonlinearState;
@@ -12,9 +12,6 @@ use crate::Vec3;
 
 /// Part of the slope at the beginning of a step that may be left at its end before the step is shortened [-].
 const SLOPE_LEFT: f64 = 0.3;
-
-/// Largest factor with which the last displacement is continued, or gone back [-].
-const MOST_CONTINUED: f64 = 1.5;
 
 /// Conjugate gradients go on, up to [`MOST_TIMES`] as many, until they have reduced the residual's energy so many times [-].
 /// Thin walls need it: the residual that is left makes the organ too stiff within a step, and the force under a tip
@@ -164,10 +161,10 @@ fn step(
     let couplings = conditions.couplings;
     state.fade(couplings);
     workspace.begin(model, pace.elapsed, state);
-    let is_continued = guess(model, conditions, state, workspace);
+    let is_continued = predictor::predict(model, conditions, state, &mut workspace.guess);
     let mut advance = solve(model, conditions, pace.iterations, state, workspace);
     if advance.was_unstable && is_continued {
-        stay(state, workspace);
+        predictor::stay(state, &mut workspace.guess);
         advance = solve(model, conditions, pace.iterations, state, workspace);
     }
     workspace.bound(model.farthest, &mut advance);
@@ -178,7 +175,7 @@ fn step(
     };
     let (residual, displacements) = (&workspace.residual, &state.displacements);
     workspace.constraints.finish(body, residual, displacements);
-    workspace.constraints.remember(couplings, state);
+    workspace.constraints.remember(model, couplings, state);
     advance.is_inverted = workspace.end(model, advance.was_shortened, state);
     if advance.was_unstable && !model.relaxes() {
         advance.is_inverted = kernel::are_inverted(&workspace.deformed);
@@ -214,67 +211,6 @@ fn solve(
 enum GuessOrEnd {
     Guess,
     End,
-}
-
-/// Continues the last motion as far as the tools continue their paths; whether there was one to be continued.
-fn guess(
-    model: &NonlinearModel,
-    conditions: Conditions<'_>,
-    state: &mut NonlinearState,
-    workspace: &mut Workspace,
-) -> bool {
-    let Conditions {
-        couplings,
-        contacts,
-    } = conditions;
-    let last_motion = state.motion();
-    let (mut along, mut length, mut all_known) = (0.0, 0.0, true);
-    for (coupling, memory) in couplings.iter().zip(&state.tools) {
-        all_known &= coupling.is_some() == memory.is_coupled;
-        if let Some(coupling) = coupling {
-            let last = last_motion.of(coupling.nodes);
-            along += coupling.advance.dot(&last);
-            length += last.norm_squared();
-        }
-    }
-    for contact in contacts {
-        if let Against::Tool { motion, .. } = contact.against
-            && state.force_of(model, contact) > 0.0
-        {
-            let nodes = &model.tool_points()[contact.point as usize].nodes;
-            let last = contact.normal.dot(&last_motion.of(nodes));
-            along += contact.normal.dot(&motion) * last;
-            length += last * last;
-        }
-    }
-    // Friction depends on the way, which is not known yet.
-    let part = if all_known && state.is_smooth && length > 0.0 && !state.has_friction() {
-        (along / length).clamp(-MOST_CONTINUED, MOST_CONTINUED)
-    } else {
-        0.0
-    };
-    let each = last_motion.to.iter().zip(last_motion.from);
-    let per_step = part / last_motion.steps;
-    for (guess, (to, from)) in workspace.guess.iter_mut().zip(each) {
-        *guess = to + per_step * (to - from);
-    }
-    for (coupling, memory) in couplings.iter().zip(&mut state.tools) {
-        let force = match coupling {
-            Some(_) => memory.force + part * (memory.force - memory.force_in_series),
-            None => Vec3::zeros(),
-        };
-        memory.force_in_series = memory.force;
-        memory.force = force;
-    }
-    part != 0.0
-}
-
-/// Takes back what a guess continued.
-fn stay(state: &mut NonlinearState, workspace: &mut Workspace) {
-    workspace.guess.copy_from_slice(&state.displacements);
-    for memory in &mut state.tools {
-        memory.force = memory.force_in_series;
-    }
 }
 
 impl Workspace {
@@ -318,6 +254,7 @@ impl Workspace {
         };
         self.forces.fill(0.0);
         kernel::forces(&model.packs, u, &mut self.deformed, &mut self.forces);
+        self.constraints.walls.deform(model, u, &mut self.forces);
         for (force, weight) in self.forces.iter_mut().zip(&model.weight) {
             *force -= weight;
         }
@@ -361,6 +298,8 @@ impl Workspace {
         };
         self.product.fill(0.0);
         kernel::products(&model.packs, &self.deformed, vector, &mut self.product);
+        let walls = &self.constraints.walls;
+        walls.add_product(model, vector, &mut self.product);
     }
 
     #[inline(always)]

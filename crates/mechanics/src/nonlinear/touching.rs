@@ -7,6 +7,8 @@
 //! Of two pieces, the points of the finer one stay out of the other; a piece that touches itself has both sides stay out
 //! of one another.
 //!
+//! The walls of cavities are of the boundary.
+//!
 //! A place does not touch what it is one body with at rest: what lies behind the surface there and nearer than
 //! [`APART`], or nearer than that along the surface. What faces it across a gap it does.
 
@@ -14,7 +16,7 @@ use palpate_geometry::{SHARP_EDGE, TetrahedronMesh, TriangleMesh};
 
 use super::boundary::shape_on_face;
 use super::contact::{AT, NODES};
-use super::model::NonlinearModel;
+use super::model::{NonlinearModel, nodes};
 use super::state::NonlinearState;
 use super::touching_search::TouchingSearch;
 use crate::finite_elements::Mismatch;
@@ -113,7 +115,7 @@ impl TouchingBoundary {
             .into());
         }
         let list = faces(mesh);
-        let nodes = model.boundary().nodes();
+        let nodes = nodes(&list);
         let number = |node: usize| nodes.binary_search(&(node as u32)).unwrap_or(0);
         let numbers: Vec<[usize; NODES]> = list.iter().map(|face| face.nodes.map(number)).collect();
         let flat: Vec<Vec3> = list.iter().map(|face| flat_normal(mesh, face)).collect();

@@ -38,6 +38,7 @@ mod laws;
 mod linear_system;
 mod no_allocation;
 mod nonlinear;
+mod nonlinear_cavities;
 mod nonlinear_contact;
 mod nonlinear_friction;
 mod nonlinear_judges;

@@ -69,13 +69,13 @@ pub(super) fn grading(surface: &Surface, nodes: usize) -> impl Fn(&Vec3) -> f64 
 }
 
 /// About so many nodes in the body within `surface`: a filling that has all of its walls, made coarser; its edges are shorter
-/// at inclusions, and by the factor `finer` [-].
+/// at inclusions, and by the factor `finer` [-]. Its regions are cavities, and there are warnings.
 pub(super) fn tetrahedra(
     surface: &Surface,
     nodes: usize,
     regions: &Regions,
     finer: impl Fn(&Vec3) -> f64,
-) -> Result<TetrahedronMesh, Error> {
+) -> Result<(TetrahedronMesh, Vec<String>), Error> {
     let edge = FillSettings::with_about(surface, nodes).edge;
     let longest = |place: &Vec3| regions.longest_edge(place).min(edge);
     let mut filling = filled(surface, TETRAHEDRA_PER_NODE * nodes);
@@ -85,5 +85,5 @@ pub(super) fn tetrahedra(
     }
     let detail = |place: &Vec3| finer(place) * edge / longest(place);
     let mesh = filling.and_then(|fine| coarsen(&fine, surface, nodes, detail));
-    mesh.map_err(|error| palpate_mechanics::Error::from(error).into())
+    regions.with_cavities(mesh.map_err(palpate_mechanics::Error::from)?, surface)
 }

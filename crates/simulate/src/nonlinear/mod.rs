@@ -22,6 +22,8 @@
 //!
 //! Shafts are in contact with what bends (`shafts`).
 //!
+//! Cavities are empty, under a pressure, or full of a fluid (`merged`).
+//!
 //! Cuts are slits in the elements (`slits`), which another thread makes (`cut_body`).
 //!
 //! *Limits*: quasi-static. A body that is nearly incompressible is taken with a Poisson's ratio of 0.49.
@@ -34,6 +36,8 @@ mod cut_body;
 mod cut_thread;
 mod filling;
 mod hold;
+mod hollow;
+mod merged;
 mod mesh_warnings;
 mod moved;
 mod neighbours;
@@ -51,6 +55,7 @@ mod touch;
 use composition::{Composition, Filled};
 use cut_body::FollowedCuts;
 use cut_thread::CutThread;
+use merged::Merged;
 pub(crate) use moved::Moved;
 use neighbours::{Candidates, Skin};
 pub(crate) use regions::Regions;
@@ -58,7 +63,6 @@ use shaft_skin::ShaftSkin;
 pub(crate) use shafts::Pushed;
 use shafts::{Pierced, ShaftMotion};
 use slits::CutPaths;
-use soft::Merged;
 pub(crate) use soft::SoftBody;
 
 use std::ops::ControlFlow;
@@ -178,6 +182,20 @@ impl Body {
     }
 }
 
+impl Body {
+    /// The pressures in its cavities [Pa].
+    pub(crate) fn cavity_pressures(&self) -> impl Iterator<Item = f64> {
+        let numbers = 0..self.organ.cavities().count();
+        numbers.map(|number| self.state.cavity_pressure(number))
+    }
+
+    /// The volumes of its cavities [m³].
+    pub(crate) fn cavity_volumes(&self) -> impl Iterator<Item = f64> {
+        let numbers = 0..self.organ.cavities().count();
+        numbers.map(|number| self.organ.model.cavity_volumes(&self.state, number)[0])
+    }
+}
+
 impl NonlinearWorkspace {
     pub(crate) fn new(organ: &Arc<NonlinearOrgan>, simulation: &Simulation) -> Self {
         let tools = simulation.tools.len();
@@ -207,7 +225,7 @@ impl NonlinearWorkspace {
             None => "cuts change no force: the thread for them could not be started".to_owned(),
             Some(_) => format!(
                 "{:.0} mm of the cuts are seen and do not change the force: they turn back within an element (raise `model.nodes`), or \
-                 would cut a piece off, which nothing holds",
+                 would cut a piece off, which nothing holds, or would open a cavity",
                 1e3 * self.closed
             ),
         })
@@ -240,20 +258,22 @@ impl NonlinearOrgan {
         let (work, part) = (Work::Factors, FILLED);
         tell(watch, Progress { work, part })?;
         let composition = Arc::new(composition);
-        let mut organ = Self::of_pieces(&composition, &composition.filled, CutPaths::default())?;
+        let (filled, cuts) = (&composition.filled, CutPaths::default());
+        let mut organ = Self::of_pieces(&composition, filled, cuts, None)?;
         organ.hangs = composition.hangs(&organ.model, &organ.shown);
         Ok((organ, warnings))
     }
 
-    /// That of the elements of its pieces: those of its composition, or what cuts made of them; vertices of the shown surface go with
+    /// That of the elements of its pieces: those of its composition, or what cuts made of those of the `whole` body; vertices of the shown surface go with
     /// the elements beside `cuts`.
     fn of_pieces(
         composition: &Arc<Composition>,
         filled: &[Filled],
         cuts: CutPaths,
+        whole: Option<&NonlinearModel>,
     ) -> Result<Self, Error> {
-        let merged = Merged::new(filled)?;
-        let model = composition.model(filled, &merged)?;
+        let merged = Merged::new(filled, &composition.pieces)?;
+        let model = composition.model(&merged, whole)?;
         let Composition {
             shown,
             tree,
@@ -274,7 +294,14 @@ impl NonlinearOrgan {
         })
     }
 
-    /// The shown surface and its boxes as the organ hangs under its weight, if it has any.
+    /// The names of its cavities.
+    pub(crate) fn cavities(&self) -> impl Iterator<Item = &str> {
+        let pieces = self.composition.pieces.iter();
+        let cavities = pieces.flat_map(|piece| &piece.regions.cavities);
+        cavities.map(|own| own.name.as_str())
+    }
+
+    /// The shown surface and its boxes as the organ hangs under its weight and what presses in its cavities, if anything does.
     pub(crate) fn hangs(&self) -> Option<(&TriangleMesh, &AabbTree)> {
         self.hangs.as_ref().map(|(mesh, tree)| (mesh, tree))
     }

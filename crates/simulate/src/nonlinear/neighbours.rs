@@ -60,8 +60,12 @@ impl Skin {
             .map(|point| tree.nearest(shown.mesh(), &point.place).on.position)
             .collect();
         let overlap = |neighbour: &Neighbour| {
-            let places = places.iter().zip(points);
-            let depths = places.map(|(place, point)| {
+            let places = places.iter().zip(points).enumerate();
+            let depths = places.map(|(number, (place, point))| {
+                // A neighbour in a cavity is not looked for.
+                if !model.is_outer(number) {
+                    return f64::NEG_INFINITY;
+                }
                 let place = place + point.displacement(&rest.displacements);
                 match neighbour.nearest(&place, None).distance.min(0.0) {
                     deep if deep < -GROWN_IN => f64::NEG_INFINITY,

@@ -1,13 +1,13 @@
 //! The tissues of an organ: layers, inclusions and what is around them, where `palpate_mechanics::regions` says.
 //!
-//! An element that several tissues share has the mean of the bounds of Voigt and Reuss (`Moduli::mixed`), and relaxes as
+//! Tetrahedra do not cross the walls of cavities. An element that several tissues share has the mean of the bounds of Voigt and Reuss (`Moduli::mixed`), and relaxes as
 //! the tissue that has most of it.
 //!
 //! A tip is smaller than an element. What it meets, and what its load leaves out of the elements, are those of a layered
 //! half-space (`palpate_mechanics::layered`).
 
 use palpate_files::Tissue;
-use palpate_files::scene::{Inclusion, Layer, TissueChoice};
+use palpate_files::scene::{CavityContent, Inclusion, Layer, PartContent, TissueChoice};
 use palpate_files::tissue::LawName;
 use palpate_geometry::{Surface, TetrahedronMesh, Vec3};
 use palpate_mechanics::layered::{LayeredHalfSpace, LoadShape};
@@ -24,8 +24,9 @@ const LARGEST_RATIO: f64 = 0.49;
 /// An element is asked for its tissues at the centroids of its parts, so many along an edge.
 const PARTS: usize = 6;
 
-/// Edges in an inclusion, in its smallest radius, and by how much they grow away from it [-].
+/// Edges in an inclusion, in its smallest radius, those where there are cavities, and by how much they grow away from it [-].
 const OF_RADIUS: f64 = 0.6;
+const OF_WALL: f64 = 0.45;
 const GROWTH: f64 = 0.25;
 
 /// Radii [m] for which the layers are solved: from one, each by this factor larger than the one before.
@@ -44,15 +45,25 @@ pub(crate) struct RegionTissue {
     law: LinearElastic,
 }
 
+/// A cavity of the organ.
+#[derive(Debug, Clone)]
+pub(crate) struct RegionCavity {
+    /// Its number in the map.
+    pub(super) number: usize,
+    pub(crate) name: String,
+    pub(super) content: CavityContent,
+}
+
 /// Where which tissue is.
 #[derive(Debug, Clone)]
 pub(crate) struct Regions {
-    /// Of the organ, of the layers from outside, of the inclusions.
+    /// Of the organ, of the layers from outside, of the inclusions. That of a cavity has no element.
     tissues: Vec<RegionTissue>,
+    pub(super) cavities: Vec<RegionCavity>,
     layers: usize,
     /// Names of layers and inclusions.
     names: Vec<String>,
-    map: RegionMap,
+    pub(super) map: RegionMap,
     /// How much more than their outermost tissue the layers yield to a flat tip and to a load of each radius [-].
     punch: Vec<[f64; 2]>,
     load: Vec<[f64; 2]>,
@@ -72,6 +83,13 @@ pub(super) struct Elements {
 }
 
 impl Elements {
+    /// Takes those of another body.
+    pub(super) fn extend(&mut self, other: Self) {
+        self.moduli.extend(other.moduli);
+        self.numbers.extend(other.numbers);
+        self.densities.extend(other.densities);
+    }
+
     /// The same, whose tissues relax as the series after so many do.
     pub(super) fn numbered_from(mut self, series: usize) -> Self {
         self.numbers.iter_mut().for_each(|number| *number += series);
@@ -93,8 +111,20 @@ impl Regions {
         for layer in layers {
             tissues.push(RegionTissue::read(&layer.tissue, &mut warnings)?);
         }
+        let mut cavities = Vec::new();
         for inclusion in inclusions {
-            tissues.push(RegionTissue::read(&inclusion.tissue, &mut warnings)?);
+            let number = tissues.len();
+            tissues.push(match &inclusion.content {
+                PartContent::Tissue(tissue) => RegionTissue::read(tissue, &mut warnings)?,
+                PartContent::Cavity(content) => {
+                    cavities.push(RegionCavity {
+                        number,
+                        name: inclusion.name.clone(),
+                        content: *content,
+                    });
+                    tissues[0].clone()
+                }
+            });
         }
         warnings.sort();
         warnings.dedup();
@@ -121,8 +151,16 @@ impl Regions {
             punch: yields(LoadShape::Punch),
             load: yields(LoadShape::Bump),
             tissues,
+            cavities,
             warnings,
         })
+    }
+
+    /// The region of a place [m], as if cavities were filled.
+    fn tissue_at(&self, place: &Vec3) -> usize {
+        let is_tissue = |number: usize| self.cavities.iter().all(|own| own.number != number);
+        self.map
+            .region_below(|number| is_tissue(*number) && self.map.height(*number, place) <= 0.0)
     }
 
     /// The tissues: of the organ, of the layers from outside, of the inclusions.
@@ -180,13 +218,16 @@ impl Regions {
         let places = parts();
         let mut elements = Elements::default();
         let mut found = vec![false; self.tissues.len()];
+        for own in &self.cavities {
+            found[own.number] = true;
+        }
         for element in 0..count {
             let corners = mesh.positions(element);
             let mut shares = vec![0.0; self.tissues.len()];
             for barycentric in &places {
                 let place = corners.iter().zip(barycentric);
                 let place: Vec3 = place.map(|(corner, part)| corner * *part).sum();
-                shares[self.map.at(&place)] += 1.0 / places.len() as f64;
+                shares[self.tissue_at(&place)] += 1.0 / places.len() as f64;
             }
             let each = || self.tissues.iter().zip(&shares);
             let mixed = Moduli::mixed(each().map(|(region, share)| (region.moduli, *share)));
@@ -219,7 +260,11 @@ impl Regions {
 
     /// The edges that the inclusions ask for at `place` [m].
     pub(super) fn longest_edge(&self, place: &Vec3) -> f64 {
-        self.map.longest_edge_at_shapes(place, OF_RADIUS, GROWTH)
+        let of_radius = match self.cavities.is_empty() {
+            true => OF_RADIUS,
+            false => OF_WALL,
+        };
+        self.map.longest_edge_at_shapes(place, of_radius, GROWTH)
     }
 
     /// How much more than the tissue at the surface the layers yield to a flat tip of this radius [m]: along the surface, and

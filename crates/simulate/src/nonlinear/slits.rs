@@ -3,11 +3,11 @@
 //! *How we know*: `nonlinear_cuts::…`.
 //!
 //! *Limits*: a cut that turns back within the length of an edge, as over a rim, stays closed there, and one that would cut a piece
-//! off stays closed in all, with a warning.
+//! off or open a cavity stays closed in all, with a warning.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use palpate_geometry::{SlitPoint, SlitTetrahedra, Vec3};
+use palpate_geometry::{SlitPoint, SlitTetrahedra, TetrahedronError, Vec3};
 
 use super::NonlinearOrgan;
 use super::composition::Filled;
@@ -138,19 +138,18 @@ impl NonlinearOrgan {
             for path in own {
                 let mut parted = slit.clone();
                 let stays = open(&mut parted, path);
-                // What nothing holds has no place.
-                if parted.is_held(|place| anchors[number].fixes(place)) {
+                // What nothing holds has no place; a fluid would leave a cavity that is opened.
+                let is_held = parted.is_held(|place| anchors[number].fixes(place));
+                if is_held && encloses_cavities(&parted, whole, &composition.pieces[number]) {
                     slit = parted;
                     closed += stays;
                 } else {
                     closed += length(path);
                 }
             }
-            let (mesh, parents) = slit.into_mesh().map_err(palpate_mechanics::Error::from)?;
-            let elements = whole.elements.parts(&parents);
-            filled.push(Filled { mesh, elements });
+            filled.push(whole.slit(slit).map_err(palpate_mechanics::Error::from)?);
         }
-        let organ = Self::of_pieces(composition, &filled, paths.clone())?;
+        let organ = Self::of_pieces(composition, &filled, paths.clone(), Some(&self.model))?;
         Ok((organ, closed))
     }
 
@@ -160,6 +159,13 @@ impl NonlinearOrgan {
         let nearest = composition.tree.nearest(composition.shown.mesh(), place);
         Piece::with(&composition.pieces, nearest.triangle.0)
     }
+}
+
+/// Whether the cavities of a piece are still closed.
+fn encloses_cavities(slit: &SlitTetrahedra, whole: &Filled, piece: &Piece) -> bool {
+    let cavities = piece.regions.cavities.len();
+    let hollow = || whole.slit(slit.clone())?.hollow(cavities);
+    cavities == 0 || hollow().is_ok()
 }
 
 /// Opens a slit along a path; how much of its length stays closed [m].
@@ -194,9 +200,23 @@ fn length(path: &[SlitPoint]) -> f64 {
         .sum()
 }
 
+impl Filled {
+    /// Its elements, some of which are in parts.
+    fn slit(&self, slit: SlitTetrahedra) -> Result<Self, TetrahedronError> {
+        let (mesh, parents) = slit.into_mesh()?;
+        let regions = parents
+            .iter()
+            .map(|parent| self.mesh.region(*parent as usize));
+        Ok(Self {
+            mesh: mesh.with_regions(regions.collect())?,
+            elements: self.elements.parts(&parents),
+        })
+    }
+}
+
 impl Elements {
     /// Those that are parts of these: each of the one with its number.
-    fn parts(&self, parents: &[u32]) -> Self {
+    pub(super) fn parts(&self, parents: &[u32]) -> Self {
         let parents = || parents.iter().map(|&parent| parent as usize);
         Self {
             moduli: parents().map(|parent| self.moduli[parent]).collect(),

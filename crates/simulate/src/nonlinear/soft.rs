@@ -9,12 +9,12 @@ use std::ops::Range;
 
 use palpate_files::Scene;
 use palpate_files::scene::{Location, Region, SoftNeighbour};
-use palpate_geometry::{AabbTree, NodeId, Surface, TetrahedronMesh, Vec3};
+use palpate_geometry::{AabbTree, Surface, Vec3};
 use palpate_mechanics::contact::Tip;
 use palpate_mechanics::nonlinear::{NonlinearModel, TouchingBoundary};
 use palpate_mechanics::{LinearElastic, TipLaw};
 
-use super::composition::Filled;
+use super::merged::Merged;
 use super::regions::Regions;
 use crate::Error;
 use crate::organ::{back, held_region, read_neighbour, read_tissue};
@@ -174,36 +174,6 @@ impl Piece {
 /// the force is taken as a dimple all the same.
 fn wraps(tool: &Tool, wall: f64) -> bool {
     matches!(tool.tip, Tip::Sphere { radius } if tool.slides() && radius > wall)
-}
-
-/// The organ's tetrahedra and those of the neighbours that bend.
-pub(super) struct Merged {
-    pub(super) mesh: TetrahedronMesh,
-    /// Of each tetrahedron.
-    pub(super) pieces: Vec<u32>,
-    /// The tetrahedra of each piece.
-    pub(super) ranges: Vec<Range<usize>>,
-}
-
-impl Merged {
-    pub(super) fn new(filled: &[Filled]) -> Result<Self, Error> {
-        let (mut vertices, mut tetrahedra) = (Vec::new(), Vec::new());
-        let (mut pieces, mut ranges) = (Vec::new(), Vec::new());
-        for (number, Filled { mesh: piece, .. }) in filled.iter().enumerate() {
-            let (first, begin) = (vertices.len() as u32, tetrahedra.len());
-            vertices.extend_from_slice(piece.vertices());
-            let own = piece.tetrahedra().iter();
-            tetrahedra.extend(own.map(|corners| corners.map(|node| NodeId(node.0 + first))));
-            pieces.resize(tetrahedra.len(), number as u32);
-            ranges.push(begin..tetrahedra.len());
-        }
-        let mesh = TetrahedronMesh::new(vertices, tetrahedra);
-        Ok(Self {
-            mesh: mesh.map_err(palpate_mechanics::Error::from)?,
-            pieces,
-            ranges,
-        })
-    }
 }
 
 /// How the pieces touch one another, and the organ itself with this friction if it does; none where nothing does.

@@ -34,6 +34,7 @@ mod neighbours;
 mod no_allocation;
 mod nodules;
 mod nonlinear;
+mod nonlinear_cavities;
 mod nonlinear_cuts;
 mod nonlinear_neighbours;
 mod nonlinear_organs;

@@ -50,6 +50,12 @@ fn a_sliding_step_allocates_nothing() {
              builtin_tissue = \"pig-liver\"\nat_m = [0.0, 0.0, -0.04]",
         ),
         (
+            "nonlinear",
+            "slip",
+            "nodes = 800\n[[organ.region]]\nball = { center_m = [-0.03, 0.0, 0.02], radius_m = 0.02 }\n\
+             cavity = { constant_volume = true, pressure_pa = 300.0 }",
+        ),
+        (
             "hybrid",
             "slip",
             "mechanical_triangles = 400\nenhancement = { area = \"vertex\", levels = 3 }",

@@ -93,16 +93,13 @@ pub(super) fn from_keys(
         let shapes = ["ball", "ellipsoid", "capsule", "mesh"];
         let key = shapes.into_iter().find(|key| keys.contains(key));
         let place = PartPlace::Inclusion(inclusion.place);
-        let content = tissue_of(keys, inclusion.tissue.read()?, law)?;
+        let content = content_of(keys, inclusion.content, law)?;
         let key = key.unwrap_or("name");
         parts.push(part(keys, key, inclusion.name, place, content));
     }
     for (number, keys) in keys.tables("region")?.iter().enumerate() {
         let found = BodyPart::from_keys(keys, number, folder)?;
-        let content = match found.content {
-            PartContent::Tissue(tissue) => tissue_of(keys, tissue.read()?, law)?,
-            PartContent::Cavity(content) => SolidContent::Cavity(content),
-        };
+        let content = content_of(keys, found.content, law)?;
         parts.push(part(keys, found.key, found.name, found.place, content));
     }
     Ok(parts)
@@ -121,6 +118,18 @@ fn part(
         content,
         found_at: keys.place_of_key(key),
         key: keys.full_name(key),
+    }
+}
+
+/// What a part of a body of `law` is made of.
+fn content_of(
+    keys: &Keys<'_>,
+    content: PartContent,
+    law: LawName,
+) -> Result<SolidContent, JobError> {
+    match content {
+        PartContent::Tissue(tissue) => tissue_of(keys, tissue.read()?, law),
+        PartContent::Cavity(content) => Ok(SolidContent::Cavity(content)),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Regions of a solid that are cavities: their tetrahedra are taken out, and what is left has walls around them.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::BTreeSet;
 
 use palpate_files::scene::CavityContent;
 use palpate_geometry::{NodeId, TetrahedronMesh};
@@ -8,7 +8,7 @@ use palpate_geometry::{NodeId, TetrahedronMesh};
 use super::super::cavity::Cavity;
 use super::super::model::{FiniteElementModel, FiniteElementState};
 use super::answer::CavityAnswer;
-use super::mesh::{Face, faces};
+use super::mesh::{Face, faces, take_walls};
 use super::problem::{RegionContent, SolidProblem};
 use crate::Error;
 
@@ -46,26 +46,21 @@ impl SolidMesh {
         }
         let numbers: Vec<_> = contents.iter().map(|(at, _)| *at as u32 + 1).collect();
         let hollow = mesh.without(&numbers)?;
-        let sorted = |mut corners: [NodeId; 3]| {
-            corners.sort_unstable();
-            corners
-        };
         let mut outer = faces(&hollow.mesh);
-        let mut cavities = Vec::new();
-        for ((region, content), wall) in contents.into_iter().zip(hollow.walls) {
-            let around: HashSet<_> = wall.into_iter().map(sorted).collect();
-            let is_wall = |face: &mut Face| around.contains(&sorted(face.corners));
-            // Of the body, not of the cavity.
-            let sides = outer.extract_if(.., is_wall);
-            let sides = sides.map(|face| face.seen_from_inside().to_vec());
-            cavities.push(SolidCavity {
-                region,
-                content,
-                wall: Cavity {
-                    sides: sides.collect(),
-                },
-            });
-        }
+        let walls = take_walls(&mut outer, &hollow.walls);
+        let each = contents.into_iter().zip(walls);
+        let cavities = each.map(|((region, content), wall)| SolidCavity {
+            region,
+            content,
+            wall: Cavity {
+                // Of the body, not of the cavity.
+                sides: wall
+                    .iter()
+                    .map(|face| face.seen_from_inside().to_vec())
+                    .collect(),
+            },
+        });
+        let cavities = cavities.collect();
         Ok(Self {
             mesh: hollow.mesh,
             outer,

@@ -1,5 +1,7 @@
 //! Tetrahedra with nodes in the middles of their edges, and those on the boundary.
 
+use std::collections::HashSet;
+
 use palpate_geometry::{NodeId, TetrahedronMesh};
 
 use super::super::element::ElementKind;
@@ -68,9 +70,23 @@ pub(crate) fn faces(mesh: &TetrahedronMesh) -> Vec<Face> {
         .collect()
 }
 
+/// Takes the faces of each of the `walls` out of those of a boundary.
+pub(crate) fn take_walls(boundary: &mut Vec<Face>, walls: &[Vec<[NodeId; 3]>]) -> Vec<Vec<Face>> {
+    let sorted = |mut corners: [NodeId; 3]| {
+        corners.sort_unstable();
+        corners
+    };
+    let each = walls.iter().map(|wall| {
+        let around: HashSet<_> = wall.iter().copied().map(sorted).collect();
+        let is_wall = |face: &mut Face| around.contains(&sorted(face.corners));
+        boundary.extract_if(.., is_wall).collect()
+    });
+    each.collect()
+}
+
 impl Face {
     /// Its nodes, counter-clockwise seen from inside.
-    pub(super) fn seen_from_inside(&self) -> [u32; 6] {
+    pub(crate) fn seen_from_inside(&self) -> [u32; 6] {
         turned_over(self.nodes.map(|node| node as u32))
     }
 

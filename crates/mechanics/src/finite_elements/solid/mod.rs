@@ -35,7 +35,7 @@ mod run;
 mod solve;
 mod supports;
 
-pub(crate) use mesh::{Face, faces};
+pub(crate) use mesh::{Face, faces, take_walls};
 
 pub use answer::{CavityAnswer, SolidAnswer, SolidFields};
 pub use error::SolidError;

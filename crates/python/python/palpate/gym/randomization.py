@@ -120,9 +120,9 @@ def scene_with(scene: palpate.Scene, drawn: Mapping[str, float]) -> palpate.Scen
     organ = content["organ"]
     stiffness, time = drawn.get("tissue.stiffness", 1.0), drawn.get("tissue.relaxation_time", 1.0)
     if stiffness != 1.0 or time != 1.0:
-        # A layer without a tissue has that of the organ.
-        layers = [own for own in organ.get("layer", []) if "tissue" in own or "builtin_tissue" in own]
-        for part in (organ, *layers, *organ.get("inclusion", [])):
+        parts = [part for key in ("layer", "inclusion", "region") for part in organ.get(key, [])]
+        # A layer without a tissue has that of the organ, and a cavity has none.
+        for part in (organ, *(own for own in parts if "tissue" in own or "builtin_tissue" in own)):
             _soften(part, stiffness, time)
     if "anchor.size" in drawn:
         if "anchor" not in organ:

@@ -1,0 +1,119 @@
+//! A body at rest under its own weight and the pressures in its cavities.
+
+use super::cavities::{Wall, WallLoad};
+use super::constraints::Conditions;
+use super::model::NonlinearModel;
+use super::state::{CavityMemory, NonlinearState};
+use super::step::{Pace, Workspace, advance};
+use crate::Error;
+use palpate_files::scene::CavityContent;
+
+/// Loads come in so many parts, each in so many steps; then so many steps more at most, until a step moves no node by
+/// more than a part of the body's size [-].
+const PARTS: usize = 20;
+const STEPS: usize = 2;
+const MOST_STEPS: usize = 200;
+const SETTLED: f64 = 1e-7;
+
+/// Long enough for every tissue to have relaxed [s].
+const LONG: f64 = 1e12;
+
+impl NonlinearModel {
+    /// The same body under the pressures in its cavities: it is at rest where they have pressed for long, whatever its tissues relax
+    /// by. A fluid has so much volume that it has its pressure while nothing else loads the body.
+    ///
+    /// # Errors
+    /// When the body does not come to rest.
+    pub fn under_pressure(self) -> Result<Self, Error> {
+        let is_loaded = |wall: &Wall| {
+            wall.content.own_pressure() != 0.0 || wall.filling.is_some_and(|filling| filling != 1.0)
+        };
+        match self.walls.iter().any(is_loaded) {
+            true => self.settle(Vec::new()),
+            false => Ok(self),
+        }
+    }
+
+    /// The same at rest under the pressures and a `weight` on each node [N], if it has any.
+    pub(super) fn settle(mut self, weight: Vec<f32>) -> Result<Self, Error> {
+        let mut state = NonlinearState::at_rest(&self, 0);
+        state.cavities.fill(CavityMemory::default());
+        let mut workspace = self.workspace(0);
+        let fills = |wall: &Wall| match (wall.content, wall.filling) {
+            (CavityContent::Fluid(pressure), None) => Some(pressure).filter(|own| *own != 0.0),
+            _ => None,
+        };
+        if self.walls.iter().any(|wall| fills(wall).is_some()) {
+            // Nothing but the fluids loads the body.
+            self.load(&mut state, &mut workspace, |model, part| {
+                for wall in &mut model.walls {
+                    wall.load = WallLoad::Pressure(part * fills(wall).unwrap_or(0.0));
+                }
+            })?;
+            for number in 0..self.walls.len() {
+                let volume = self.walls[number].volume(self.nodes(), &state.displacements);
+                let wall = &mut self.walls[number];
+                wall.filling = match wall.content {
+                    CavityContent::Fluid(_) => Some(wall.filling.unwrap_or(volume / wall.at_rest)),
+                    CavityContent::Pressure(_) => None,
+                };
+                state.cavities[number].hold(fills(wall).unwrap_or(0.0));
+            }
+        }
+        let volumes: Vec<f64> = self
+            .walls
+            .iter()
+            .map(|wall| wall.volume(self.nodes(), &state.displacements))
+            .collect();
+        self.load(&mut state, &mut workspace, |model, part| {
+            let of_weight = weight.iter().map(|force| part as f32 * force);
+            model.weight = of_weight.collect();
+            for (wall, from) in model.walls.iter_mut().zip(&volumes) {
+                wall.load = match wall.content {
+                    CavityContent::Pressure(pressure) => WallLoad::Pressure(part * pressure),
+                    CavityContent::Fluid(_) => {
+                        let kept = wall.filling.unwrap_or(1.0) * wall.at_rest;
+                        WallLoad::Volume(from + part * (kept - from))
+                    }
+                };
+            }
+        })?;
+        for (own, wall) in state.cavities.iter_mut().zip(&self.walls) {
+            if let WallLoad::Pressure(pressure) = wall.load {
+                own.hold(pressure);
+            }
+        }
+        state.stop();
+        self.settled = Some(Box::new(state));
+        Ok(self)
+    }
+
+    /// Loads it part by part, and waits until it rests.
+    fn load(
+        &mut self,
+        state: &mut NonlinearState,
+        workspace: &mut Workspace,
+        at_part: impl Fn(&mut Self, f64),
+    ) -> Result<(), Error> {
+        let pace = Pace {
+            iterations: 40,
+            elapsed: LONG,
+        };
+        let first = self.nodes()[0];
+        let size = self.nodes().iter().map(|node| (node - first).norm());
+        let farthest = SETTLED * size.fold(0.0, f64::max);
+        for step in 1..=PARTS * STEPS + MOST_STEPS {
+            at_part(self, (step.div_ceil(STEPS) as f64 / PARTS as f64).min(1.0));
+            let ended = advance(self, Conditions::of_tools(&[]), pace, state, workspace);
+            if ended.was_reset {
+                break;
+            }
+            if step > PARTS * STEPS && state.last_way() < farthest {
+                return Ok(());
+            }
+        }
+        Err(Error::UnsoundResponse {
+            fault: "it does not come to rest under its own weight and the pressures in it",
+        })
+    }
+}
