@@ -35,7 +35,7 @@ pub struct Equilibrium {
 pub(super) struct SolverControls {
     /// Fewest solutions of the linear system.
     pub(super) least: usize,
-    /// Most solutions of the linear system.
+    /// Most solutions of the linear system with new factors.
     pub(super) iterations: usize,
     /// η of the residual over η of the reactions [-]; the force is then good to about its square.
     pub(super) tolerance: f64,
@@ -68,7 +68,7 @@ const SHORTEST_BEFORE_INVERSION: f64 = 1.0 / 16.0;
 /// Forces of tools below this part of the largest so far are as good as none [-].
 const LEFT: f64 = 1e-3;
 /// Factors serve again while η falls to this part in a step [-].
-const FAST: f64 = 0.01;
+const FAST: f64 = 0.3;
 /// What rounding leaves of a sum [-], in its terms.
 const ROUNDING: f64 = 1e-13;
 
@@ -97,7 +97,7 @@ pub(super) fn correct(
     if supports.leave_free(model) {
         return Err(Failure::Singular);
     }
-    let mut iterations = 0;
+    let (mut iterations, mut factored) = (0, 0);
     let mut last: Option<f64> = None;
     loop {
         let gap = prescribe(model, supports, &state.unknowns, workspace);
@@ -113,14 +113,16 @@ pub(super) fn correct(
         if gap == 0.0 && iterations >= controls.least && size.is_small(controls.tolerance) {
             return Ok(Equilibrium { iterations });
         }
-        if iterations == controls.iterations {
-            return Err(Failure::NotConverged);
-        }
         // What is fixed stays the same only between increments of tools.
         let reuse = workspace.factors_serve && gap == 0.0 && supports.contacts.is_some();
-        match reuse {
-            true => solve_again(model, supports, workspace)?,
-            false => solve(model, supports, workspace)?,
+        if !reuse && factored == controls.iterations {
+            return Err(Failure::NotConverged);
+        }
+        if reuse {
+            solve_again(model, supports, workspace)?;
+        } else {
+            solve(model, supports, workspace)?;
+            factored += 1;
         }
         iterations += 1;
         advance(

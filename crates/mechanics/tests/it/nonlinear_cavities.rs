@@ -153,6 +153,7 @@ fn judge(content: CavityContent, ratio: f64, force: f64) -> SolidAnswer {
         .iter()
         .flat_map(|y| points.map(|z| Vec3::new(0.5, *y, z)));
     let problem = SolidProblem {
+        tools: Vec::new(),
         body: Body::Volume(
             TetrahedronMesh::block(Vec3::repeat(-0.5), Vec3::repeat(0.5), [5; 3]).unwrap(),
         ),

@@ -198,6 +198,11 @@ const ALL: &[Example] = &[
         "a body with a cyst full of fluid under a patch"
     ),
     example!(
+        "problems/slide.toml",
+        "problems/slide.toml",
+        "a plate that presses a block and is dragged along it, with friction"
+    ),
+    example!(
         "problems/beam_weight.toml",
         "problems/beam_weight.toml",
         "a beam under its weight, whose stiffness is fitted"

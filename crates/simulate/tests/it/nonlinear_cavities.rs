@@ -60,6 +60,7 @@ fn judge(content: CavityContent, depth: f64) -> (f64, CavityAnswer) {
         radius_m: RADIUS,
     };
     let problem = SolidProblem {
+        tools: Vec::new(),
         body: Body::Surface(Surface::new(Organ::Cube.surface_mesh(3072).unwrap()).unwrap()),
         anchor: Region {
             planes: vec![RegionPlane {

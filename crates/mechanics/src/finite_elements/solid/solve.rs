@@ -159,7 +159,6 @@ impl Increments for SolidRun<'_, '_> {
         if let Some(contacts) = &mut contacts {
             contacts.face(self.model, &trial.unknowns);
         }
-        self.workspace.factors_serve = false;
         let mut solutions = 0;
         let mut last = f64::INFINITY;
         for augmentation in 0.. {

@@ -415,5 +415,9 @@ fn heading(case: &Solid) -> String {
             "moved by a patch of radius {radius} mm that {contact}"
         ));
     }
+    let tools: Vec<_> = case.tools.iter().map(|tool| tool.name.as_str()).collect();
+    if !tools.is_empty() {
+        how.push(format!("pressed by {}", tools.join(" and ")));
+    }
     format!("{name}, {}", how.join(", "))
 }

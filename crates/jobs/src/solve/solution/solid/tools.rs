@@ -50,7 +50,15 @@ pub(super) fn table(tools: &[ToolFigures]) -> Table {
     };
     let force = |axis: usize| {
         let forces: Vec<f64> = rows()
-            .map(|(tool, place)| tool.force_n[place][axis])
+            .map(|(tool, place)| {
+                let [force, size] = [tool.force_n[place][axis], tool.normal_force_n[place]];
+                // What rounding leaves is no force.
+                if force.abs() > 1e-9 * size {
+                    force
+                } else {
+                    0.0
+                }
+            })
             .collect();
         millinewtons(&forces).collect::<Vec<_>>()
     };
