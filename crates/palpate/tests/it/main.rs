@@ -40,6 +40,7 @@ mod simulate;
 mod solve;
 mod solve_errors;
 mod solve_fibres;
+mod solve_tools;
 mod window;
 
 use std::path::Path;

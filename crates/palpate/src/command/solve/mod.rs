@@ -46,6 +46,7 @@ The keys of each kind:
   uniaxial     stretches
   solid        mesh (a surface or tetrahedra) and mesh_unit, or builtin and triangles; anchor as in
                a scene; patch = { center_m, radius_m, displacement_m, contact = \"stick\" | \"slip\" },
+               [[tool]] with shape, from_m, path_m and friction,
                gravity_m_per_s2, or [[load]] with force_n or pressure_pa and a place: box_m, center_m
                and radius_m, region = { planes, boxes, spheres } or line = { from_m, to_m }; points_m,
                whose
