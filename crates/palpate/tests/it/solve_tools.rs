@@ -74,7 +74,7 @@ fn tools_that_are_none_are_refused_with_their_line() {
     refused("shape = \"sphere\"", &["`tool[0].radius_m`"]);
     refused(
         "shape = \"plate\"\nradius_m = 0.01",
-        &["line 9", "`tool[0].radius_m`", "no radius"],
+        &["line 10", "`tool[0].radius_m`", "no radius"],
     );
     refused(
         "shape = \"cylinder\"\nradius_m = 0.01\nlength_m = 0.015",
