@@ -75,6 +75,15 @@ pub struct ToolLoad {
     pub slipping_area: f64,
 }
 
+/// A corner of the boundary, and its contact with a tool.
+#[derive(Clone, Copy)]
+struct CornerTouch<'a> {
+    /// Number of the tool.
+    tool: usize,
+    corner: &'a ContactCorner,
+    touch: &'a Touch,
+}
+
 /// A corner at a tool in a deformed body.
 struct Evaluated {
     /// Mean distance [m].
@@ -135,12 +144,16 @@ impl<'a> Contacts<'a> {
     }
 
     /// All corners, tool by tool.
-    fn each(&self) -> impl Iterator<Item = (usize, &'a ContactCorner, &Touch)> {
+    fn each(&self) -> impl Iterator<Item = CornerTouch<'_>> {
         let count = self.surface.corners.len().max(1);
         let touches = self.touches.chunks(count).enumerate();
         touches.flat_map(|(tool, touches)| {
             let corners = self.surface.corners.iter().zip(touches);
-            corners.map(move |(corner, touch)| (tool, corner, touch))
+            corners.map(move |(corner, touch)| CornerTouch {
+                tool,
+                corner,
+                touch,
+            })
         })
     }
 
@@ -154,9 +167,11 @@ impl<'a> Contacts<'a> {
         &self,
         model: &FiniteElementModel,
         unknowns: &[f64],
-        tool: usize,
-        corner: &ContactCorner,
-        touch: &Touch,
+        CornerTouch {
+            tool,
+            corner,
+            touch,
+        }: CornerTouch<'_>,
     ) -> Evaluated {
         let places = corner.places(&model.mesh.nodes, unknowns);
         let (tool, position) = (&self.tools[tool], &self.positions[tool]);
@@ -232,7 +247,12 @@ impl<'a> Contacts<'a> {
 
     /// Finds which parts of the boundary face the tools, with these displacements.
     pub(in super::super) fn face(&mut self, model: &FiniteElementModel, unknowns: &[f64]) {
-        let each = self.each().map(|(tool, corner, touch)| {
+        let each = self.each().map(|at| {
+            let CornerTouch {
+                tool,
+                corner,
+                touch,
+            } = at;
             let places = corner.places(&model.mesh.nodes, unknowns);
             let (tool, position) = (&self.tools[tool], &self.positions[tool]);
             let weights = corner.points.iter().map(|point| {
@@ -266,12 +286,17 @@ impl<'a> Contacts<'a> {
         factor: f64,
         out: &mut [f64],
     ) {
-        for (tool, corner, touch) in self.each() {
-            let found = self.evaluate(model, unknowns, tool, corner, touch);
+        for at in self.each() {
+            let CornerTouch {
+                tool,
+                corner,
+                touch,
+            } = at;
+            let found = self.evaluate(model, unknowns, at);
             if let Some(forces) =
                 self.forces(Self::penalty(model, corner, touch), tool, touch, &found)
             {
-                add_forces(corner, touch.area, &found, &forces, factor, out);
+                at.add_forces(&found, &forces, factor, out);
             }
         }
     }
@@ -284,13 +309,18 @@ impl<'a> Contacts<'a> {
         residual: &mut [f64],
         tangent: &mut [f64],
     ) {
-        for (tool, corner, touch) in self.each() {
-            let found = self.evaluate(model, unknowns, tool, corner, touch);
+        for at in self.each() {
+            let CornerTouch {
+                tool,
+                corner,
+                touch,
+            } = at;
+            let found = self.evaluate(model, unknowns, at);
             let penalty = Self::penalty(model, corner, touch);
             let Some(forces) = self.forces(penalty, tool, touch, &found) else {
                 continue;
             };
-            add_forces(corner, touch.area, &found, &forces, -1.0, residual);
+            at.add_forces(&found, &forces, -1.0, residual);
             let count = corner.nodes.len();
             let stiffness = if forces.pressure > 0.0 { penalty } else { 0.0 };
             let mut blocks = vec![Matrix3::zeros(); count * count];
@@ -329,8 +359,13 @@ impl<'a> Contacts<'a> {
         unknowns: &[f64],
     ) -> f64 {
         let (mut changes, mut pressures) = (0.0, 0.0);
-        let each = self.each().map(|(tool, corner, touch)| {
-            let found = self.evaluate(model, unknowns, tool, corner, touch);
+        let each = self.each().map(|at| {
+            let CornerTouch {
+                tool,
+                corner,
+                touch,
+            } = at;
+            let found = self.evaluate(model, unknowns, at);
             let forces = self.forces(Self::penalty(model, corner, touch), tool, touch, &found);
             let (pressure, mut traction) =
                 forces.map_or((0.0, Vec3::zeros()), |own| (own.pressure, own.traction));
@@ -361,8 +396,13 @@ impl<'a> Contacts<'a> {
         model: &FiniteElementModel,
         unknowns: &[f64],
     ) {
-        let each = self.each().map(|(tool, corner, touch)| {
-            let found = self.evaluate(model, unknowns, tool, corner, touch);
+        let each = self.each().map(|at| {
+            let CornerTouch {
+                tool,
+                corner,
+                touch,
+            } = at;
+            let found = self.evaluate(model, unknowns, at);
             // What just touches without a pressure sticks from the beginning.
             let touches = found.gap <= 1e-9 * corner.area.sqrt();
             Touch {
@@ -386,8 +426,13 @@ impl<'a> Contacts<'a> {
             ..ToolLoad::default()
         });
         let mut loads: Vec<ToolLoad> = start.collect();
-        for (tool, corner, touch) in self.each() {
-            let found = self.evaluate(model, unknowns, tool, corner, touch);
+        for at in self.each() {
+            let CornerTouch {
+                tool,
+                corner,
+                touch,
+            } = at;
+            let found = self.evaluate(model, unknowns, at);
             let Some(forces) =
                 self.forces(Self::penalty(model, corner, touch), tool, touch, &found)
             else {
@@ -422,105 +467,19 @@ impl<'a> Contacts<'a> {
     }
 }
 
-fn add_forces(
-    corner: &ContactCorner,
-    area: f64,
-    found: &Evaluated,
-    forces: &Forces,
-    factor: f64,
-    out: &mut [f64],
-) {
-    let slopes = found.slopes.iter().zip(&found.shares);
-    for (&node, (slope, share)) in corner.nodes.iter().zip(slopes) {
-        let force = factor * area * (forces.pressure * slope + *share * forces.traction);
-        for axis in 0..3 {
-            out[3 * node as usize + axis] += force[axis];
+impl CornerTouch<'_> {
+    /// Adds the forces on the nodes, `factor` times, to `out` [N].
+    fn add_forces(&self, found: &Evaluated, forces: &Forces, factor: f64, out: &mut [f64]) {
+        let slopes = found.slopes.iter().zip(&found.shares);
+        for (&node, (slope, share)) in self.corner.nodes.iter().zip(slopes) {
+            let size = factor * self.touch.area;
+            let force = size * (forces.pressure * slope + *share * forces.traction);
+            for axis in 0..3 {
+                out[3 * node as usize + axis] += force[axis];
+            }
         }
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use std::sync::Arc;
-
-    use nalgebra::Rotation3;
-    use palpate_geometry::TetrahedronMesh;
-
-    use super::super::super::mesh::ElementMesh;
-    use super::super::super::model::{FiniteElementWorkspace, Formulation};
-    use super::super::super::solid::faces;
-    use super::super::shape::RigidShape;
-    use super::*;
-    use crate::NeoHookean;
-
-    /// Judge: central differences, of corners that stick, that slip and that have just come in.
-    #[test]
-    fn the_tangent_is_the_derivative_of_the_forces() {
-        let mesh = TetrahedronMesh::block(Vec3::zeros(), Vec3::repeat(1.0), [2; 3]).unwrap();
-        let elements = ElementMesh::from_tetrahedra(&mesh);
-        let sides = faces(&mesh);
-        let top = |node: usize| mesh.vertices()[node].z > 0.99;
-        let sides = sides.iter().map(|face| face.nodes);
-        let surface = ContactSurface::new(sides, &elements.nodes, top);
-        let law = Arc::new(NeoHookean::compressible(1.0, 4.0).unwrap());
-        let model = FiniteElementModel::new(elements, law, Formulation::Mixed)
-            .unwrap()
-            .with_couplings(Vec::new(), surface.couplings())
-            .unwrap();
-        let tools = [RigidTool {
-            shape: RigidShape::Sphere { radius: 1.0 },
-            orientation: Rotation3::identity(),
-            friction: FrictionLaw::Coulomb(0.4),
-            path: vec![Vec3::new(0.4, 0.6, 2.01), Vec3::new(0.43, 0.6, 1.9)],
-        }];
-        let moved = |scale: f64, shift: f64| -> Vec<f64> {
-            let each = 0..model.size();
-            each.map(|i| scale * (1.7 * i as f64 + shift).sin())
-                .collect()
-        };
-        let mut contacts = Contacts::new(&surface, &tools);
-        let start = moved(0.002, 0.0);
-        contacts.face(&model, &start);
-        contacts.close_increment(&model, &start);
-        contacts = contacts.moved(1.0);
-        contacts.augment(&model, &start);
-        contacts.close_increment(&model, &start);
-        for touch in contacts.touches.iter_mut().step_by(2) {
-            touch.pressure *= 40.0;
-        }
-        let at = moved(0.004, 0.3);
-        let mut workspace = FiniteElementWorkspace::new(&model).unwrap();
-        let forces = |unknowns: &[f64]| {
-            let mut out = vec![0.0; model.size()];
-            contacts.add_forces(&model, unknowns, -1.0, &mut out);
-            out
-        };
-        let (residual, tangent) = (&mut workspace.residual, &mut workspace.tangent);
-        contacts.assemble(&model, &at, residual, tangent);
-        let each = contacts.each().filter_map(|(tool, corner, touch)| {
-            let found = contacts.evaluate(&model, &at, tool, corner, touch);
-            contacts.forces(
-                Contacts::penalty(&model, corner, touch),
-                tool,
-                touch,
-                &found,
-            )
-        });
-        let slips: Vec<bool> = each.map(|forces| forces.slips).collect();
-        assert!(slips.contains(&true) && slips.contains(&false), "{slips:?}");
-        let direction = moved(1.0, 1.1);
-        let mut product = vec![0.0; model.size()];
-        model.pattern.multiply(tangent, &direction, &mut product);
-        let step = 1e-6;
-        let [up, down] = [step, -step].map(|by| {
-            let moved: Vec<f64> = at.iter().zip(&direction).map(|(x, d)| x + by * d).collect();
-            forces(&moved)
-        });
-        let size = product.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let each = up.iter().zip(&down).zip(&product);
-        let off = each.map(|((up, down), product)| ((up - down) / (2.0 * step) - product).powi(2));
-        let off = off.sum::<f64>().sqrt();
-        println!("{off} of {size}");
-        assert!(off < 1e-7 * size, "{off} of {size}");
-    }
-}
+mod tests;
