@@ -50,7 +50,7 @@ pub(crate) enum Case {
     Hemisphere(Hemisphere),
     Tube(Tube),
     Uniaxial(Uniaxial),
-    Solid(Solid),
+    Solid(Box<Solid>),
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -173,7 +173,7 @@ impl Problem {
                 let tissues = std::iter::once(&tissue);
                 let parts = solid.parts.iter().filter_map(SolidPart::tissue);
                 fibres::check(&keys, solid.fibres.as_deref(), tissues.chain(parts))?;
-                Case::Solid(solid)
+                Case::Solid(Box::new(solid))
             }
         };
         Ok(Self {

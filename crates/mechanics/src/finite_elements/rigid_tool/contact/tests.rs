@@ -43,7 +43,7 @@ fn the_tangent_is_the_derivative_of_the_forces() {
     contacts.augment(&model, &start);
     contacts.close_increment(&model, &start);
     for touch in contacts.touches.iter_mut().step_by(2) {
-        touch.pressure *= 40.0;
+        touch.pressure *= 0.01;
     }
     let unknowns = moved(0.004, 0.3);
     let mut workspace = FiniteElementWorkspace::new(&model).unwrap();
