@@ -15,7 +15,7 @@
 use super::model::{FiniteElementModel, FiniteElementWorkspace};
 use super::newton::{self, Failure};
 use super::supports::{Sliding, Supports};
-use crate::linear::gmres::solve_by_products;
+use crate::linear::gmres::{Krylov, solve_by_products};
 
 /// Relative residual of the small system [-].
 const SMALL: f64 = 1e-9;
@@ -56,7 +56,7 @@ pub(super) fn solve(
     };
     let first = forces(workspace, &without);
     let mut unit = vec![0.0; model.size()];
-    let found = solve_by_products(&first, SMALL, &mut |loads, product| {
+    let found = solve_by_products(&first, Krylov::SMALL, SMALL, &mut |loads, product| {
         unit.fill(0.0);
         for (contact, load) in slipping.iter().zip(loads) {
             unit[2 * contact.node + 1] = *load;
@@ -67,7 +67,7 @@ pub(super) fn solve(
             *value += load - force;
         }
     });
-    let found = found.map_err(|_| Failure::Singular)?;
+    let (found, _) = found.map_err(|_| Failure::Singular)?;
     for (contact, force) in slipping.iter().zip(found.iter()) {
         right[2 * contact.node + 1] += force;
     }

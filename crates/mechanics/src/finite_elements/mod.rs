@@ -17,6 +17,7 @@ mod graded;
 pub mod hemisphere;
 pub mod homogeneous;
 pub mod indentation;
+mod line_search;
 mod linear_system;
 mod mapping;
 mod mesh;

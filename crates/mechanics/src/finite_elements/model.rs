@@ -295,7 +295,7 @@ pub struct FiniteElementWorkspace {
     pub(crate) factors: Factors,
     /// The largest size of forces in contact so far [J], beside which a body that is left is at rest.
     pub(super) largest_held: f64,
-    /// Whether the factors are good for a further solution, though the tangent has changed since.
+    /// Whether the factors of an earlier tangent are near enough to the present one.
     pub(super) factors_serve: bool,
     /// The tangent, lower triangle, as assembled.
     pub(crate) tangent: Vec<f64>,

@@ -6,8 +6,10 @@
 
 use super::assembly::{self, PRESSURE_REGULARIZATION};
 use super::friction;
+use super::line_search::LineSearch;
 use super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
 use super::supports::{Sliding, Supports, SurfaceDistance};
+use crate::linear::gmres::{Krylov, solve_by_products};
 
 /// Why an equilibrium was not found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -35,7 +37,7 @@ pub struct Equilibrium {
 pub(super) struct SolverControls {
     /// Fewest solutions of the linear system.
     pub(super) least: usize,
-    /// Most solutions of the linear system with new factors.
+    /// Most solutions of the linear system.
     pub(super) iterations: usize,
     /// η of the residual over η of the reactions [-]; the force is then good to about its square.
     pub(super) tolerance: f64,
@@ -63,12 +65,17 @@ impl SolverControls {
     };
 }
 
-/// Shortest part of a step that is tried when an element turns inside out on its way [-].
-const SHORTEST_BEFORE_INVERSION: f64 = 1.0 / 16.0;
 /// Forces of tools below this part of the largest so far are as good as none [-].
 const LEFT: f64 = 1e-3;
-/// Factors serve again while η falls to this part in a step [-].
-const FAST: f64 = 0.3;
+/// Residual that is left of a step with earlier factors [-]; the next step of Newton's method takes it.
+const INEXACT: f64 = 1e-3;
+/// Solutions with earlier factors that are tried. New ones take as long as twenty to sixty of them.
+const KRYLOV: Krylov = Krylov {
+    space: 30,
+    cycles: 1,
+};
+/// They serve again after so many or fewer.
+const FEW: usize = 5;
 /// What rounding leaves of a sum [-], in its terms.
 const ROUNDING: f64 = 1e-13;
 
@@ -97,8 +104,7 @@ pub(super) fn correct(
     if supports.leave_free(model) {
         return Err(Failure::Singular);
     }
-    let (mut iterations, mut factored) = (0, 0);
-    let mut last: Option<f64> = None;
+    let mut iterations = 0;
     loop {
         let gap = prescribe(model, supports, &state.unknowns, workspace);
         let mut size = size_of_residual(model, supports, workspace);
@@ -106,32 +112,21 @@ pub(super) fn correct(
             workspace.largest_held = size.held.max(workspace.largest_held);
             size.held = size.held.max(LEFT * LEFT * workspace.largest_held);
         }
-        if let Some(last) = last {
-            workspace.factors_serve = size.free <= FAST * FAST * last;
-        }
-        last = Some(size.free);
         if gap == 0.0 && iterations >= controls.least && size.is_small(controls.tolerance) {
             return Ok(Equilibrium { iterations });
         }
-        // What is fixed stays the same only between increments of tools.
-        let reuse = workspace.factors_serve && gap == 0.0 && supports.contacts.is_some();
-        if !reuse && factored == controls.iterations {
+        if iterations == controls.iterations {
             return Err(Failure::NotConverged);
         }
-        if reuse {
-            solve_again(model, supports, workspace);
-        } else {
-            solve(model, supports, workspace)?;
-            factored += 1;
-        }
+        solve(model, supports, workspace)?;
         iterations += 1;
-        advance(
+        let search = LineSearch {
             model,
             supports,
-            state,
-            workspace,
-            (controls, (gap == 0.0).then_some(size.free)),
-        )?;
+            controls,
+            before: (gap == 0.0).then_some(size.free),
+        };
+        search.advance(state, workspace)?;
     }
 }
 
@@ -288,7 +283,11 @@ pub(super) fn solve(
     friction::balance(supports, &mut right);
     let is_held = held_rows(model, supports);
     eliminate(model, &is_held, workspace, &mut right);
+    if supports.contacts.is_some() && solve_with_last_factors(model, workspace, &right) {
+        return Ok(());
+    }
     factor(model, workspace)?;
+    workspace.factors_serve = true;
     friction::solve(model, supports, workspace, &mut right)?;
     if right.iter().any(|x| !x.is_finite()) {
         return Err(Failure::Singular);
@@ -297,20 +296,32 @@ pub(super) fn solve(
     Ok(())
 }
 
-/// The same with the factors of an earlier tangent, where no support moves.
-fn solve_again(
+/// The same by GMRES, with the factors of an earlier tangent: tools press a few places more or fewer, and little else has changed.
+/// Whether that found the step.
+fn solve_with_last_factors(
     model: &FiniteElementModel,
-    supports: &Supports<'_>,
     workspace: &mut FiniteElementWorkspace,
-) {
-    for (row, is_held) in held_rows(model, supports).into_iter().enumerate() {
-        workspace.step[row] = if is_held {
-            0.0
-        } else {
-            -workspace.residual[row]
-        };
+    right: &[f64],
+) -> bool {
+    if !workspace.factors_serve {
+        return false;
     }
-    workspace.factors.solve(&mut workspace.step);
+    let (factors, supported) = (&mut workspace.factors, &workspace.supported);
+    let mut first = right.to_vec();
+    factors.solve(&mut first);
+    let mut image = vec![0.0; right.len()];
+    let found = solve_by_products(&first, KRYLOV, INEXACT, &mut |x, product| {
+        model.pattern.multiply(supported, x, &mut image);
+        factors.solve(&mut image);
+        for (product, image) in product.iter_mut().zip(&image) {
+            *product += image;
+        }
+    });
+    workspace.factors_serve = matches!(found, Ok((_, iterations)) if iterations <= FEW);
+    if let Ok((step, _)) = &found {
+        workspace.step.copy_from_slice(step);
+    }
+    found.is_ok()
 }
 
 /// Turns the unknowns of all sliding nodes into one along the surface's normal and one across, in the
@@ -394,52 +405,6 @@ pub(super) fn eliminate(
     }
     for row in (0..pattern.size()).filter(|&row| is_held[row]) {
         right[row] = workspace.supported[pattern.range(row).start] * step[row];
-    }
-}
-
-/// Goes along the step as far as it helps. `before` is the residual's size when no support moves.
-fn advance(
-    model: &FiniteElementModel,
-    supports: &Supports<'_>,
-    state: &mut FiniteElementState,
-    workspace: &mut FiniteElementWorkspace,
-    (controls, before): (SolverControls, Option<f64>),
-) -> Result<(), Failure> {
-    let mut length = 1.0;
-    loop {
-        let step = &workspace.step;
-        let trial: Vec<f64> = state
-            .unknowns
-            .iter()
-            .zip(step)
-            .map(|(x, dx)| x + length * dx)
-            .collect();
-        let step = std::mem::take(&mut workspace.step);
-        let assembled = assemble(model, supports, &trial, workspace);
-        workspace.step = step;
-        let good = assembled.is_ok() && {
-            workspace.trial.copy_from_slice(&trial);
-            let size = size_of_residual(model, supports, workspace);
-            // A body that already rests has a residual of rounding, which no step makes smaller.
-            let falls = before.is_none_or(|before| size.free <= before);
-            size.free.is_finite() && (falls || size.is_small(controls.tolerance))
-        };
-        // A step that turns an element inside out is too long, which does not make it a bad one.
-        let shortest = if assembled.is_ok() {
-            controls.shortest
-        } else {
-            controls.shortest.min(SHORTEST_BEFORE_INVERSION)
-        };
-        let last = length <= shortest;
-        if good || (last && controls.accept_larger_residual && assembled.is_ok()) {
-            state.unknowns = trial;
-            return Ok(());
-        }
-        if last {
-            assembled?;
-            return Err(Failure::NotConverged);
-        }
-        length *= 0.5;
     }
 }
 

@@ -5,29 +5,43 @@
 
 use super::dense::DenseSystem;
 
-/// Size of the Krylov space between restarts.
-const SPACE: usize = 60;
-/// Restarts before giving up.
-const RESTARTS: usize = 20;
+/// How far an iteration goes before it gives up.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Krylov {
+    /// Size of the space between restarts.
+    pub(crate) space: usize,
+    /// How often it starts.
+    pub(crate) cycles: usize,
+}
+
+impl Krylov {
+    /// For small systems.
+    pub(crate) const SMALL: Self = Self {
+        space: 60,
+        cycles: 20,
+    };
+}
 
 /// Adds the product of a matrix and the first to the second.
 type AddProduct<'a> = &'a mut dyn FnMut(&[f64], &mut [f64]);
 
-/// Solves a system of a matrix that is known by its products alone, to the relative `tolerance`.
+/// Solves a system of a matrix that is known by its products alone, to the relative `tolerance`. The solution, and the number
+/// of iterations.
 ///
 /// # Errors
 /// When the residual stays larger.
 pub(crate) fn solve_by_products(
     right: &[f64],
+    most: Krylov,
     tolerance: f64,
     add_product: AddProduct<'_>,
-) -> Result<Vec<f64>, NotConverged> {
-    let mut gmres = Gmres::new(right.len(), 0);
+) -> Result<(Vec<f64>, usize), NotConverged> {
+    let mut gmres = Gmres::within(most, right.len(), 0);
     gmres.right.copy_from_slice(right);
     gmres.diagonal.fill(1.0);
-    match gmres.iterate(tolerance, add_product).1 {
-        residual if residual <= tolerance => Ok(gmres.solution),
-        residual => Err(NotConverged { residual }),
+    match gmres.iterate(tolerance, add_product) {
+        (iterations, residual) if residual <= tolerance => Ok((gmres.solution, iterations)),
+        (_, residual) => Err(NotConverged { residual }),
     }
 }
 
@@ -36,6 +50,7 @@ pub(crate) fn solve_by_products(
 pub(crate) struct Gmres {
     size: usize,
     space: usize,
+    cycles: usize,
     basis: Vec<f64>,
     hessenberg: Vec<f64>,
     rotations: Vec<(f64, f64)>,
@@ -57,10 +72,15 @@ pub(crate) struct NotConverged {
 impl Gmres {
     /// For systems of this `size` with so many `right_sides`.
     pub(crate) fn new(size: usize, right_sides: usize) -> Self {
-        let space = SPACE.min(size);
+        Self::within(Krylov::SMALL, size, right_sides)
+    }
+
+    fn within(most: Krylov, size: usize, right_sides: usize) -> Self {
+        let space = most.space.min(size);
         Self {
             size,
             space,
+            cycles: most.cycles,
             basis: vec![0.0; size * (space + 1)],
             hessenberg: vec![0.0; (space + 1) * space],
             rotations: vec![(0.0, 0.0); space],
@@ -122,10 +142,14 @@ impl Gmres {
     fn iterate(&mut self, tolerance: f64, add_product: AddProduct<'_>) -> (usize, f64) {
         let mut iterations = 0;
         self.solution.fill(0.0);
-        let size = self.residual(add_product);
+        let scaled = self.right.iter().zip(&self.diagonal);
+        for (value, (right, scale)) in self.basis.iter_mut().zip(scaled) {
+            *value = right * scale;
+        }
+        let size = norm(&self.basis[..self.size]);
         let mut residual = size;
-        for _ in 0..RESTARTS {
-            iterations += self.cycle(tolerance * size, add_product);
+        for _ in 0..self.cycles {
+            iterations += self.cycle(residual, tolerance * size, add_product);
             residual = self.residual(add_product);
             if residual <= tolerance * size {
                 break;
@@ -149,9 +173,9 @@ impl Gmres {
         norm(residual)
     }
 
-    fn cycle(&mut self, goal: f64, add_product: AddProduct<'_>) -> usize {
+    /// Goes on from a residual of size `start` in the first basis vector.
+    fn cycle(&mut self, start: f64, goal: f64, add_product: AddProduct<'_>) -> usize {
         let n = self.size;
-        let start = self.residual(add_product);
         if start <= goal || start == 0.0 {
             return 0;
         }
@@ -276,7 +300,7 @@ mod tests {
     /// row [Nachtigal, Reddy and Trefethen 1992]. It says so, and leaves the system to the factors.
     #[test]
     fn stagnation_is_an_error_and_changes_nothing() {
-        let size = 2 * SPACE;
+        let size = 2 * Krylov::SMALL.space;
         let mut system = DenseSystem::new(size, 1);
         for row in 0..size {
             system.matrix[(row, (row + 1) % size)] = 1.0;

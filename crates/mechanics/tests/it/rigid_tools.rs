@@ -74,19 +74,15 @@ fn last(answer: &SolidAnswer) -> ToolLoad {
     answer.waypoints().last().unwrap()[0]
 }
 
-/// Force of a sphere on the cylinder with the cube's height and volume, by axisymmetric elements [N].
-fn sphere_on_cylinder(radius: f64, face: FrictionLaw, law: Arc<dyn Law>, depth: f64) -> f64 {
+/// Force of an indenter at `depth` [m] on the cylinder with the height and the volume of the cube of `solid`, by axisymmetric elements [N].
+pub(crate) fn indented_cylinder(indenter: Indenter, law: Arc<dyn Law>, depth: f64) -> f64 {
     let problem = IndentationProblem {
         block: Block {
             radius: 2.0 * HALF / PI.sqrt(),
             height: 2.0 * HALF,
             base: Base::Bonded,
         },
-        indenter: Indenter {
-            shape: IndenterShape::Sphere,
-            radius,
-            face,
-        },
+        indenter,
         law,
     };
     let found = indentation::solve(&problem, &[depth], 0.003, &mut |_| ()).unwrap();
@@ -101,7 +97,12 @@ fn spheres(mesh: i32, most: f64) {
             FrictionLaw::Coulomb(0.3),
             FrictionLaw::Bonded,
         ] {
-            let judge = sphere_on_cylinder(radius, friction, law.clone(), depth);
+            let indenter = Indenter {
+                shape: IndenterShape::Sphere,
+                radius,
+                face: friction,
+            };
+            let judge = indented_cylinder(indenter, law.clone(), depth);
             let problem = pressed(RigidShape::Sphere { radius }, friction, law.clone(), depth);
             let answer = at(&problem, mesh);
             let ratio = last(&answer).force.z / judge;
@@ -317,23 +318,28 @@ fn a_plate_carries_a_weight() {
     assert!((load.force.z / all + 0.5).abs() < 0.05, "{}", load.force.z);
 }
 
-#[test]
-fn a_problem_with_tools_has_an_error_estimate() {
+fn pressed_cube() -> SolidProblem {
     let [up, down] = [0.012, 0.011].map(|z| Vec3::new(0.005, 0.005, z));
     let sphere = RigidShape::Sphere { radius: 0.002 };
-    let problem = small_cube(
-        linear(0.3),
-        vec![tool(sphere, FrictionLaw::Frictionless, &[up, down])],
-    );
-    let found = solve(&problem, 0.2, &mut |_| ()).unwrap();
-    println!(
-        "{} {:?} {:?}",
-        found.error, found.observed_order, found.warnings
-    );
-    assert!(found.error > 0.0 && found.error < 0.2);
-    let fine = last(&solve_at(&problem, 1, &mut |_| ()).unwrap());
+    let tools = vec![tool(sphere, FrictionLaw::Frictionless, &[up, down])];
+    small_cube(linear(0.3), tools)
+}
+
+#[test]
+fn a_problem_with_tools_has_an_error_estimate() {
+    let found = solve(&pressed_cube(), 0.2, &mut |_| ()).unwrap();
+    assert!(found.error > 0.0 && found.error < 0.2, "{}", found.error);
+    assert_eq!(found.warnings.len(), 2, "{:?}", found.warnings);
+}
+
+/// The error of the two coarsest meshes covers what the force on the tool changes on the next.
+#[test]
+#[ignore = "slow: four minutes"]
+fn the_error_estimate_of_tools_covers_a_finer_mesh() {
+    let found = solve(&pressed_cube(), 0.2, &mut |_| ()).unwrap();
+    let fine = last(&solve_at(&pressed_cube(), 1, &mut |_| ()).unwrap());
     let off = last(&found.answer).force.norm() / fine.force.norm() - 1.0;
-    println!("{off}");
+    println!("{off} {}", found.error);
     assert!(off.abs() <= found.error, "{off}");
 }
 

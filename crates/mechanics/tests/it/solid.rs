@@ -1,7 +1,6 @@
 //! Solids of any shape under a patch.
 
 use palpate_mechanics::contact::Friction;
-use std::f64::consts::PI;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -9,9 +8,7 @@ use nalgebra::Rotation3;
 use palpate_files::scene::{Region, RegionPlane};
 use palpate_geometry::{Organ, Surface, TetrahedronMesh, read_mesh, read_tetrahedra};
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
-use palpate_mechanics::finite_elements::indentation::{
-    self, Base, Block, IndentationProblem, Indenter, IndenterShape, Side,
-};
+use palpate_mechanics::finite_elements::indentation::{Indenter, IndenterShape, Side};
 use palpate_mechanics::finite_elements::solid::{
     Body, Loads, MovedPatch, SolidAnswer, SolidProblem, solve, solve_at,
 };
@@ -20,6 +17,8 @@ use palpate_mechanics::finite_elements::{
     Supports, equilibrate,
 };
 use palpate_mechanics::{Error, Law, LinearElastic, NeoHookean, Vec3};
+
+use crate::rigid_tools::indented_cylinder;
 
 /// Half the edge of the cube [m].
 pub(crate) const HALF: f64 = 0.05;
@@ -95,25 +94,17 @@ fn half_space(patch: &MovedPatch, nu: f64) -> f64 {
     }
 }
 
-/// Force of the cylinder with the cube's height and volume, by axisymmetric elements [N].
+/// Force of the cylinder with the cube's height and volume under the patch of `problem`, by axisymmetric elements [N].
 fn cylinder(problem: &SolidProblem) -> f64 {
     let patch = problem.patch.unwrap();
-    let problem = IndentationProblem {
-        block: Block {
-            radius: 2.0 * HALF / PI.sqrt(),
-            height: 2.0 * HALF,
-            base: Base::Bonded,
-        },
-        indenter: Indenter {
-            shape: IndenterShape::Flat { side: Side::Absent },
-            radius: patch.radius,
-            face: patch.friction.into(),
-        },
-        law: problem.law.clone(),
+    let (shape, radius) = (IndenterShape::Flat { side: Side::Absent }, patch.radius);
+    let face = patch.friction.into();
+    let indenter = Indenter {
+        shape,
+        radius,
+        face,
     };
-    let depths = [patch.displacement.norm()];
-    let found = indentation::solve(&problem, &depths, 0.003, &mut |_| ()).unwrap();
-    found.answer.points[0].force
+    indented_cylinder(indenter, problem.law.clone(), patch.displacement.norm())
 }
 
 /// Judges: axisymmetric elements on a cylinder of the same volume, and the half-space, from which both

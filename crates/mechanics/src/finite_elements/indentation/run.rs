@@ -6,6 +6,7 @@ pub use frictional_contact::{ContactNode, FrictionalContact};
 
 use std::sync::Arc;
 
+use super::super::continuation::{Steps, extrapolated};
 use super::super::model::{
     FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
 };
@@ -74,10 +75,8 @@ pub struct IndentationRun {
     pub(super) now: ConvergedIncrement,
     /// The standing before, from which the next is predicted.
     before: Option<ConvergedIncrement>,
-    /// The next step [m].
-    step: f64,
-    /// No step is longer [m].
-    longest: f64,
+    /// How far it goes next [m].
+    steps: Steps,
     /// Whether a part of the indenter has Coulomb friction.
     has_friction: bool,
     /// Whether the indenter never went back.
@@ -239,8 +238,13 @@ impl IndentationRun {
                 slopes: None,
             },
             before: None,
-            step: longest.min(FIRST_STEP * scale),
-            longest,
+            steps: Steps {
+                next: longest.min(FIRST_STEP * scale),
+                longest,
+                shortest: (SHORTEST_STEP * scale).min(SHORTEST_STEP / LONGEST_STEP * longest),
+                easy: LITTLE_EFFORT,
+                hard: MUCH_EFFORT,
+            },
             has_friction,
             only_deeper: true,
             model,
@@ -287,7 +291,6 @@ impl IndentationRun {
         mut at_step: impl FnMut(&IndentationPoint),
     ) -> Result<IndentationPoint, Error> {
         let scale = self.scale;
-        let shortest = (SHORTEST_STEP * scale).min(SHORTEST_STEP / LONGEST_STEP * self.longest);
         let (start, from) = (self.now.time, self.now.depth);
         let length = (depth - from).abs();
         self.only_deeper &= depth >= from;
@@ -311,40 +314,28 @@ impl IndentationRun {
                     let point = self.point();
                     at_step(&point);
                     gone = next;
-                    self.pace(step, controls);
+                    self.steps.succeeded(step, controls);
                     if part == 1.0 {
                         return Ok(point);
                     }
                 }
-                Err(_) if step > shortest => self.step = 0.5 * step,
                 Err(failure) => {
-                    return Err(Error::NoEquilibrium {
-                        depth: self.now.depth,
-                        failure,
-                    });
+                    if !self.steps.failed(step) {
+                        return Err(Error::NoEquilibrium {
+                            depth: self.now.depth,
+                            failure,
+                        });
+                    }
                 }
             }
         }
     }
 
-    /// The next step [m] when `left` [m] are left; two equal steps rather than one and a crumb.
+    /// The next step [m] when `left` [m] are left.
     fn next_step(&self, left: f64) -> f64 {
         // Under a growing load the face sticks and slips at the same places.
         let one = self.is_linear() && (self.only_deeper || !self.has_friction);
-        if one || left <= self.step {
-            left
-        } else {
-            self.step.min(0.5 * left)
-        }
-    }
-
-    /// Sets the next step after one that took this `effort`.
-    fn pace(&mut self, step: f64, controls: usize) {
-        if controls <= LITTLE_EFFORT {
-            self.step = (1.5 * step).max(self.step).min(self.longest);
-        } else if controls > MUCH_EFFORT {
-            self.step = 0.7 * step;
-        }
+        if one { left } else { self.steps.step(left) }
     }
 
     /// Whether nothing depends on the way: small strain and a contact that does not grow.
@@ -483,9 +474,9 @@ impl IndentationRun {
             let travelled = self.now.depth - before.depth;
             let ahead = (depth - self.now.depth) / travelled;
             if travelled != 0.0 && ahead > 0.0 {
-                for (x, old) in state.unknowns.iter_mut().zip(&before.state.unknowns) {
-                    *x += ahead * (*x - old);
-                }
+                let then = (before.depth, before.state.unknowns.as_slice());
+                let now = (self.now.depth, state.unknowns.as_slice());
+                state.unknowns = extrapolated(now, Some(then), depth);
                 if newton::assemble(&self.model, &supports, &state.unknowns, workspace).is_ok() {
                     return Ok(state);
                 }

@@ -4,8 +4,8 @@
 //!   p = max(0, λ − ε g),  t = λₜ − ε s, cut to |t| ≤ μ λ,
 //! a pressure and a traction with the multipliers λ, λₜ of the last equilibrium and a penalty ε. They take the places of the
 //! multipliers until they agree with them: then g = 0 where tissue presses, s = 0 where it sticks, and |t| = μ p along the slip
-//! where it slips. With the multiplier in the cone of friction the tangent of each equilibrium is symmetric, and exact; the
-//! direction of the normal in t is that of the last one too.
+//! where it slips. With the multiplier in the cone of friction the tangent of each equilibrium is symmetric, and exact from the
+//! second augmentation on; the direction of the normal in t is that of the last one too.
 //!
 //! *How we know*: `tests::the_tangent_is_the_derivative_of_the_forces`, `rigid_tools::…`.
 
@@ -40,6 +40,10 @@ const SLIPPING: f64 = 0.999;
 /// Cosines between the inward normals of a face and of the tool's surface up to which the tool does not press the face, and from
 /// which it does [-]. Beyond a sharp edge tissue is near the tool, and is not under it.
 const FACING: [f64; 2] = [0.3, 0.7];
+
+/// The largest pressure over its multiplier with which the curvature of a tool enters the tangent [-]. Beyond it is the penalty
+/// of a trial that went too far, with which the tangent would be indefinite.
+const MOST_BENDING: f64 = 2.0;
 
 /// A corner of the boundary at a tool.
 #[derive(Debug, Clone, PartialEq)]
@@ -104,8 +108,10 @@ struct Forces {
     pressure: f64,
     /// On the tissue [Pa].
     traction: Vec3,
+    /// −∂p/∂g [Pa/m].
+    per_gap: f64,
     /// −∂t/∂s [Pa/m].
-    stiffness: Matrix3<f64>,
+    per_slip: Matrix3<f64>,
     slips: bool,
 }
 
@@ -157,38 +163,33 @@ impl<'a> Contacts<'a> {
         })
     }
 
-    /// ε [Pa/m]; as stiff where a small part of the faces is under the tool as where all is.
-    fn penalty(model: &FiniteElementModel, corner: &ContactCorner, touch: &Touch) -> f64 {
-        let part = touch.area / corner.area;
-        PENALTY * model.shear_modulus / (corner.area.sqrt() * part.max(f64::MIN_POSITIVE))
-    }
-
     fn evaluate(
         &self,
         model: &FiniteElementModel,
         unknowns: &[f64],
-        CornerTouch {
-            tool,
-            corner,
-            touch,
-        }: CornerTouch<'_>,
+        at: CornerTouch<'_>,
     ) -> Evaluated {
-        let places = corner.places(&model.mesh.nodes, unknowns);
-        let (tool, position) = (&self.tools[tool], &self.positions[tool]);
-        let weights = touch.weights.iter().copied().chain(std::iter::repeat(0.0));
+        let places = at.corner.places(&model.mesh.nodes, unknowns);
+        let (tool, position) = (&self.tools[at.tool], &self.positions[at.tool]);
+        let weights = at
+            .touch
+            .weights
+            .iter()
+            .copied()
+            .chain(std::iter::repeat(0.0));
         let mut found = Evaluated {
             gap: 0.0,
             slopes: vec![Vec3::zeros(); places.len()],
             shares: vec![0.0; places.len()],
             mean: Vec3::zeros(),
             normal: Vec3::zeros(),
-            distances: Vec::with_capacity(corner.points.len()),
+            distances: Vec::with_capacity(at.corner.points.len()),
         };
-        for (point, weight) in corner.points.iter().zip(weights) {
-            let at = point.position(&places);
-            let beside = tool.beside(&at, position);
+        for (point, weight) in at.corner.points.iter().zip(weights) {
+            let place = point.position(&places);
+            let beside = tool.beside(&place, position);
             found.gap += weight * beside.distance;
-            found.mean += point.weight * at;
+            found.mean += point.weight * place;
             found.normal += weight * beside.normal;
             for (&node, share) in point.nodes.iter().zip(point.shares) {
                 found.slopes[node] += weight * share * beside.normal;
@@ -202,21 +203,28 @@ impl<'a> Contacts<'a> {
     /// What acts at a corner, if anything.
     fn forces(
         &self,
-        penalty: f64,
-        tool: usize,
-        touch: &Touch,
+        model: &FiniteElementModel,
+        CornerTouch {
+            tool,
+            corner,
+            touch,
+        }: CornerTouch<'_>,
         found: &Evaluated,
     ) -> Option<Forces> {
+        // As stiff where a small part of the faces is under the tool as where all is.
+        let part = (touch.area / corner.area).max(f64::MIN_POSITIVE);
+        let penalty = PENALTY * model.shear_modulus / (corner.area.sqrt() * part);
         let pressure = touch.pressure - penalty * found.gap;
         // What decides on friction stays the same until the next augmentation.
-        let rubs = touch.pressure > 0.0;
-        if touch.area == 0.0 || (pressure <= 0.0 && !rubs) {
+        let pressed_before = touch.pressure > 0.0;
+        if touch.area == 0.0 || (pressure <= 0.0 && !pressed_before) {
             return None;
         }
         let mut forces = Forces {
             pressure: pressure.max(0.0),
+            per_gap: if pressure > 0.0 { penalty } else { 0.0 },
             traction: Vec3::zeros(),
-            stiffness: Matrix3::zeros(),
+            per_slip: Matrix3::zeros(),
             slips: false,
         };
         let most = match self.tools[tool].friction {
@@ -224,7 +232,7 @@ impl<'a> Contacts<'a> {
             FrictionLaw::Bonded => f64::INFINITY,
             FrictionLaw::Coulomb(coefficient) => coefficient * touch.pressure,
         };
-        let Some(from) = touch.from.filter(|_| rubs) else {
+        let Some(from) = touch.from.filter(|_| pressed_before) else {
             return Some(forces);
         };
         let plane = Matrix3::identity() - touch.normal * touch.normal.transpose();
@@ -234,28 +242,36 @@ impl<'a> Contacts<'a> {
         let size = trial.norm();
         if size <= most {
             forces.traction = trial;
-            forces.stiffness = penalty * plane;
+            forces.per_slip = penalty * plane;
             forces.slips = size > SLIPPING * most;
         } else {
             let along = trial / size;
             forces.traction = most * along;
-            forces.stiffness = most / size * penalty * (plane - along * along.transpose());
+            forces.per_slip = most / size * penalty * (plane - along * along.transpose());
             forces.slips = true;
         }
         Some(forces)
     }
 
+    /// Where something acts, and what.
+    fn acting<'s>(
+        &'s self,
+        model: &'s FiniteElementModel,
+        unknowns: &'s [f64],
+    ) -> impl Iterator<Item = (CornerTouch<'s>, Evaluated, Forces)> {
+        self.each().filter_map(move |at| {
+            let found = self.evaluate(model, unknowns, at);
+            let forces = self.forces(model, at, &found)?;
+            Some((at, found, forces))
+        })
+    }
+
     /// Finds which parts of the boundary face the tools, with these displacements.
-    pub(in super::super) fn face(&mut self, model: &FiniteElementModel, unknowns: &[f64]) {
+    pub(in super::super) fn update_facing(&mut self, model: &FiniteElementModel, unknowns: &[f64]) {
         let each = self.each().map(|at| {
-            let CornerTouch {
-                tool,
-                corner,
-                touch,
-            } = at;
-            let places = corner.places(&model.mesh.nodes, unknowns);
-            let (tool, position) = (&self.tools[tool], &self.positions[tool]);
-            let weights = corner.points.iter().map(|point| {
+            let places = at.corner.places(&model.mesh.nodes, unknowns);
+            let (tool, position) = (&self.tools[at.tool], &self.positions[at.tool]);
+            let weights = at.corner.points.iter().map(|point| {
                 let beside = tool.beside(&point.position(&places), position);
                 let cosine = -beside.normal.dot(&point.normal(&places));
                 let part = ((cosine - FACING[0]) / (FACING[1] - FACING[0])).clamp(0.0, 1.0);
@@ -270,8 +286,8 @@ impl<'a> Contacts<'a> {
             }
             Touch {
                 weights,
-                area: part * corner.area,
-                ..touch.clone()
+                area: part * at.corner.area,
+                ..at.touch.clone()
             }
         });
         let touches = each.collect();
@@ -286,22 +302,13 @@ impl<'a> Contacts<'a> {
         factor: f64,
         out: &mut [f64],
     ) {
-        for at in self.each() {
-            let CornerTouch {
-                tool,
-                corner,
-                touch,
-            } = at;
-            let found = self.evaluate(model, unknowns, at);
-            if let Some(forces) =
-                self.forces(Self::penalty(model, corner, touch), tool, touch, &found)
-            {
-                at.add_forces(&found, &forces, factor, out);
-            }
+        for (at, found, forces) in self.acting(model, unknowns) {
+            at.add_forces(&found, &forces, factor, out);
         }
     }
 
-    /// Adds the forces with the sign of a residual, and the tangent, which is exact and symmetric.
+    /// Adds the forces with the sign of a residual, and the tangent, which is symmetric, and exact where no pressure is more than
+    /// [`MOST_BENDING`] multipliers.
     pub(in super::super) fn assemble(
         &self,
         model: &FiniteElementModel,
@@ -309,29 +316,20 @@ impl<'a> Contacts<'a> {
         residual: &mut [f64],
         tangent: &mut [f64],
     ) {
-        for at in self.each() {
-            let CornerTouch {
-                tool,
-                corner,
-                touch,
-            } = at;
-            let found = self.evaluate(model, unknowns, at);
-            let penalty = Self::penalty(model, corner, touch);
-            let Some(forces) = self.forces(penalty, tool, touch, &found) else {
-                continue;
-            };
+        for (at, found, forces) in self.acting(model, unknowns) {
+            let CornerTouch { corner, touch, .. } = at;
             at.add_forces(&found, &forces, -1.0, residual);
             let count = corner.nodes.len();
-            let stiffness = if forces.pressure > 0.0 { penalty } else { 0.0 };
             let mut blocks = vec![Matrix3::zeros(); count * count];
             for (a, b) in (0..count).flat_map(|a| (0..count).map(move |b| (a, b))) {
                 blocks[a * count + b] = touch.area
-                    * (stiffness * found.slopes[a] * found.slopes[b].transpose()
-                        + found.shares[a] * found.shares[b] * forces.stiffness);
+                    * (forces.per_gap * found.slopes[a] * found.slopes[b].transpose()
+                        + found.shares[a] * found.shares[b] * forces.per_slip);
             }
             let weighted = corner.points.iter().zip(&touch.weights);
             for ((point, weight), beside) in weighted.zip(&found.distances) {
-                let bend = -touch.area * forces.pressure * *weight * beside.curvature;
+                let pressure = forces.pressure.min(MOST_BENDING * touch.pressure);
+                let bend = -touch.area * pressure * *weight * beside.curvature;
                 for (&a, share) in point.nodes.iter().zip(point.shares) {
                     for (&b, other) in point.nodes.iter().zip(point.shares) {
                         blocks[a * count + b] += share * other * bend;
@@ -360,13 +358,9 @@ impl<'a> Contacts<'a> {
     ) -> f64 {
         let (mut changes, mut pressures) = (0.0, 0.0);
         let each = self.each().map(|at| {
-            let CornerTouch {
-                tool,
-                corner,
-                touch,
-            } = at;
             let found = self.evaluate(model, unknowns, at);
-            let forces = self.forces(Self::penalty(model, corner, touch), tool, touch, &found);
+            let touch = at.touch;
+            let forces = self.forces(model, at, &found);
             let (pressure, mut traction) =
                 forces.map_or((0.0, Vec3::zeros()), |own| (own.pressure, own.traction));
             let normal = found.normal.try_normalize(0.0).unwrap_or(touch.normal);
@@ -426,18 +420,12 @@ impl<'a> Contacts<'a> {
             ..ToolLoad::default()
         });
         let mut loads: Vec<ToolLoad> = start.collect();
-        for at in self.each() {
+        for (at, found, forces) in self.acting(model, unknowns) {
             let CornerTouch {
                 tool,
                 corner,
                 touch,
             } = at;
-            let found = self.evaluate(model, unknowns, at);
-            let Some(forces) =
-                self.forces(Self::penalty(model, corner, touch), tool, touch, &found)
-            else {
-                continue;
-            };
             let places = corner.places(&model.mesh.nodes, unknowns);
             let load = &mut loads[tool];
             load.area += touch.area;

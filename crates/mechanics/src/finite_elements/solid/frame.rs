@@ -120,7 +120,7 @@ pub(super) struct Conditions<'a> {
 
 impl Conditions<'_> {
     /// Whether there is a patch that moves, or a load.
-    pub(super) fn load_anything(&self) -> bool {
+    pub(super) fn move_or_load(&self) -> bool {
         let has_fluid = self.growths.iter().any(|growth| *growth != 0.0);
         let has_pressure = !(self.pressures.is_empty() && self.pressed.is_empty());
         has_fluid

@@ -12,11 +12,15 @@
 //! Regions have laws of their own. Tetrahedra are cut at their borders, and pressures jump there. Where a region is a
 //! cavity its tetrahedra are taken out, and its wall bears a pressure or that of a fluid of constant volume.
 //!
-//! *How we know*: `solid::a_patch_on_a_cube_is_a_punch` (axisymmetric elements and the half-space),
+//! Rigid tools come after patch and loads: they move along paths of their own, and the boundary meets them with friction
+//! (`rigid_tool`). The mesh is finer where they meet the boundary at rest (`footprint`).
+//!
+//! *How we know*: `rigid_tools::…`, `solid::a_patch_on_a_cube_is_a_punch` (axisymmetric elements and the half-space),
 //! `solid::a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space`,
 //! `solid::the_force_converges_with_the_edge_of_the_patch`, `cavities::…`, `thin_patch::a_patch_on_a_thin_edge_has_its_area`, and energy, equilibrium and turned bodies.
 //!
-//! *Limits*: the side of the tool does not touch, and the patch neither grows nor shrinks. Where the
+//! *Limits*: a patch neither grows nor shrinks. Tissue that comes to a tool from farther than half the length of its path and
+//! two sizes of its contact passes through it, with a warning. Where the
 //! anchor ends inside a side, it ends along whole triangles. A body without a surface of its own keeps
 //! its facets. A third mesh of an organ takes gigabytes and minutes.
 

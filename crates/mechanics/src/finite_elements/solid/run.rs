@@ -1,4 +1,7 @@
+use std::collections::BTreeSet;
 use std::sync::Arc;
+
+use palpate_geometry::NodeId;
 
 use super::super::cavity::Cavity;
 use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
@@ -11,7 +14,7 @@ use super::error::SolidError;
 use super::frame::{Conditions, Frame};
 use super::grading::MeshContext;
 use super::loads::{self, BoundaryLoads};
-use super::mesh::faces;
+use super::mesh::{Face, faces};
 use super::problem::{Body, RegionContent, SolidProblem, SolidRegion};
 use super::solve::{ToolIncrement, equilibrium};
 use super::supports::Held;
@@ -217,6 +220,7 @@ impl SolidProblem {
         answer.points = places.iter().map(moved).collect();
         answer.fields.surface = solid.surface();
         if let Some(contacts) = &solved.contacts {
+            answer.warnings = self.passed_through(&surface, &solid.outer, &answer);
             answer
                 .fields
                 .set_contact_pressures(&surface, &contacts.pressures());
@@ -231,7 +235,7 @@ impl SolidProblem {
         if let Some(fibres) = &self.fibres {
             answer.fields.set_fibres(fibres);
         }
-        answer.warnings.clone_from(&context.warnings);
+        answer.warnings.extend(context.warnings.iter().cloned());
         answer.warnings.extend(graded.warnings);
         answer.warnings.extend(missing);
         if crossing > 0 {
@@ -241,6 +245,37 @@ impl SolidProblem {
             ));
         }
         Ok(answer)
+    }
+
+    /// A warning where tissue that was not expected to touch a tool is inside of it.
+    fn passed_through(
+        &self,
+        surface: &ContactSurface,
+        outer: &[Face],
+        answer: &SolidAnswer,
+    ) -> Vec<String> {
+        let expected: BTreeSet<usize> = surface.nodes().collect();
+        let corners = outer.iter().flat_map(|face| face.corners);
+        let corners: BTreeSet<usize> = corners.map(NodeId::index).collect();
+        let fields = &answer.fields;
+        let others = corners.difference(&expected);
+        let others: Vec<Vec3> = others
+            .map(|&node| fields.positions[node] + fields.displacements[node])
+            .collect();
+        let mut warnings = Vec::new();
+        for (number, tool) in self.tools.iter().enumerate() {
+            let end = tool.position(tool.path.len() as f64);
+            let depths = others.iter().map(|at| -tool.beside(at, &end).distance);
+            let deepest = depths.fold(0.0, f64::max);
+            if deepest > 0.0 {
+                warnings.push(format!(
+                    "tissue is {deepest:.1e} m inside of tool {}: it came from too far to be met; begin its path nearer to that \
+                     tissue",
+                    number + 1
+                ));
+            }
+        }
+        warnings
     }
 
     fn check_tools(&self) -> Result<(), SolidError> {

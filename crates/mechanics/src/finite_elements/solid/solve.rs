@@ -5,7 +5,7 @@
 
 use super::super::continuation::{Increments, Steps, continue_to, extrapolated};
 use super::super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
-use super::super::newton::{self, Failure, equilibrate};
+use super::super::newton::{self, Failure, SolverControls, correct};
 use super::super::rigid_tool::{Contacts, ToolLoad};
 use super::super::supports::Supports;
 use super::frame::Conditions;
@@ -37,6 +37,11 @@ const TOOL_STEPS: Steps = Steps {
 /// Contact is found when a further augmentation would change its forces by this part of them [-].
 const CONTACT_TOLERANCE: f64 = 1e-5;
 const MOST_AUGMENTATIONS: usize = 40;
+
+/// Tolerance of an equilibrium [-] in the last change of the forces in contact, which the next augmentation changes anyway...
+const EXACT: f64 = 1e-3;
+/// ... and the largest.
+const ROUGH: f64 = 1e-3;
 
 /// After so many of them what faces a tool stays the same.
 const FACED: usize = 1;
@@ -96,7 +101,7 @@ pub(super) fn equilibrium<'a>(
     }
     let mut increments = Vec::new();
     let mut steps = STEPS;
-    let first = usize::from(!conditions.load_anything());
+    let first = usize::from(!conditions.move_or_load());
     run.reached = first as f64;
     for part in first..=parts {
         if part > 0 {
@@ -157,14 +162,23 @@ impl Increments for SolidRun<'_, '_> {
             .as_ref()
             .map(|contacts| contacts.moved(goal - 1.0));
         if let Some(contacts) = &mut contacts {
-            contacts.face(self.model, &trial.unknowns);
+            contacts.update_facing(self.model, &trial.unknowns);
         }
         let mut solutions = 0;
         let mut last = f64::INFINITY;
         for augmentation in 0.. {
             let mut supports = self.conditions.supports(self.model, goal.min(1.0));
             supports.contacts = contacts.as_ref();
-            solutions += equilibrate(self.model, &supports, &mut trial, self.workspace)?.iterations;
+            let controls = SolverControls {
+                tolerance: match contacts {
+                    Some(_) => (EXACT * last).clamp(SolverControls::FULL.tolerance, ROUGH),
+                    None => SolverControls::FULL.tolerance,
+                },
+                ..SolverControls::FULL
+            };
+            newton::assemble(self.model, &supports, &trial.unknowns, self.workspace)?;
+            let found = correct(controls, self.model, &supports, &mut trial, self.workspace)?;
+            solutions += found.iterations;
             let Some(contacts) = &mut contacts else {
                 break;
             };
@@ -173,7 +187,7 @@ impl Increments for SolidRun<'_, '_> {
             let next = change * (change / last).min(1.0);
             last = change;
             if augmentation < FACED {
-                contacts.face(self.model, &trial.unknowns);
+                contacts.update_facing(self.model, &trial.unknowns);
             }
             if augmentation > FACED && next <= CONTACT_TOLERANCE || change == 0.0 {
                 contacts.close_increment(self.model, &trial.unknowns);

@@ -9,6 +9,7 @@ use crate::contact::Friction;
 use std::sync::Arc;
 
 use super::super::cavity::Cavity;
+use super::super::continuation::{Increments, Steps, continue_to, extrapolated};
 use super::super::model::{
     FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
 };
@@ -37,7 +38,8 @@ pub(super) struct Punching<'a> {
     before: Option<ConvergedIncrement>,
     /// Outermost place of the pressurised tube [m].
     top: f64,
-    step: f64,
+    /// How far it goes next [m].
+    steps: Steps,
 }
 
 /// An equilibrium at a depth.
@@ -84,7 +86,13 @@ impl<'a> Punching<'a> {
             },
             before: None,
             top: problem.tube.outer_radius,
-            step: 0.1 * punch.radius,
+            steps: Steps {
+                next: 0.1 * punch.radius,
+                longest: LONGEST_STEP * punch.radius,
+                shortest: 0.02 * punch.radius,
+                easy: 10,
+                hard: usize::MAX,
+            },
             rest: supports.held,
             cavity: Arc::new(cavity),
             punch,
@@ -104,29 +112,22 @@ impl<'a> Punching<'a> {
     /// Brings the pressure up.
     pub(super) fn pressurise(&mut self) -> Result<(), Error> {
         if self.punch.pressure > 0.0 {
-            let (mut part, mut step) = (0.0, if self.is_small() { 1.0 } else { 0.5 });
-            while part < 1.0 {
-                let goal = f64::min(1.0, part + step);
-                let mut state = self.now.state.clone();
-                let supports = Supports {
-                    held: self.rest.clone(),
-                    ..Supports::none(&self.model)
-                }
-                .press(&self.cavity, goal * self.punch.pressure);
-                match equilibrate(&self.model, &supports, &mut state, &mut self.workspace) {
-                    Ok(_) => {
-                        self.now.state = state;
-                        part = goal;
-                    }
-                    Err(_) if step > 1e-3 => step *= 0.5,
-                    Err(failure) => {
-                        return Err(Error::NoPath {
-                            factor: part,
-                            failure,
-                        });
-                    }
-                }
-            }
+            let first = if self.is_small() { 1.0 } else { 0.5 };
+            let mut steps = Steps {
+                next: first,
+                longest: first,
+                shortest: 1e-3,
+                easy: 0,
+                hard: usize::MAX,
+            };
+            let mut rising = Rising {
+                tube: self,
+                part: 0.0,
+            };
+            continue_to(&mut rising, &mut steps, 1.0, |_| {}).map_err(|failure| Error::NoPath {
+                factor: rising.part,
+                failure,
+            })?;
         }
         let place = |node: &usize| self.place(&self.now.state, *node).x;
         self.top = self.face.iter().map(place).fold(f64::MIN, f64::max);
@@ -144,37 +145,13 @@ impl<'a> Punching<'a> {
         depth: f64,
         mut at_step: impl FnMut(f64),
     ) -> Result<f64, Error> {
-        while self.now.depth < depth {
-            let left = depth - self.now.depth;
-            // Two equal steps rather than one and a crumb.
-            let step = if left <= self.step {
-                left
-            } else {
-                self.step.min(0.5 * left)
-            };
-            let goal = if step == left {
-                depth
-            } else {
-                self.now.depth + step
-            };
-            match self.stand_at(goal) {
-                Ok((standing, controls)) => {
-                    self.before = Some(std::mem::replace(&mut self.now, standing));
-                    at_step(goal);
-                    if controls <= 10 {
-                        let longest = LONGEST_STEP * self.punch.radius;
-                        self.step = (1.5 * step).max(self.step).min(longest);
-                    }
-                }
-                Err(_) if step > 0.02 * self.punch.radius => self.step = 0.5 * step,
-                Err(failure) => {
-                    return Err(Error::NoEquilibrium {
-                        depth: self.now.depth,
-                        failure,
-                    });
-                }
-            }
-        }
+        let mut steps = self.steps;
+        let pressed = continue_to(self, &mut steps, depth, |run| at_step(run.now.depth));
+        self.steps = steps;
+        pressed.map_err(|failure| Error::NoEquilibrium {
+            depth: self.now.depth,
+            failure,
+        })?;
         if depth == 0.0 {
             return Ok(0.0);
         }
@@ -259,15 +236,13 @@ impl<'a> Punching<'a> {
     }
 
     /// Where the body would be at `depth` if it went on as before.
-    fn predict(&mut self, depth: f64) -> FiniteElementState {
-        let mut state = self.now.state.clone();
-        if let Some(before) = &self.before {
-            let ahead = (depth - self.now.depth) / (self.now.depth - before.depth);
-            for (x, old) in state.unknowns.iter_mut().zip(&before.state.unknowns) {
-                *x += ahead * (*x - old);
-            }
+    fn predict(&self, depth: f64) -> FiniteElementState {
+        let before = self.before.as_ref();
+        let before = before.map(|before| (before.depth, before.state.unknowns.as_slice()));
+        let now = (self.now.depth, self.now.state.unknowns.as_slice());
+        FiniteElementState {
+            unknowns: extrapolated(now, before, depth),
         }
-        state
     }
 
     /// Catches nodes that have passed the face of `next` in `state`, and lets go those that pull, if
@@ -296,6 +271,52 @@ impl<'a> Punching<'a> {
             }
         }
         changed
+    }
+}
+
+/// A tube whose pressure rises to a part of the whole [-].
+struct Rising<'t, 'a> {
+    tube: &'t mut Punching<'a>,
+    part: f64,
+}
+
+impl Increments for Rising<'_, '_> {
+    fn reached(&self) -> f64 {
+        self.part
+    }
+
+    fn advance(&mut self, goal: f64) -> Result<usize, Failure> {
+        let Punching {
+            model,
+            workspace,
+            cavity,
+            punch,
+            rest,
+            now,
+            ..
+        } = &mut *self.tube;
+        let mut state = now.state.clone();
+        let supports = Supports {
+            held: rest.clone(),
+            ..Supports::none(model)
+        }
+        .press(cavity, goal * punch.pressure);
+        let done = equilibrate(model, &supports, &mut state, workspace)?;
+        now.state = state;
+        self.part = goal;
+        Ok(done.iterations)
+    }
+}
+
+impl Increments for Punching<'_> {
+    fn reached(&self) -> f64 {
+        self.now.depth
+    }
+
+    fn advance(&mut self, goal: f64) -> Result<usize, Failure> {
+        let (next, solutions) = self.stand_at(goal)?;
+        self.before = Some(std::mem::replace(&mut self.now, next));
+        Ok(solutions)
     }
 }
 
