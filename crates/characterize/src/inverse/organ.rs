@@ -26,7 +26,7 @@ use palpate_mechanics::finite_elements::indentation::{
     Base, Block, IndentationProblem, Indenter, IndenterShape, Side, solve,
 };
 use palpate_mechanics::finite_elements::solid::{
-    Body as Solid, Loads, MovedPatch, SolidProblem, solve_at,
+    Body as Solid, MovedPatch, SolidProblem, solve_at,
 };
 use palpate_mechanics::{LinearElastic, Vec3};
 
@@ -104,15 +104,12 @@ impl Organ {
             friction: Friction::Bonded,
         };
         let organ = SolidProblem {
-            body: Solid::Surface(self.surface.clone()),
-            anchor: self.fixed.clone(),
             patch: Some(under(center, inward)),
-            law: law.clone(),
-            fibres: None,
-            regions: Vec::new(),
-            loads: Loads::default(),
-            tools: Vec::new(),
-            points: Vec::new(),
+            ..SolidProblem::new(
+                Solid::Surface(self.surface.clone()),
+                self.fixed.clone(),
+                law.clone(),
+            )
         };
         let corner = Vec3::repeat(half);
         let mesh = TetrahedronMesh::block(-corner, corner, [CELLS; 3]);

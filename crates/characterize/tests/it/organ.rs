@@ -14,9 +14,7 @@ use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
 use palpate_mechanics::finite_elements::indentation::{
     IndentationRun, IndentationSettings, Indenter, IndenterShape as Shape, Side,
 };
-use palpate_mechanics::finite_elements::solid::{
-    Body as Solid, Loads, MovedPatch, SolidProblem, solve,
-};
+use palpate_mechanics::finite_elements::solid::{Body as Solid, MovedPatch, SolidProblem, solve};
 use palpate_mechanics::{IndentationCurve, LinearElastic, PronySeries, Vec3};
 
 use crate::data;
@@ -245,20 +243,17 @@ fn real_kidney_returns_its_tissue() {
     let (modulus, law) = (1000.0, SoughtLaw::NeoHookean);
     let forces = depths.map(|depth| {
         let problem = SolidProblem {
-            body: Solid::Surface(surface.clone()),
-            anchor: fixed.clone(),
             patch: Some(MovedPatch {
                 center: location,
                 radius: RADIUS,
                 displacement: depth * inward.normalize(),
                 friction: Friction::Bonded,
             }),
-            law: law.of(modulus, &[]).unwrap(),
-            fibres: None,
-            regions: Vec::new(),
-            loads: Loads::default(),
-            tools: Vec::new(),
-            points: Vec::new(),
+            ..SolidProblem::new(
+                Solid::Surface(surface.clone()),
+                fixed.clone(),
+                law.of(modulus, &[]).unwrap(),
+            )
         };
         solve(&problem, 0.05, &mut |_| ())
             .unwrap()

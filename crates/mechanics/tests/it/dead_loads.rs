@@ -20,15 +20,12 @@ pub(crate) fn beam(cells: [usize; 3], law: Arc<dyn Law>) -> SolidProblem {
     let half = 0.5 * HEIGHT;
     let (low, high) = (Vec3::new(0.0, -half, -half), Vec3::new(LENGTH, half, half));
     SolidProblem {
-        body: Body::Volume(TetrahedronMesh::block(low, high, cells).unwrap()),
-        anchor: plane(1e-6, Vec3::x()),
-        patch: None,
-        law,
-        regions: Vec::new(),
-        fibres: None,
-        loads: Loads::default(),
-        tools: Vec::new(),
         points: vec![LENGTH * Vec3::x()],
+        ..SolidProblem::new(
+            Body::Volume(TetrahedronMesh::block(low, high, cells).unwrap()),
+            plane(1e-6, Vec3::x()),
+            law,
+        )
     }
 }
 

@@ -125,10 +125,8 @@ fn sticks_as_spence_says(mesh: usize, tolerance: f64, of_force: f64) {
 /// Judge: the same rings, since a sphere is a sum of flat punches whose radius grows, all with the same c/a [Spence 1968]:
 /// with u(x) of a punch of radius x outside it, d = κ a²/R, κ = 1/(2 − 4 ∫ u x dx), and F is Hertz' times the factor of the
 /// punch over √κ. The contact grows node by node, so the part that sticks is the mean over the second half of the way.
-/// Tolerance: 2 % of the mesh, whose nodes are a twentieth of the radius apart, and the slope of the sphere, a/R = 0.01,
-/// which tilts a normal force into a tangential one, over μ; of the force 0.1 %, as mesh and block are in both runs.
-#[test]
-fn a_sphere_sticks_as_far_as_a_punch() {
+/// The force has 0.1 %, as mesh and block are in both runs.
+fn sphere(mesh: usize, tolerance: f64) {
     let depth = 1e-4 * RADIUS;
     let block = Block {
         radius: 10.0 * RADIUS,
@@ -141,7 +139,7 @@ fn a_sphere_sticks_as_far_as_a_punch() {
         let kappa = rings.kappa(mu);
         let run = |face| {
             let problem = problem(IndenterShape::Sphere, face, linear(nu), block);
-            let mut run = problem.run(&PronySeries::default(), depth, 1).unwrap();
+            let mut run = problem.run(&PronySeries::default(), depth, mesh).unwrap();
             let mut parts = Vec::new();
             let end = run.press(depth, depth, |point| {
                 if let (Some(friction), true) = (point.friction, point.depth > 0.4 * depth) {
@@ -159,12 +157,23 @@ fn a_sphere_sticks_as_far_as_a_punch() {
             force / without
         );
         assert!(parts.len() > 15, "{parts:?}");
-        assert!(
-            (mean / stick - 1.0).abs() < 0.02 + 0.01 / mu,
-            "{mean} {stick}"
-        );
+        assert!((mean / stick - 1.0).abs() < tolerance, "{mean} {stick}");
         assert!((force / without / exact - 1.0).abs() < 1e-3, "{force}");
     }
+}
+
+/// Tolerance: half the distance of nodes, a fortieth of the radius of contact where that is largest; what sticks is a half
+/// to three quarters of it.
+#[test]
+fn a_sphere_sticks_as_far_as_a_punch() {
+    sphere(1, 0.05);
+}
+
+/// Tolerance: half of that.
+#[test]
+#[ignore = "slow: a minute"]
+fn a_sphere_sticks_as_far_as_a_punch_on_a_finer_mesh() {
+    sphere(2, 0.025);
 }
 
 /// Judges: runs without friction and bonded ones, in the same steps. Tolerance: that of an equilibrium, whose force is

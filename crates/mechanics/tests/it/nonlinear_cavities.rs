@@ -153,14 +153,6 @@ fn judge(content: CavityContent, ratio: f64, force: f64) -> SolidAnswer {
         .iter()
         .flat_map(|y| points.map(|z| Vec3::new(0.5, *y, z)));
     let problem = SolidProblem {
-        tools: Vec::new(),
-        body: Body::Volume(
-            TetrahedronMesh::block(Vec3::repeat(-0.5), Vec3::repeat(0.5), [5; 3]).unwrap(),
-        ),
-        anchor: plane(-0.4995 * Vec3::x(), Vec3::x()),
-        patch: None,
-        law: Arc::new(NeoHookean::compressible(C10, bulk).unwrap()),
-        fibres: None,
         regions: vec![SolidRegion {
             place: SolidPlace::Bounded(RegionPlace::Shape(ball(Vec3::zeros(), LARGE))),
             content: RegionContent::Cavity(content),
@@ -173,6 +165,13 @@ fn judge(content: CavityContent, ratio: f64, force: f64) -> SolidAnswer {
             }],
         },
         points: points.collect(),
+        ..SolidProblem::new(
+            Body::Volume(
+                TetrahedronMesh::block(Vec3::repeat(-0.5), Vec3::repeat(0.5), [5; 3]).unwrap(),
+            ),
+            plane(-0.4995 * Vec3::x(), Vec3::x()),
+            Arc::new(NeoHookean::compressible(C10, bulk).unwrap()),
+        )
     };
     at(&problem, 0)
 }

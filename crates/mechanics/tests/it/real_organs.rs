@@ -10,7 +10,7 @@ use palpate_mechanics::Vec3;
 use palpate_mechanics::contact::{Friction, Tip, half_space_stiffness};
 use palpate_mechanics::enhance::{Interpolation, Press, SurfaceField, SurfacePoint, profile};
 use palpate_mechanics::finite_elements::solid::{
-    Body, Loads, MovedPatch, SolidAnswer, SolidProblem, solve,
+    Body, MovedPatch, SolidAnswer, SolidProblem, solve,
 };
 use palpate_mechanics::surface_response::{PressedTip, SurfaceResponse, TipField, TipLoad};
 
@@ -85,20 +85,17 @@ impl Kidney {
     fn problem(&self, place: TriangleId, friction: Friction) -> SolidProblem {
         let normal = self.solid.surface.mesh().area_vector(place).normalize();
         SolidProblem {
-            body: Body::Surface(self.solid.surface.clone()),
-            anchor: plane(self.floor, Vec3::y()),
             patch: Some(MovedPatch {
                 center: self.solid.centroid(place),
                 radius: RADIUS,
                 displacement: -DEPTH * normal,
                 friction,
             }),
-            law: Arc::new(law(NU)),
-            regions: Vec::new(),
-            fibres: None,
-            loads: Loads::default(),
-            tools: Vec::new(),
-            points: Vec::new(),
+            ..SolidProblem::new(
+                Body::Surface(self.solid.surface.clone()),
+                plane(self.floor, Vec3::y()),
+                Arc::new(law(NU)),
+            )
         }
     }
 

@@ -58,15 +58,8 @@ fn pressed(
 fn small_cube(law: Arc<dyn Law>, tools: Vec<RigidTool>) -> SolidProblem {
     let mesh = TetrahedronMesh::block(Vec3::zeros(), Vec3::repeat(0.01), [3; 3]).unwrap();
     SolidProblem {
-        body: Body::Volume(mesh),
-        anchor: plane(1e-5 * Vec3::z(), Vec3::z()),
-        patch: None,
-        law,
-        regions: Vec::new(),
-        fibres: None,
-        loads: Loads::default(),
         tools,
-        points: Vec::new(),
+        ..SolidProblem::new(Body::Volume(mesh), plane(1e-5 * Vec3::z(), Vec3::z()), law)
     }
 }
 
@@ -334,7 +327,7 @@ fn a_problem_with_tools_has_an_error_estimate() {
 
 /// The error of the two coarsest meshes covers what the force on the tool changes on the next.
 #[test]
-#[ignore = "slow: four minutes"]
+#[ignore = "slow: six minutes"]
 fn the_error_estimate_of_tools_covers_a_finer_mesh() {
     let found = solve(&pressed_cube(), 0.2, &mut |_| ()).unwrap();
     let fine = last(&solve_at(&pressed_cube(), 1, &mut |_| ()).unwrap());

@@ -10,7 +10,7 @@ use palpate_geometry::{Organ, Surface, TetrahedronMesh, read_mesh, read_tetrahed
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
 use palpate_mechanics::finite_elements::indentation::{Indenter, IndenterShape, Side};
 use palpate_mechanics::finite_elements::solid::{
-    Body, Loads, MovedPatch, SolidAnswer, SolidProblem, solve, solve_at,
+    Body, MovedPatch, SolidAnswer, SolidProblem, solve, solve_at,
 };
 use palpate_mechanics::finite_elements::{
     ElementMesh, FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
@@ -44,20 +44,17 @@ fn block(cells: usize) -> TetrahedronMesh {
 /// moves down by a hundredth of it.
 pub(crate) fn cube(radius: f64, nu: f64, friction: Friction) -> SolidProblem {
     SolidProblem {
-        body: Body::Volume(block(4)),
-        anchor: plane(-0.999 * HALF * Vec3::z(), Vec3::z()),
         patch: Some(MovedPatch {
             center: HALF * Vec3::z(),
             radius,
             displacement: -0.01 * radius * Vec3::z(),
             friction,
         }),
-        law: Arc::new(LinearElastic::new(MODULUS, nu).unwrap()),
-        regions: Vec::new(),
-        fibres: None,
-        loads: Loads::default(),
-        tools: Vec::new(),
-        points: Vec::new(),
+        ..SolidProblem::new(
+            Body::Volume(block(4)),
+            plane(-0.999 * HALF * Vec3::z(), Vec3::z()),
+            Arc::new(LinearElastic::new(MODULUS, nu).unwrap()),
+        )
     }
 }
 
@@ -274,20 +271,17 @@ fn hyperelastic(mut problem: SolidProblem, depth: f64) {
 fn a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space() {
     let surface = Surface::new(Organ::Hemisphere.surface_mesh(20_000).unwrap()).unwrap();
     let problem = SolidProblem {
-        body: Body::Surface(surface),
-        anchor: plane(1e-4 * Vec3::z(), Vec3::z()),
         patch: Some(MovedPatch {
             center: HALF * Vec3::z(),
             radius: 0.002,
             displacement: -1e-4 * Vec3::z(),
             friction: Friction::Frictionless,
         }),
-        law: Arc::new(LinearElastic::new(MODULUS, 0.3).unwrap()),
-        regions: Vec::new(),
-        fibres: None,
-        loads: Loads::default(),
-        tools: Vec::new(),
-        points: Vec::new(),
+        ..SolidProblem::new(
+            Body::Surface(surface),
+            plane(1e-4 * Vec3::z(), Vec3::z()),
+            Arc::new(LinearElastic::new(MODULUS, 0.3).unwrap()),
+        )
     };
     let round = HemisphereProblem {
         radius: HALF,
@@ -371,20 +365,17 @@ fn real_kidney_under_a_patch() {
     let middle = 0.5 * (low + high);
     let center = nearest_top(&path, &middle);
     let problem = SolidProblem {
-        body: Body::Surface(surface),
-        anchor: plane(center - 0.025 * Vec3::y(), Vec3::y()),
         patch: Some(MovedPatch {
             center,
             radius: 0.005,
             displacement: -5e-4 * Vec3::y(),
             friction: Friction::Bonded,
         }),
-        law: Arc::new(LinearElastic::new(MODULUS, 0.45).unwrap()),
-        regions: Vec::new(),
-        fibres: None,
-        loads: Loads::default(),
-        tools: Vec::new(),
-        points: Vec::new(),
+        ..SolidProblem::new(
+            Body::Surface(surface),
+            plane(center - 0.025 * Vec3::y(), Vec3::y()),
+            Arc::new(LinearElastic::new(MODULUS, 0.45).unwrap()),
+        )
     };
     let started = std::time::Instant::now();
     let found = solve(&problem, 0.02, &mut |_| ()).unwrap();

@@ -46,13 +46,6 @@ pub(crate) fn ball(center: Vec3, radius_m: f64) -> InclusionShape {
 pub(crate) fn pulled(law: Arc<dyn Law>, place: RegionPlace) -> SolidProblem {
     let half = 0.5;
     SolidProblem {
-        body: Body::Volume(
-            TetrahedronMesh::block(Vec3::repeat(-half), Vec3::repeat(half), [5; 3]).unwrap(),
-        ),
-        anchor: plane(-0.999 * half * Vec3::x(), Vec3::x()),
-        patch: None,
-        law: linear(1.0, 0.0),
-        fibres: None,
         regions: vec![region(place, law)],
         loads: Loads {
             weight: None,
@@ -61,13 +54,19 @@ pub(crate) fn pulled(law: Arc<dyn Law>, place: RegionPlace) -> SolidProblem {
                 force: 1e-3 * Vec3::x(),
             }],
         },
-        tools: Vec::new(),
         points: vec![
             0.04 * Vec3::x(),
             -0.04 * Vec3::x(),
             0.04 * Vec3::y(),
             -0.04 * Vec3::y(),
         ],
+        ..SolidProblem::new(
+            Body::Volume(
+                TetrahedronMesh::block(Vec3::repeat(-half), Vec3::repeat(half), [5; 3]).unwrap(),
+            ),
+            plane(-0.999 * half * Vec3::x(), Vec3::x()),
+            linear(1.0, 0.0),
+        )
     }
 }
 
@@ -231,11 +230,6 @@ fn cells_have_the_tissue_of_their_region() {
     });
     let block = block.clone().with_regions(numbers.collect()).unwrap();
     let problem = SolidProblem {
-        body: Body::Volume(block),
-        anchor: plane(1e-6 * Vec3::z(), Vec3::z()),
-        patch: None,
-        law: linear(1e4, 0.0),
-        fibres: None,
         regions: vec![SolidRegion {
             place: SolidPlace::Cells(1),
             content: RegionContent::Tissue {
@@ -250,8 +244,12 @@ fn cells_have_the_tissue_of_their_region() {
                 force: -10.0 * Vec3::z(),
             }],
         },
-        tools: Vec::new(),
         points: vec![Vec3::new(0.5, 0.5, 1.0)],
+        ..SolidProblem::new(
+            Body::Volume(block),
+            plane(1e-6 * Vec3::z(), Vec3::z()),
+            linear(1e4, 0.0),
+        )
     };
     let expected = -10.0 * (0.75 / 1e4 + 0.25 / 1e5);
     let found = at(&problem, 0).points[0].z;

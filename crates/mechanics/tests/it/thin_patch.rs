@@ -4,7 +4,7 @@ use palpate_mechanics::contact::Friction;
 use std::sync::Arc;
 
 use palpate_geometry::{Organ, Surface, TriangleMesh};
-use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem};
+use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem};
 use palpate_mechanics::{LinearElastic, Vec3};
 
 use crate::solid::{MODULUS, at, plane};
@@ -43,20 +43,17 @@ fn a_patch_on_a_thin_edge_has_its_area() {
         .sum();
     let (low, high) = mesh.bounds();
     let problem = SolidProblem {
-        body: Body::Surface(surface.clone()),
-        anchor: plane(low + 0.3 * (high - low), Vec3::x()),
         patch: Some(MovedPatch {
             center,
             radius,
             displacement: -1e-4 * Vec3::x(),
             friction: Friction::Frictionless,
         }),
-        law: Arc::new(LinearElastic::new(MODULUS, 0.45).unwrap()),
-        regions: Vec::new(),
-        fibres: None,
-        loads: Loads::default(),
-        tools: Vec::new(),
-        points: Vec::new(),
+        ..SolidProblem::new(
+            Body::Surface(surface.clone()),
+            plane(low + 0.3 * (high - low), Vec3::x()),
+            Arc::new(LinearElastic::new(MODULUS, 0.45).unwrap()),
+        )
     };
     let answer = at(&problem, 0);
     println!(

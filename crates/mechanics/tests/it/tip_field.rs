@@ -11,7 +11,7 @@ use palpate_mechanics::contact::{
 };
 use palpate_mechanics::enhance::{Interpolation, Press, SurfaceField, SurfacePoint};
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
-use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve};
+use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem, solve};
 use palpate_mechanics::surface_response::{PressedTip, SurfaceResponse, TipField, TipLoad};
 use palpate_mechanics::{LinearElastic, Vec3};
 
@@ -427,20 +427,17 @@ fn real_kidney_error(triangles: usize) -> Option<f64> {
         let load = field.at(&solid.surface, id, &[1.0 / 3.0; 3]);
         let force = depth * stiffness(&load, &normal, (a, nu, bond));
         let problem = SolidProblem {
-            body: Body::Surface(surface.clone()),
-            anchor: plane(floor, Vec3::y()),
             patch: Some(MovedPatch {
                 center: solid.centroid(id),
                 radius: a,
                 displacement: -depth * normal,
                 friction: grip,
             }),
-            law: Arc::new(law(nu)),
-            regions: Vec::new(),
-            fibres: None,
-            loads: Loads::default(),
-            tools: Vec::new(),
-            points: Vec::new(),
+            ..SolidProblem::new(
+                Body::Surface(surface.clone()),
+                plane(floor, Vec3::y()),
+                Arc::new(law(nu)),
+            )
         };
         let found = solve(&problem, 0.03, &mut |_| ()).unwrap();
         let half_space = depth * half_space_stiffness(&law(nu), a, bond);

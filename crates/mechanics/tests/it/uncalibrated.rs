@@ -12,7 +12,7 @@ use palpate_mechanics::finite_elements::hemisphere::{self, HemisphereProblem, Pa
 use palpate_mechanics::finite_elements::indentation::{
     Base, Block, IndentationRun, IndentationSettings, Indenter, IndenterShape,
 };
-use palpate_mechanics::finite_elements::solid::{self, Body, Loads, MovedPatch, SolidProblem};
+use palpate_mechanics::finite_elements::solid::{self, Body, MovedPatch, SolidProblem};
 use palpate_mechanics::finite_spheres::{
     Calibration, FiniteSphereModel, FiniteSphereSettings, Integration, LocalContact,
 };
@@ -256,26 +256,23 @@ fn body(contact: &LocalContact) -> Surface {
 fn solid_in_half_spaces(contact: &LocalContact, nu: f64) -> (f64, f64) {
     let law = tissue(nu);
     let problem = SolidProblem {
-        body: Body::Surface(body(contact)),
-        anchor: Region {
-            planes: vec![RegionPlane {
-                point_m: [0.0, 0.0, -0.999 * contact.thickness],
-                normal: [0.0, 0.0, 1.0],
-            }],
-            ..Region::default()
-        },
         patch: Some(MovedPatch {
             center: Vec3::zeros(),
             radius: TIP,
             displacement: Vec3::new(0.0, 0.0, -1e-3 * TIP),
             friction: Friction::Frictionless,
         }),
-        law: Arc::new(law),
-        regions: Vec::new(),
-        fibres: None,
-        loads: Loads::default(),
-        tools: Vec::new(),
-        points: Vec::new(),
+        ..SolidProblem::new(
+            Body::Surface(body(contact)),
+            Region {
+                planes: vec![RegionPlane {
+                    point_m: [0.0, 0.0, -0.999 * contact.thickness],
+                    normal: [0.0, 0.0, 1.0],
+                }],
+                ..Region::default()
+            },
+            Arc::new(law),
+        )
     };
     let found = solid::solve(&problem, 0.02, &mut |_| ()).unwrap();
     let stiffness = found.answer.force_along / (1e-3 * TIP);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use palpate_geometry::{AabbTree, Vec3};
 use palpate_mechanics::LinearElastic;
-use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve};
+use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem, solve};
 use palpate_simulate::{Simulation, held_region};
 
 use crate::scenes::{Hand, Setting, YOUNGS_MODULUS, nearest};
@@ -50,20 +50,17 @@ fn real_liver_of_20000_triangles() {
         let normal = pushed(&simulation, (center, near), 1e-4).normalize();
         let force = pushed(&simulation, (center, normal), DEPTH);
         let problem = SolidProblem {
-            body: Body::Surface(simulation.surface().clone()),
-            anchor: held_region(&scene.organ.shape, scene.organ.anchor.as_ref()),
             patch: Some(MovedPatch {
                 center,
                 radius: RADIUS,
                 displacement: -DEPTH * normal,
                 friction: Friction::Frictionless,
             }),
-            law: law.clone(),
-            regions: Vec::new(),
-            fibres: None,
-            loads: Loads::default(),
-            tools: Vec::new(),
-            points: Vec::new(),
+            ..SolidProblem::new(
+                Body::Surface(simulation.surface().clone()),
+                held_region(&scene.organ.shape, scene.organ.anchor.as_ref()),
+                law.clone(),
+            )
         };
         let judge = solve(&problem, 0.03, &mut |_| ()).unwrap();
         let error = force.dot(&normal) / judge.answer.force_along - 1.0;

@@ -8,7 +8,7 @@ use palpate_files::scene::{Jaws, Region, RegionPlane};
 use palpate_files::{Event, Scene};
 use palpate_geometry::{AabbTree, Organ, Surface, Vec3};
 use palpate_mechanics::NeoHookean;
-use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve_at};
+use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem, solve_at};
 use palpate_simulate::{Simulation, draw_variant};
 
 use crate::grip::{Hands, grasping, pose};
@@ -177,26 +177,23 @@ fn a_pulled_hemisphere_is_that_of_finite_elements() {
         let shear = YOUNGS_MODULUS / 2.9;
         let bulk = YOUNGS_MODULUS / (3.0 * 0.1);
         let problem = SolidProblem {
-            body: Body::Surface(surface.clone()),
-            anchor: Region {
-                planes: vec![RegionPlane {
-                    point_m: [0.0, 0.0, 1e-4],
-                    normal: [0.0, 0.0, 1.0],
-                }],
-                ..Region::default()
-            },
             patch: Some(MovedPatch {
                 center: Vec3::new(0.0, 0.0, 0.05),
                 radius,
                 displacement: way,
                 friction: Friction::Bonded,
             }),
-            law: Arc::new(NeoHookean::compressible(0.5 * shear, bulk).unwrap()),
-            regions: Vec::new(),
-            fibres: None,
-            loads: Loads::default(),
-            tools: Vec::new(),
-            points: Vec::new(),
+            ..SolidProblem::new(
+                Body::Surface(surface.clone()),
+                Region {
+                    planes: vec![RegionPlane {
+                        point_m: [0.0, 0.0, 1e-4],
+                        normal: [0.0, 0.0, 1.0],
+                    }],
+                    ..Region::default()
+                },
+                Arc::new(NeoHookean::compressible(0.5 * shear, bulk).unwrap()),
+            )
         };
         let expected = solve_at(&problem, 0, &mut |_| {}).unwrap().force;
         println!("{way:?}: {found:?} N, finite elements {expected:?} N");

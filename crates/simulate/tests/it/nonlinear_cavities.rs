@@ -7,8 +7,7 @@ use palpate_geometry::{Organ, Surface, Vec3};
 use palpate_mechanics::NeoHookean;
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::solid::{
-    Body, CavityAnswer, Loads, MovedPatch, RegionContent, SolidPlace, SolidProblem, SolidRegion,
-    solve_at,
+    Body, CavityAnswer, MovedPatch, RegionContent, SolidPlace, SolidProblem, SolidRegion, solve_at,
 };
 use palpate_mechanics::regions::RegionPlace;
 use palpate_simulate::{CavitySummary, Simulation};
@@ -60,29 +59,27 @@ fn judge(content: CavityContent, depth: f64) -> (f64, CavityAnswer) {
         radius_m: RADIUS,
     };
     let problem = SolidProblem {
-        tools: Vec::new(),
-        body: Body::Surface(Surface::new(Organ::Cube.surface_mesh(3072).unwrap()).unwrap()),
-        anchor: Region {
-            planes: vec![RegionPlane {
-                point_m: [0.0, 0.0, -0.0499],
-                normal: [0.0, 0.0, 1.0],
-            }],
-            ..Region::default()
-        },
         patch: Some(MovedPatch {
             center: 0.05 * Vec3::z(),
             radius: TIP,
             displacement: -depth * Vec3::z(),
             friction: Friction::Bonded,
         }),
-        law: Arc::new(NeoHookean::compressible(0.5 * shear, bulk).unwrap()),
         regions: vec![SolidRegion {
             place: SolidPlace::Bounded(RegionPlace::Shape(ball)),
             content: RegionContent::Cavity(content),
         }],
-        fibres: None,
-        loads: Loads::default(),
-        points: Vec::new(),
+        ..SolidProblem::new(
+            Body::Surface(Surface::new(Organ::Cube.surface_mesh(3072).unwrap()).unwrap()),
+            Region {
+                planes: vec![RegionPlane {
+                    point_m: [0.0, 0.0, -0.0499],
+                    normal: [0.0, 0.0, 1.0],
+                }],
+                ..Region::default()
+            },
+            Arc::new(NeoHookean::compressible(0.5 * shear, bulk).unwrap()),
+        )
     };
     let answer = solve_at(&problem, 0, &mut |_| ()).unwrap();
     println!("{} unknowns", answer.unknowns);

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use palpate_geometry::{AabbTree, Vec3};
 use palpate_mechanics::LinearElastic;
-use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve};
+use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem, solve};
 use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, TubePunch, indent};
 use palpate_simulate::{Resources, Simulation, held_region};
 
@@ -131,20 +131,17 @@ fn the_esophagus_is_that_of_finite_elements() {
     let (point, normal) = nearest(&simulation, &tree, &Vec3::new(0.0, 0.02, 0.0));
     let law = Arc::new(LinearElastic::new(YOUNGS_MODULUS, 0.45).unwrap());
     let solid = SolidProblem {
-        body: Body::Surface(simulation.surface().clone()),
-        anchor: held_region(&scene.organ.shape, None),
         patch: Some(MovedPatch {
             center: point,
             radius: 2e-3,
             displacement: -1e-3 * normal,
             friction: Friction::Frictionless,
         }),
-        law: law.clone(),
-        regions: Vec::new(),
-        fibres: None,
-        loads: Loads::default(),
-        tools: Vec::new(),
-        points: Vec::new(),
+        ..SolidProblem::new(
+            Body::Surface(simulation.surface().clone()),
+            held_region(&scene.organ.shape, None),
+            law.clone(),
+        )
     };
     let solid = solve(&solid, 0.03, &mut |_| ()).unwrap();
     let expected = solid.answer.force_along;

@@ -133,3 +133,20 @@ pub struct SolidProblem {
     /// Points of the body whose displacement is asked for [m].
     pub points: Vec<Vec3>,
 }
+
+impl SolidProblem {
+    /// A homogeneous body that nothing moves or loads.
+    pub fn new(body: Body, anchor: Region, law: Arc<dyn Law>) -> Self {
+        Self {
+            body,
+            anchor,
+            patch: None,
+            law,
+            regions: Vec::new(),
+            fibres: None,
+            loads: Loads::default(),
+            tools: Vec::new(),
+            points: Vec::new(),
+        }
+    }
+}

@@ -10,7 +10,7 @@ use palpate_geometry::{AabbTree, Vec3};
 use palpate_mechanics::LinearElastic;
 use palpate_mechanics::boundary_elements::{Influences, Kelvin, Panel};
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
-use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve};
+use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem, solve};
 use palpate_simulate::{Simulation, held_region};
 
 use super::{HEMISPHERE, Hands, POLE, around_the_pole, grasping, pose, with_jaws};
@@ -262,20 +262,17 @@ fn a_pulled_esophagus_is_that_of_finite_elements() {
         .map(|id| mesh.area_vector(id).norm())
         .sum();
     let solid = SolidProblem {
-        body: Body::Surface(simulation.surface().clone()),
-        anchor: held_region(&scene.organ.shape, None),
         patch: Some(MovedPatch {
             center: point,
             radius: (area / std::f64::consts::PI).sqrt(),
             displacement: 1e-3 * normal,
             friction: Friction::Bonded,
         }),
-        law: Arc::new(LinearElastic::new(YOUNGS_MODULUS, 0.45).unwrap()),
-        regions: Vec::new(),
-        fibres: None,
-        loads: Loads::default(),
-        tools: Vec::new(),
-        points: Vec::new(),
+        ..SolidProblem::new(
+            Body::Surface(simulation.surface().clone()),
+            held_region(&scene.organ.shape, None),
+            Arc::new(LinearElastic::new(YOUNGS_MODULUS, 0.45).unwrap()),
+        )
     };
     let solid = solve(&solid, 0.03, &mut |_| ()).unwrap();
     let expected = solid.answer.force_along;

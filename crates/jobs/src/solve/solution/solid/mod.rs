@@ -54,10 +54,7 @@ pub(crate) fn solution(
     let (places, more) = points::places(case, &body);
     warnings.extend(more);
     let mut mechanical = SolidProblem {
-        body,
-        anchor: held_region(&case.shape, case.anchor.as_ref()),
         patch: patch.map(moved),
-        law: problem.material.law.clone(),
         regions,
         fibres: case.fibres.as_ref().map(|fibres| fibres.field.clone()),
         loads: Loads {
@@ -73,6 +70,11 @@ pub(crate) fn solution(
             .flat_map(|tool| tool.bodies.clone())
             .collect(),
         points: places,
+        ..SolidProblem::new(
+            body,
+            held_region(&case.shape, case.anchor.as_ref()),
+            problem.material.law.clone(),
+        )
     };
     let solved = |mechanical: &SolidProblem| {
         solve(mechanical, problem.accuracy, &mut |progress| {
