@@ -82,14 +82,14 @@ fn regions_are_layers_and_inclusions() {
     let now = solve(&format!(
         "{BODY}{TOP}{TISSUE}\
          [[region]]\nname = \"skin\"\nlayer = {{ thickness_m = 0.01 }}\n{soft}\
-         [[region]]\nname = \"lump\"\nball = {{ center_m = [0.0, 0.0, 0.0], radius_m = 0.02 }}\n{STIFF}\
+         [[region]]\nname = \"lump\"\nball = {{ center_m = [0.0, 0.0, 0.0], radius_m = 0.03 }}\n{STIFF}\
          [[region]]\nname = \"fat\"\nlayer = {{ thickness_mm = 8.0 }}\n{STIFF}"
     ));
     let before = solve(&format!(
         "{BODY}{TOP}{TISSUE}\
          [[layer]]\nname = \"skin\"\nthickness_m = 0.01\n{soft}\
          [[layer]]\nname = \"fat\"\nthickness_m = 0.008\n{STIFF}\
-         [[inclusion]]\nname = \"lump\"\nball = {{ center_m = [0.0, 0.0, 0.0], radius_m = 0.02 }}\n{STIFF}"
+         [[inclusion]]\nname = \"lump\"\nball = {{ center_m = [0.0, 0.0, 0.0], radius_m = 0.03 }}\n{STIFF}"
     ));
     let volumes = |answer: &Value| {
         let regions = answer["regions"].as_array().unwrap();
@@ -136,11 +136,10 @@ fn cube_in_millimetres(edge: f64) -> String {
     )
 }
 
-/// A closed surface inside, with its unit. Judge: the volume of a cube.
 /// Judge: the pressure and the fluid that were asked for, and signs.
 #[test]
 fn a_region_is_a_cavity() {
-    let ball = "ball = { center_m = [0.0, 0.0, 0.0], radius_m = 0.02 }";
+    let ball = "ball = { center_m = [0.0, 0.0, 0.0], radius_m = 0.035 }";
     let problem = |cavity: &str, load: &str| {
         format!("{BODY}{TISSUE}{load}[[region]]\nname = \"bladder\"\n{ball}\ncavity = {cavity}\n")
     };
@@ -163,11 +162,12 @@ fn a_region_is_a_cavity() {
     assert!(grown.abs() < 1e-9, "{grown}");
 }
 
+/// A closed surface inside, with its unit. Judge: the volume of a cube.
 #[test]
 fn a_region_is_the_inside_of_a_surface() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    fs::write(folder.join("lump.stl"), cube_in_millimetres(50.0)).unwrap();
+    fs::write(folder.join("lump.stl"), cube_in_millimetres(80.0)).unwrap();
     let answer = solve_in(
         folder,
         &format!(
@@ -179,7 +179,7 @@ fn a_region_is_the_inside_of_a_surface() {
     assert_eq!(lump["name"], "lump");
     let volume = lump["volume_m3"].as_f64().unwrap();
     // Tetrahedra cut off the corners of what they do not cross.
-    assert!((volume / 125e-6 - 1.0).abs() < 0.1, "{volume}");
+    assert!((volume / 512e-6 - 1.0).abs() < 0.1, "{volume}");
 }
 
 /// Two tetrahedra of a VTK file, of which one has the label 7.
