@@ -9,14 +9,14 @@ use super::supports::Supports;
 const SHORTEST_BEFORE_INVERSION: f64 = 1.0 / 16.0;
 /// Bisections of a step on which tissue meets and leaves tools.
 const BISECTIONS: usize = 20;
-/// Shortest part of such a step that is gone [-].
+/// Shortest part of such a step that is taken [-].
 const SHORTEST_AT_TOOLS: f64 = 0.02;
 
-/// A step is gone whole if the residual falls. If it does not, and tools press, as far as the energy falls; otherwise half of
-/// it is tried, and half of that.
+/// The whole step is taken if the residual falls. If it does not and there are tools, the step is taken as far as the energy
+/// falls; otherwise it is halved until the residual falls.
 ///
-/// Where a tool presses a place more or fewer the residual jumps, and its size says little about a step. The energy of
-/// tissue and tools with their multipliers is convex where the tissue's is.
+/// The residual jumps where tissue meets or leaves a tool, so that its size says little about a step. The energy of tissue and
+/// tools, with their multipliers held, is convex where that of the tissue is.
 pub(super) struct LineSearch<'a> {
     pub(super) model: &'a FiniteElementModel,
     pub(super) supports: &'a Supports<'a>,
@@ -26,10 +26,10 @@ pub(super) struct LineSearch<'a> {
 }
 
 impl LineSearch<'_> {
-    /// Goes along the workspace's step.
+    /// Moves `state` along the workspace's step.
     ///
     /// # Errors
-    /// When no part of it that is tried is of use.
+    /// When no part of the step that is tried serves.
     pub(super) fn advance(
         &self,
         state: &mut FiniteElementState,
@@ -41,27 +41,32 @@ impl LineSearch<'_> {
             tissue: self.tissue_slope(contacts, &state.unknowns, workspace),
         });
         let mut length = 1.0;
-        let mut is_best = false;
+        // Whether the energy is lowest at this length.
+        let mut is_lowest = false;
         loop {
             let trial = moved(&state.unknowns, &workspace.step, length);
             let step = std::mem::take(&mut workspace.step);
             let assembled = assemble(self.model, self.supports, &trial, workspace);
             workspace.step = step;
-            let mut good = assembled.is_ok() && {
-                workspace.trial.copy_from_slice(&trial);
-                let size = size_of_residual(self.model, self.supports, workspace);
+            workspace.trial.copy_from_slice(&trial);
+            let size = match assembled {
+                Ok(()) => Some(size_of_residual(self.model, self.supports, workspace)),
+                Err(_) => None,
+            };
+            let size = size.filter(|size| size.free.is_finite());
+            let mut good = size.as_ref().is_some_and(|size| {
                 // A body that already rests has a residual of rounding, which no step makes smaller.
                 let falls = self.before.is_none_or(|before| size.free <= before);
-                let serves = falls || is_best || size.is_small(self.controls.tolerance);
-                size.free.is_finite() && serves
-            };
-            if let (Ok(()), false, Some(energy)) = (assembled, good, &energy) {
-                let best = energy.lowest(length, &state.unknowns, &trial, workspace);
-                is_best = best.is_some();
-                good = best == Some(length);
-                if let Some(best) = best.filter(|&best| best < length) {
-                    length = best;
-                    continue;
+                falls || is_lowest || size.is_small(self.controls.tolerance)
+            });
+            if let (Some(_), false, Some(energy)) = (size, good, &energy) {
+                match energy.lowest(length, &state.unknowns, &trial, workspace) {
+                    Some(lowest) if lowest < length => {
+                        (length, is_lowest) = (lowest, true);
+                        continue;
+                    }
+                    Some(_) => good = true,
+                    None => {}
                 }
             }
             // A step that turns an element inside out is too long, which does not make it a bad one.

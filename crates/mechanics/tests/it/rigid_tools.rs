@@ -327,7 +327,7 @@ fn a_problem_with_tools_has_an_error_estimate() {
 
 /// The error of the two coarsest meshes covers what the force on the tool changes on the next.
 #[test]
-#[ignore = "slow: six minutes"]
+#[ignore = "slow: five minutes"]
 fn the_error_estimate_of_tools_covers_a_finer_mesh() {
     let found = solve(&pressed_cube(), 0.2, &mut |_| ()).unwrap();
     let fine = last(&solve_at(&pressed_cube(), 1, &mut |_| ()).unwrap());

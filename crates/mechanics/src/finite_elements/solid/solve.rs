@@ -38,10 +38,8 @@ const TOOL_STEPS: Steps = Steps {
 const CONTACT_TOLERANCE: f64 = 1e-5;
 const MOST_AUGMENTATIONS: usize = 40;
 
-/// Tolerance of an equilibrium [-] in the last change of the forces in contact, which the next augmentation changes anyway...
-const EXACT: f64 = 1e-3;
-/// ... and the largest.
-const ROUGH: f64 = 1e-3;
+/// Tolerance of an equilibrium that a further augmentation changes, in the last change of the forces in contact [-].
+const TOLERANCE_IN_CHANGE: f64 = 1e-3;
 
 /// After so many of them what faces a tool stays the same.
 const FACED: usize = 1;
@@ -171,7 +169,10 @@ impl Increments for SolidRun<'_, '_> {
             supports.contacts = contacts.as_ref();
             let controls = SolverControls {
                 tolerance: match contacts {
-                    Some(_) => (EXACT * last).clamp(SolverControls::FULL.tolerance, ROUGH),
+                    Some(_) => {
+                        let tolerance = TOLERANCE_IN_CHANGE * f64::min(last, 1.0);
+                        tolerance.max(SolverControls::FULL.tolerance)
+                    }
                     None => SolverControls::FULL.tolerance,
                 },
                 ..SolverControls::FULL
