@@ -67,12 +67,18 @@ fn last(answer: &SolidAnswer) -> ToolLoad {
     answer.waypoints().last().unwrap()[0]
 }
 
-/// Force of an indenter at `depth` [m] on the cylinder with the height and the volume of the cube of `solid`, by axisymmetric elements [N].
-pub(crate) fn indented_cylinder(indenter: Indenter, law: Arc<dyn Law>, depth: f64) -> f64 {
+/// Force of an indenter at `depth` [m] on the cylinder with the height and the volume of a cube of this edge [m], by axisymmetric
+/// elements [N].
+pub(crate) fn indented_cylinder(
+    edge: f64,
+    indenter: Indenter,
+    law: Arc<dyn Law>,
+    depth: f64,
+) -> f64 {
     let problem = IndentationProblem {
         block: Block {
-            radius: 2.0 * HALF / PI.sqrt(),
-            height: 2.0 * HALF,
+            radius: edge / PI.sqrt(),
+            height: edge,
             base: Base::Bonded,
         },
         indenter,
@@ -95,7 +101,7 @@ fn spheres(mesh: i32, most: f64) {
                 radius,
                 face: friction,
             };
-            let judge = indented_cylinder(indenter, law.clone(), depth);
+            let judge = indented_cylinder(2.0 * HALF, indenter, law.clone(), depth);
             let problem = pressed(RigidShape::Sphere { radius }, friction, law.clone(), depth);
             let answer = at(&problem, mesh);
             let ratio = last(&answer).force.z / judge;
@@ -318,11 +324,21 @@ fn pressed_cube() -> SolidProblem {
     small_cube(linear(0.3), tools)
 }
 
+/// Judge: axisymmetric elements, on the cylinder of the same height and volume.
 #[test]
 fn a_problem_with_tools_has_an_error_estimate() {
     let found = solve(&pressed_cube(), 0.2, &mut |_| ()).unwrap();
     assert!(found.error > 0.0 && found.error < 0.2, "{}", found.error);
     assert_eq!(found.warnings.len(), 2, "{:?}", found.warnings);
+    let indenter = Indenter {
+        shape: IndenterShape::Sphere,
+        radius: 0.002,
+        face: FrictionLaw::Frictionless,
+    };
+    let judge = indented_cylinder(0.01, indenter, linear(0.3), 0.001);
+    let off = last(&found.answer).force.z / judge - 1.0;
+    println!("{off} {}", found.error);
+    assert!(off.abs() <= found.error, "{off}");
 }
 
 /// The error of the two coarsest meshes covers what the force on the tool changes on the next.

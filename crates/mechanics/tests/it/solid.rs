@@ -101,7 +101,12 @@ fn cylinder(problem: &SolidProblem) -> f64 {
         radius,
         face,
     };
-    indented_cylinder(indenter, problem.law.clone(), patch.displacement.norm())
+    indented_cylinder(
+        2.0 * HALF,
+        indenter,
+        problem.law.clone(),
+        patch.displacement.norm(),
+    )
 }
 
 /// Judges: axisymmetric elements on a cylinder of the same volume, and the half-space, from which both
