@@ -1,29 +1,54 @@
 use faer::{Mat, MatRef};
 use nalgebra::Matrix3;
+use palpate_geometry::Surface;
 
 use super::integrals::{Place, Source};
 use super::kelvin::Kelvin;
 use super::panel::Panel;
 use super::precision::Precision;
 use crate::cores::on_all_cores;
+use crate::{Error, LinearElastic};
 
 /// All influences of panels on panels: 3 n × 3 n, row 3 i + a for component a at the centroid of panel i.
 pub struct InfluenceMatrices {
     /// U [m³/N]: of the traction on each panel.
     pub displacement: Mat<f64>,
-    /// ½ 1 + T [-]: of the displacement of each panel.
+    /// ½ 1 + T [-]: of the displacement of each panel; rotations of the whole solid have no traction.
     pub traction: Mat<f64>,
 }
 
 /// The panels of a solid.
 pub struct Influences<'a> {
-    /// Kelvin's solution in it.
-    pub kelvin: Kelvin,
-    /// Its surface, closed.
-    pub panels: &'a [Panel],
+    kelvin: Kelvin,
+    pub(super) surface: &'a Surface,
+    pub(super) panels: Vec<Panel>,
 }
 
-impl Influences<'_> {
+impl<'a> Influences<'a> {
+    /// Those of the solid within `surface`, of the tissue `law`.
+    ///
+    /// # Errors
+    /// When a triangle has no area.
+    pub fn new(surface: &'a Surface, law: &LinearElastic) -> Result<Self, Error> {
+        let mesh = surface.mesh();
+        let panels = mesh.triangle_ids().map(|triangle| {
+            let panel = Panel::new(mesh.positions(triangle));
+            panel.ok_or(Error::SliverTriangle {
+                triangle: triangle.index(),
+            })
+        });
+        Ok(Self {
+            kelvin: Kelvin::new(law),
+            surface,
+            panels: panels.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// One for each triangle of the surface.
+    pub fn panels(&self) -> &[Panel] {
+        &self.panels
+    }
+
     /// Both matrices, by all cores.
     pub fn matrices(&self) -> InfluenceMatrices {
         let size = 3 * self.panels.len();
@@ -35,6 +60,7 @@ impl Influences<'_> {
             self.displacement_columns(source, 1.0, u);
             self.traction_columns(source, t);
         });
+        self.free_rotations(&vec![false; self.panels.len()], &mut traction);
         let [displacement, traction] = [displacement, traction]
             .map(|columns| MatRef::from_column_major_slice(&columns, size, size).to_owned());
         InfluenceMatrices {
@@ -60,14 +86,22 @@ impl Influences<'_> {
 
     /// The columns of ½ 1 + T that belong to the panel `number`.
     pub(super) fn traction_columns<T: Precision>(&self, number: usize, columns: &mut [T]) {
+        let block = self.traction_blocks(number);
+        for target in 0..self.panels.len() {
+            put(columns, target, &block(target));
+        }
+    }
+
+    /// The same as a function of the panel where the displacement is.
+    pub(super) fn traction_blocks(&self, number: usize) -> impl Fn(usize) -> Matrix3<f64> {
         let source = Source::new(&self.panels[number]);
-        for (target, panel) in self.panels.iter().enumerate() {
+        move |target| {
             let place = place(number, target);
-            let mut block = source.traction(&self.kelvin, &panel.centroid, place);
-            if place == Place::OnPanel {
-                block += Matrix3::from_diagonal_element(0.5);
+            let block = source.traction(&self.kelvin, &self.panels[target].centroid, place);
+            match place {
+                Place::OnPanel => block + Matrix3::from_diagonal_element(0.5),
+                Place::Elsewhere => block,
             }
-            put(columns, target, &block);
         }
     }
 }

@@ -15,7 +15,7 @@
 //! A₀ x = U f/A,   A₀ = [½ 1 + T of free triangles, −U of held ones]
 //! ```
 //!
-//! is factored once ([`BoundaryProblem`]) and gives a [`SurfaceResponse`](crate::surface_response), on
+//! after a correction by which rotations of the whole solid need no traction (`rotations`), is factored once ([`BoundaryProblem`]) and gives a [`SurfaceResponse`](crate::surface_response), on
 //! which contacts are computed. A₀ is kept in single precision (its condition is some tens) and is
 //! overwritten by its factors; U is computed as it is needed; no inverse is formed.
 //!
@@ -33,6 +33,7 @@ mod kelvin;
 mod panel;
 mod precision;
 mod problem;
+mod rotations;
 
 pub use assembly::{InfluenceMatrices, Influences};
 pub(crate) use integrals::Source;

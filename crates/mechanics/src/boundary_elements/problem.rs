@@ -4,8 +4,6 @@ use palpate_geometry::{Surface, TriangleId};
 
 use super::assembly::Influences;
 use super::factors::Factors;
-use super::kelvin::Kelvin;
-use super::panel::Panel;
 use super::precision::Precision;
 use crate::cores::{cores, on_all_cores};
 use crate::surface_response::{ResponseParts, Sampling, SurfaceResponse, TouchableTriangle, zeros};
@@ -86,13 +84,9 @@ impl BoundaryProblem<'_> {
         if needed > memory {
             return Err(Error::NotEnoughMemory { needed, memory });
         }
-        let panels = self.panels()?;
-        let influences = Influences {
-            kelvin: Kelvin::new(&law),
-            panels: &panels,
-        };
+        let influences = Influences::new(self.surface, &law)?;
         let touchable = self.touchable.iter().map(|&triangle| {
-            let panel = &panels[triangle.index()];
+            let panel = &influences.panels[triangle.index()];
             TouchableTriangle {
                 triangle,
                 centroid: panel.centroid,
@@ -120,18 +114,6 @@ impl BoundaryProblem<'_> {
         3 * self.surface.mesh().triangles().len()
     }
 
-    fn panels(&self) -> Result<Vec<Panel>, Error> {
-        let mesh = self.surface.mesh();
-        mesh.triangle_ids()
-            .map(|triangle| {
-                let panel = Panel::new(mesh.positions(triangle));
-                panel.ok_or(Error::SliverTriangle {
-                    triangle: triangle.index(),
-                })
-            })
-            .collect()
-    }
-
     /// Fills the response in, by way of the `system`, which comes as zeros.
     fn fill<T: Precision>(
         &self,
@@ -152,6 +134,7 @@ impl BoundaryProblem<'_> {
         assemble(influences, held, &mut system, &mut |part| {
             told(Stage::Assembly, part * assembly)
         })?;
+        influences.free_rotations(held, &mut system);
         let factored = Factors::new(self.size(), system, &mut |part| {
             told(Stage::Factors, assembly + part * factors)
         })?;

@@ -91,19 +91,19 @@ fn by_boundary_elements(inner: f64, outer: f64, parts: [usize; 3]) -> f64 {
 
 /// Quick form of the test below, on two coarser meshes of one wall. Judge: the finite elements of that test, whose force
 /// per depth over E [m] stands here. Tolerance: the error goes with the square of the triangles over the wall; of 36
-/// around it is 4 %, so of 24 it is 9 %, to the 2 % that the judge may miss.
+/// around it is 3 %, so of 24 it is 7 %, to the 2 % that the judge may miss.
 #[test]
 fn a_thick_wall_is_met_better_by_smaller_triangles() {
     let errors = [[16, 16, 1], [24, 24, 2]]
         .map(|parts| by_boundary_elements(5e-3, 8e-3, parts) / 1.142e-3 - 1.0);
     println!("{errors:+.3?}");
     assert!(errors[0] > errors[1]);
-    assert!((0.07..0.11).contains(&errors[1]), "{errors:?}");
+    assert!((0.05..0.09).contains(&errors[1]), "{errors:?}");
 }
 
 /// Judge: quadratic elements with a pressure field, good to some percent. Constant triangles are too stiff
-/// in bending, by the second power of their size over the wall: on 5,472 triangles a wall of 2.5 mm is 6 %
-/// too stiff, one of 3 mm 4 %, and one of 1.5 mm 21 %.
+/// in bending, by the second power of their size over the wall: on 5,472 triangles a wall of 2.5 mm is 5 %
+/// too stiff, one of 3 mm 3 %, and one of 1.5 mm 17 %.
 #[test]
 #[ignore = "slow: minutes"]
 fn thick_walls_are_met_and_thin_ones_are_not() {

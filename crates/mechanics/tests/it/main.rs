@@ -64,6 +64,7 @@ mod solid_fields;
 mod solid_regions;
 mod stiffening;
 mod stretches;
+mod thin_lobes;
 mod thin_patch;
 mod tip_field;
 mod tip_tangent;

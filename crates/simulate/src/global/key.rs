@@ -4,7 +4,7 @@ use sha2::{Digest, Sha256};
 use super::method::Method;
 
 /// Change with the equations, so that what was stored before is solved anew.
-const BOUNDARY_ELEMENTS: &str = "boundary elements 1";
+const BOUNDARY_ELEMENTS: &str = "boundary elements 2";
 const FINITE_ELEMENTS: &str = "condensed finite elements 1";
 
 /// What a response is made from.

@@ -17,8 +17,8 @@
 //!
 //! *How we know*: `hybrid::…`, `enhanced::…`, `thin_walls::…`, `large_organs::…`.
 //!
-//! *Limits*: the organ around a tip answers as at small strain; nothing of it moves through its anchor. Where the organ
-//! is thinner than the tip is wide it is too soft, by a fifth at 5 mm under a tip of 6 mm.
+//! *Limits*: the organ around a tip answers as at small strain; nothing of it moves through its anchor. A tip does not
+//! resist that the organ turns under it.
 //!
 //! [`TipLaw`]: palpate_mechanics::TipLaw
 

@@ -6,7 +6,9 @@ use std::collections::BTreeSet;
 use palpate_geometry::{Surface, TetrahedronMesh, TriangleId, closest_on_triangle};
 
 use super::mesh::Face;
+use super::problem::MovedPatch;
 use crate::Vec3;
+use crate::contact::Friction;
 
 /// A vertex within this part of the radius outside of the sphere is on it [-].
 const ON: f64 = 1e-8;
@@ -44,6 +46,20 @@ pub(super) fn faces_within<'a>(
         reached.extend(new.iter().flat_map(|face| face.nodes[3..].iter().copied()));
         patch.extend(new);
         inside = rest;
+    }
+}
+
+impl MovedPatch {
+    /// A warning where it keeps the body from turning by more than a face can that is only pressed: where the `moment` about its
+    /// centre [N m] puts its `force` [N] outside of it.
+    pub(super) fn pulls(&self, force: &Vec3, moment: &Vec3) -> Option<String> {
+        let lever = moment.norm() / (force.norm() * self.radius);
+        (self.friction == Friction::Frictionless && lever > 1.0).then(|| {
+            format!(
+                "the patch pulls on one side: it cannot turn, and its force acts {lever:.1} radii from its centre; a rigid tool in \
+                 contact lets go there, and its force is smaller"
+            )
+        })
     }
 }
 

@@ -235,6 +235,14 @@ impl SolidProblem {
         if let Some(fibres) = &self.fibres {
             answer.fields.set_fibres(fibres);
         }
+        if let (Some(patch), Some(center)) = (&self.patch, context.center()) {
+            let moments = held.moved.iter().map(|&node| {
+                let arm = frame.back(&model.mesh.nodes[node]) - center;
+                arm.cross(&frame.back(&workspace.reaction(&model, node)))
+            });
+            let moment: Vec3 = moments.sum();
+            answer.warnings.extend(patch.pulls(&answer.force, &moment));
+        }
         answer.warnings.extend(context.warnings.iter().cloned());
         answer.warnings.extend(graded.warnings);
         answer.warnings.extend(missing);

@@ -8,7 +8,7 @@ use palpate_files::Event;
 use palpate_files::scene::Jaws;
 use palpate_geometry::{AabbTree, Vec3};
 use palpate_mechanics::LinearElastic;
-use palpate_mechanics::boundary_elements::{Influences, Kelvin, Panel};
+use palpate_mechanics::boundary_elements::Influences;
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
 use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem, solve};
 use palpate_simulate::{Simulation, held_region};
@@ -23,16 +23,9 @@ fn held_triangles_are_a_new_solution() {
     let simulation = with_jaws(&HEMISPHERE, |plain| around_the_pole(plain).0);
     let (_, patch) = around_the_pole(&simulation);
     let mesh = simulation.surface().mesh();
-    let panels: Vec<_> = mesh
-        .triangle_ids()
-        .map(|id| Panel::new(mesh.positions(id)).unwrap())
-        .collect();
     let law = LinearElastic::new(1.0, HEMISPHERE.poissons_ratio).unwrap();
-    let influences = Influences {
-        kelvin: Kelvin::new(&law),
-        panels: &panels,
-    };
-    let matrices = influences.matrices();
+    let influences = Influences::new(simulation.surface(), &law).unwrap();
+    let (matrices, panels) = (influences.matrices(), influences.panels());
     let size = 3 * panels.len();
     // The base is held.
     let known: Vec<bool> = mesh
