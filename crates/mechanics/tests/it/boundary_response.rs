@@ -196,7 +196,7 @@ fn an_update_is_a_new_solution() {
     assert!(off < 1e-5);
 }
 
-/// Judge: a cantilever, whose end moves by F L³/(3 E I) + F L/(k G A), k = 5/6 [Timoshenko and Gere 1972]. Triangles of a quarter
+/// Judge: a cantilever, whose end moves by F L³/(3 E I) + F L/(k G A), k = 5/6 [Timoshenko 1921]. Triangles of a quarter
 /// of the side are 8 % too soft, of half of it 18 %; without free rotations they were ten times too stiff. Tolerance: the first
 /// order in their size, of the finer ones with a quarter to spare.
 #[test]

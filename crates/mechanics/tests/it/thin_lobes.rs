@@ -149,7 +149,7 @@ fn a_lobe_thinner_than_the_tip_is_that_of_finite_elements() {
 #[ignore = "slow: minutes"]
 fn lobes_of_3_5_and_7_mm_are_those_of_finite_elements() {
     for (thickness, most) in [(3e-3, 0.06), (5e-3, 0.05), (7e-3, 0.05)] {
-        for radius in [1e-3, 2e-3, 3e-3] {
+        for radius in [1e-3, 3e-3] {
             let error = error(thickness, radius, 3.0, [20, 16, 4]);
             assert!(error.abs() < most, "{thickness} {radius}: {error}");
         }
