@@ -6,6 +6,7 @@ use super::integrals::{Place, Source};
 use super::kelvin::Kelvin;
 use super::panel::Panel;
 use super::precision::Precision;
+use super::rotations::TractionColumns;
 use crate::cores::on_all_cores;
 use crate::{Error, LinearElastic};
 
@@ -60,7 +61,10 @@ impl<'a> Influences<'a> {
             self.displacement_columns(source, 1.0, u);
             self.traction_columns(source, t);
         });
-        self.free_rotations(&vec![false; self.panels.len()], &mut traction);
+        self.free_rotations(TractionColumns {
+            columns: &mut traction,
+            held: &vec![false; self.panels.len()],
+        });
         let [displacement, traction] = [displacement, traction]
             .map(|columns| MatRef::from_column_major_slice(&columns, size, size).to_owned());
         InfluenceMatrices {

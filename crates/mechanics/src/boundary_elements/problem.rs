@@ -5,6 +5,7 @@ use palpate_geometry::{Surface, TriangleId};
 use super::assembly::Influences;
 use super::factors::Factors;
 use super::precision::Precision;
+use super::rotations::TractionColumns;
 use crate::cores::{cores, on_all_cores};
 use crate::surface_response::{ResponseParts, Sampling, SurfaceResponse, TouchableTriangle, zeros};
 use crate::{Error, LinearElastic};
@@ -134,7 +135,10 @@ impl BoundaryProblem<'_> {
         assemble(influences, held, &mut system, &mut |part| {
             told(Stage::Assembly, part * assembly)
         })?;
-        influences.free_rotations(held, &mut system);
+        influences.free_rotations(TractionColumns {
+            columns: &mut system,
+            held,
+        });
         let factored = Factors::new(self.size(), system, &mut |part| {
             told(Stage::Factors, assembly + part * factors)
         })?;

@@ -26,27 +26,61 @@ use super::precision::Precision;
 use crate::Vec3;
 use crate::cores::{cores, on_all_cores};
 
+/// Columns of ½ 1 + T, in which those of held panels stand for something else.
+pub(super) struct TractionColumns<'a, T> {
+    /// Three for each panel, one after the other.
+    pub(super) columns: &'a mut [T],
+    /// Whether a panel is held.
+    pub(super) held: &'a [bool],
+}
+
+impl<T: Precision> TractionColumns<'_, T> {
+    /// The first entry of what the displacement of `source` does to `target`.
+    fn first(&self, source: usize, target: usize) -> usize {
+        9 * self.held.len() * source + 3 * target
+    }
+
+    fn block(&self, source: usize, target: usize) -> Matrix3<f64> {
+        let (first, size) = (self.first(source, target), 3 * self.held.len());
+        Matrix3::from_fn(|row, column| self.columns[first + size * column + row].into())
+    }
+
+    /// Adds to that; a held panel has no displacement.
+    fn add(&mut self, source: usize, target: usize, change: &Matrix3<f64>) {
+        if self.held[source] {
+            return;
+        }
+        let (first, size) = (self.first(source, target), 3 * self.held.len());
+        for column in 0..3 {
+            for row in 0..3 {
+                let entry = &mut self.columns[first + size * column + row];
+                *entry = T::of((*entry).into() + change[(row, column)]);
+            }
+        }
+    }
+}
+
 impl Influences<'_> {
-    /// Corrects the columns of free panels in `system`, which are those of ½ 1 + T, where others are `held`.
-    pub(super) fn free_rotations<T: Precision>(&self, held: &[bool], system: &mut [T]) {
-        let residuals = self.residuals(held, system);
+    /// Corrects the columns of free panels.
+    pub(super) fn free_rotations<T: Precision>(&self, mut columns: TractionColumns<'_, T>) {
+        let residuals = self.residuals(&columns);
         for (target, residual) in residuals.iter().enumerate() {
-            self.correct((target, residual), held, system);
+            self.correct(target, residual, &mut columns);
         }
     }
 
     /// ρ of each row [m].
-    fn residuals<T: Precision>(&self, held: &[bool], system: &[T]) -> Vec<Matrix3<f64>> {
+    fn residuals<T: Precision>(&self, columns: &TractionColumns<'_, T>) -> Vec<Matrix3<f64>> {
         let count = self.panels.len();
         let mut residuals = vec![Matrix3::zeros(); count];
         let share = count.div_ceil(cores());
         on_all_cores(residuals.chunks_mut(share).enumerate(), |(k, rows)| {
-            for (source, &is_held) in held.iter().enumerate() {
+            for (source, &is_held) in columns.held.iter().enumerate() {
                 let traction = self.traction_blocks(source);
                 for (target, residual) in (k * share..).zip(rows.iter_mut()) {
                     let block = match is_held {
                         true => traction(target),
-                        false => block(system, count, source, target),
+                        false => columns.block(source, target),
                     };
                     *residual -= block * self.offset(source, target).cross_matrix();
                 }
@@ -58,9 +92,9 @@ impl Influences<'_> {
     /// Corrects the row of panel `target`.
     fn correct<T: Precision>(
         &self,
-        (target, residual): (usize, &Matrix3<f64>),
-        held: &[bool],
-        system: &mut [T],
+        target: usize,
+        residual: &Matrix3<f64>,
+        columns: &mut TractionColumns<'_, T>,
     ) {
         let nodes = self.surface.mesh().corners(TriangleId(target as u32));
         let adjacency = self.surface.adjacency();
@@ -68,62 +102,32 @@ impl Influences<'_> {
         let mut around: Vec<usize> = around.map(|triangle| triangle.index()).collect();
         around.sort_unstable();
         around.dedup();
-        around.retain(|&source| source != target);
+        around.retain(|&source| self.offset(source, target).norm_squared() > 0.0);
         let turned = |source: usize| {
             let offset = self.offset(source, target);
             let weight = self.panels[source].area / offset.norm_squared();
             (-offset.cross_matrix(), weight)
         };
-        let sum: Matrix3<f64> = around
-            .iter()
-            .map(|&source| {
-                let (turn, weight) = turned(source);
-                turn.transpose() * turn * weight
-            })
-            .sum();
+        let squares = around.iter().map(|&source| {
+            let (turn, weight) = turned(source);
+            turn.transpose() * turn * weight
+        });
         // Panels around one lie on no straight line.
-        let Some(inverse) = sum.try_inverse() else {
+        let Some(inverse) = squares.sum::<Matrix3<f64>>().try_inverse() else {
             return;
         };
         let mut own = Matrix3::zeros();
-        let count = self.panels.len();
         for &source in &around {
             let (turn, weight) = turned(source);
             let change = -residual * inverse * turn.transpose() * weight;
             own -= change;
-            add(system, count, (source, target), held, &change);
+            columns.add(source, target, &change);
         }
-        add(system, count, (target, target), held, &own);
+        columns.add(target, target, &own);
     }
 
     /// From the centroid of a panel to that of another [m].
     fn offset(&self, source: usize, target: usize) -> Vec3 {
         self.panels[source].centroid - self.panels[target].centroid
-    }
-}
-
-/// What the displacement of a free panel does to another one.
-fn block<T: Precision>(system: &[T], count: usize, source: usize, target: usize) -> Matrix3<f64> {
-    let first = 9 * count * source + 3 * target;
-    Matrix3::from_fn(|row, column| system[first + 3 * count * column + row].into())
-}
-
-/// Adds to that; a held panel has no displacement.
-fn add<T: Precision>(
-    system: &mut [T],
-    count: usize,
-    (source, target): (usize, usize),
-    held: &[bool],
-    change: &Matrix3<f64>,
-) {
-    if held[source] {
-        return;
-    }
-    let first = 9 * count * source + 3 * target;
-    for column in 0..3 {
-        for row in 0..3 {
-            let entry = &mut system[first + 3 * count * column + row];
-            *entry = T::of((*entry).into() + change[(row, column)]);
-        }
     }
 }
