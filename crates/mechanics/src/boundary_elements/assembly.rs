@@ -63,7 +63,7 @@ impl<'a> Influences<'a> {
         });
         self.free_rotations(TractionColumns {
             columns: &mut traction,
-            held: &vec![false; self.panels.len()],
+            fixed: &vec![false; self.panels.len()],
         });
         let [displacement, traction] = [displacement, traction]
             .map(|columns| MatRef::from_column_major_slice(&columns, size, size).to_owned());

@@ -15,7 +15,8 @@
 //! A₀ x = U f/A,   A₀ = [½ 1 + T of free triangles, −U of held ones]
 //! ```
 //!
-//! after a correction by which rotations of the whole solid need no traction (`rotations`), is factored once ([`BoundaryProblem`]) and gives a [`SurfaceResponse`](crate::surface_response), on
+//! after a correction by which rotations of the whole solid need no traction (`rotations`), is factored once
+//! ([`BoundaryProblem`]) and gives a [`SurfaceResponse`](crate::surface_response), on
 //! which contacts are computed. A₀ is kept in single precision (its condition is some tens) and is
 //! overwritten by its factors; U is computed as it is needed; no inverse is formed.
 //!

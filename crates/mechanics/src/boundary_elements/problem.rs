@@ -137,7 +137,7 @@ impl BoundaryProblem<'_> {
         })?;
         influences.free_rotations(TractionColumns {
             columns: &mut system,
-            held,
+            fixed: held,
         });
         let factored = Factors::new(self.size(), system, &mut |part| {
             told(Stage::Factors, assembly + part * factors)

@@ -7,9 +7,9 @@
 //! ρᵢ ω = Σⱼ (½ 1 + T)ᵢⱼ ω × (yⱼ − xᵢ)
 //! ```
 //!
-//! is not zero: panels resist being turned, and a slender solid, whose parts turn as it bends, is too stiff, a beam ten
-//! times as long as thick by a factor of ten. Each row is corrected by the smallest change of its entries for the panels around panel i, weighted by
-//! area over squared distance as the kernel is, after which both motions need none:
+//! is not zero: panels resist being turned, and a slender solid, whose parts turn as it bends, is too stiff (a beam ten
+//! times as long as thick by a factor of ten). Each row is corrected by the smallest change of its entries for the panels
+//! around panel i, weighted by area over squared distance as the kernel is, after which a rotation needs none either:
 //!
 //! ```text
 //! δTᵢⱼ = −ρᵢ (Σ w Ωᵀ Ω)⁻¹ Ωⱼᵀ wⱼ,   δTᵢᵢ = −Σ δTᵢⱼ,   Ωⱼ ω = ω × (yⱼ − xᵢ),   wⱼ = Aⱼ/|yⱼ − xᵢ|²
@@ -26,31 +26,31 @@ use super::precision::Precision;
 use crate::Vec3;
 use crate::cores::{cores, on_all_cores};
 
-/// Columns of ½ 1 + T, in which those of held panels stand for something else.
+/// Columns of ½ 1 + T, in which those of fixed panels stand for something else.
 pub(super) struct TractionColumns<'a, T> {
     /// Three for each panel, one after the other.
     pub(super) columns: &'a mut [T],
-    /// Whether a panel is held.
-    pub(super) held: &'a [bool],
+    /// Whether a panel is fixed.
+    pub(super) fixed: &'a [bool],
 }
 
 impl<T: Precision> TractionColumns<'_, T> {
     /// The first entry of what the displacement of `source` does to `target`.
     fn first(&self, source: usize, target: usize) -> usize {
-        9 * self.held.len() * source + 3 * target
+        9 * self.fixed.len() * source + 3 * target
     }
 
     fn block(&self, source: usize, target: usize) -> Matrix3<f64> {
-        let (first, size) = (self.first(source, target), 3 * self.held.len());
+        let (first, size) = (self.first(source, target), 3 * self.fixed.len());
         Matrix3::from_fn(|row, column| self.columns[first + size * column + row].into())
     }
 
-    /// Adds to that; a held panel has no displacement.
+    /// Adds to that; a fixed panel has no displacement.
     fn add(&mut self, source: usize, target: usize, change: &Matrix3<f64>) {
-        if self.held[source] {
+        if self.fixed[source] {
             return;
         }
-        let (first, size) = (self.first(source, target), 3 * self.held.len());
+        let (first, size) = (self.first(source, target), 3 * self.fixed.len());
         for column in 0..3 {
             for row in 0..3 {
                 let entry = &mut self.columns[first + size * column + row];
@@ -75,12 +75,12 @@ impl Influences<'_> {
         let mut residuals = vec![Matrix3::zeros(); count];
         let share = count.div_ceil(cores());
         on_all_cores(residuals.chunks_mut(share).enumerate(), |(k, rows)| {
-            for (source, &is_held) in columns.held.iter().enumerate() {
-                let traction = self.traction_blocks(source);
+            for (source, &is_fixed) in columns.fixed.iter().enumerate() {
+                let traction = is_fixed.then(|| self.traction_blocks(source));
                 for (target, residual) in (k * share..).zip(rows.iter_mut()) {
-                    let block = match is_held {
-                        true => traction(target),
-                        false => columns.block(source, target),
+                    let block = match &traction {
+                        Some(traction) => traction(target),
+                        None => columns.block(source, target),
                     };
                     *residual -= block * self.offset(source, target).cross_matrix();
                 }

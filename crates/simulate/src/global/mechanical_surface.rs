@@ -10,7 +10,8 @@ const MOST_OF_ITS_OWN: usize = 6_000;
 const OF_A_FINER_ONE: usize = 5_000;
 
 /// Longest edges in parts of the wall under them [-]. A tip's force is spread over 2.2 of them, which must be less than
-/// what bends: on the rim of a liver, 10 to 20 mm thick, even ones are 15 % too stiff (`docs/theory/boundary_elements.md`).
+/// what bends: on the rim of a liver, 10 to 20 mm thick, even ones were 15 % too stiff when boundary elements
+/// still resisted being turned (`docs/theory/boundary_elements.md`).
 const OF_A_WALL: f64 = 0.12;
 
 /// Shortest edges, in parts of even ones [-].

@@ -22,7 +22,7 @@ const ANCHOR: f64 = -0.037;
 
 /// Judge: quadratic tetrahedra on the fine surface, under an even traction as large as the tip. Tolerance: 5 %, as asked for rims, of
 /// which three are thinner than 8 mm under a tip 6 mm wide; 7 % for the second place, the edge of a lobe of 16 mm, where 6 % were found
-/// with finer tetrahedra too: there the load of 10 mm that stands for the tip lies over the edge.
+/// with finer tetrahedra too, for a reason that is not known.
 #[test]
 #[ignore = "slow: minutes"]
 fn real_liver_of_20000_triangles() {

@@ -19,8 +19,8 @@ pub enum Body {
 }
 
 /// The part of the boundary that a tool moves: what lies within a radius of a point and hangs together
-/// with it. It does not turn: on a lobe that bends under it this takes a moment that no face in contact has, and the force is
-/// up to a half too large (`docs/theory/boundary_elements.md`). A [`RigidTool`] lets go instead.
+/// with it. It does not turn: on a lobe that bends under it this takes a moment that no face in contact has, and the force is too
+/// large, by half in an example (`docs/theory/boundary_elements.md`, thin rims). A [`RigidTool`] lets go instead.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MovedPatch {
     /// Its centre [m]; the nearest point of the boundary is taken.
