@@ -40,7 +40,8 @@ const SNAPS: usize = 3;
 const INFLATIONS: usize = 4;
 
 /// A filling `mesh` of `surface` with about as many nodes of quadratic elements as `nodes`, its vertices and edges, and the volume
-/// of the surface; its edges are shorter where `detail` [-] at a place [m] is above one, by this factor.
+/// of the surface; where `detail` [-] at a place [m] is above one, its edges are shorter and its boundary is closer to the surface,
+/// both by this factor.
 ///
 /// # Errors
 /// When what is left is no mesh, which does not happen to a sound one.
@@ -139,12 +140,12 @@ impl Net {
     fn cost(&self, edge: [u32; 2], place: &Vec3, detail: &dyn Fn(&Vec3) -> f64) -> f64 {
         let [a, b] = edge.map(|end| end as usize);
         let [from, to] = [self.vertices[a], self.vertices[b]];
-        let squared = (from - to).norm_squared() * detail(&(0.5 * (from + to))).powi(2);
         let off = match self.is_boundary[a] && self.is_boundary[b] {
             true => self.off_surface(edge, place),
             false => 0.0,
         };
-        squared + OFF_SURFACE.powi(2) * off
+        let squared = (from - to).norm_squared() + OFF_SURFACE.powi(2) * off;
+        squared * detail(&(0.5 * (from + to))).powi(2)
     }
 
     /// By how much the mean square of the distances to the planes that both ends stand for grows [m²].

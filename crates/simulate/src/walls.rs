@@ -122,18 +122,10 @@ impl<'a> Thickness<'a> {
                 through[triangle.index()] = hit.distance;
             }
         }
-        // On the crest of a rim the way through is a long one.
-        let around = |triangle: TriangleId| {
-            let corners = mesh.corners(triangle).into_iter();
-            let beside = corners.flat_map(|node| surface.adjacency().around(node));
-            beside.fold(f64::INFINITY, |least, other| {
-                through[other.index()].min(least)
-            })
-        };
         Self {
             surface,
             tree,
-            under: mesh.triangle_ids().map(around).collect(),
+            under: with_edges(surface, through),
         }
     }
 
@@ -149,6 +141,46 @@ impl<'a> Thickness<'a> {
         let nearest = self.tree.nearest(self.surface.mesh(), place);
         self.under[nearest.triangle.index()]
     }
+}
+
+/// Cosine of the angle between the normals of a wall and of its edge, at most [-].
+const ACROSS: f64 = 0.5;
+
+/// Gives the triangles at the edge of a wall its thickness, as far as it is thick: `through` the crest of a rim, and the side of a
+/// plate, the way is a long one [m].
+fn with_edges(surface: &Surface, mut through: Vec<f64>) -> Vec<f64> {
+    let mesh = surface.mesh();
+    let centroid = |id: TriangleId| mesh.positions(id).iter().sum::<Vec3>() / 3.0;
+    let normal = |id: TriangleId| mesh.area_vector(id).normalize();
+    let mut thinnest_first: Vec<TriangleId> = mesh.triangle_ids().collect();
+    thinnest_first.retain(|id| through[id.index()].is_finite());
+    thinnest_first.sort_by(|a, b| through[a.index()].total_cmp(&through[b.index()]));
+    let mut is_known = vec![false; through.len()];
+    let mut reached = Vec::new();
+    for wall in thinnest_first {
+        if is_known[wall.index()] {
+            continue;
+        }
+        let thickness = through[wall.index()];
+        let (middle, outward) = (centroid(wall), normal(wall));
+        let is_edge = |id: TriangleId| {
+            let is_near = (centroid(id) - middle).norm() <= thickness;
+            is_near && normal(id).dot(&outward).abs() < ACROSS
+        };
+        is_known[wall.index()] = true;
+        reached.push(wall);
+        while let Some(from) = reached.pop() {
+            let corners = mesh.corners(from).into_iter();
+            for &other in corners.flat_map(|node| surface.adjacency().around(node)) {
+                if !is_known[other.index()] && is_edge(other) {
+                    is_known[other.index()] = true;
+                    through[other.index()] = thickness;
+                    reached.push(other);
+                }
+            }
+        }
+    }
+    through
 }
 
 /// Triangles that are asked for a thickness.
@@ -199,6 +231,9 @@ mod tests {
         let middle = 0.5 * (low + high);
         let thickness = Thickness::new(&slab).at(&Vec3::new(middle.x, middle.y, high.z));
         assert!((thickness - 0.015).abs() < 1e-4, "{thickness}");
+        // Where its side is several triangles high.
+        let side = Thickness::new(&slab).at(&Vec3::new(high.x, middle.y, middle.z));
+        assert!((side - 0.015).abs() < 1e-4, "{side}");
         let hemisphere = surface(Organ::Hemisphere);
         let (low, high) = hemisphere.mesh().bounds();
         let rim = Vec3::new(high.x, 0.0, low.z);

@@ -1,7 +1,7 @@
 //! Forces of the elements and their change, without a matrix.
 //!
 //! ```text
-//! P = 2 c₁₀ F + 2 c₀₁ (I₁ F − F C) + (p − 2 c₁₀ − 4 c₀₁) cof F,   p = λ (J̄ − 1) + 2 c₁₀ (J − 1)
+//! P = 2 c₁₀ F + 2 c₀₁ (I₁ F − F C) + (p − 2 c₁₀ − 4 c₀₁) cof F,   p = (λ − λ₁) (J̄ − 1) + (2 c₁₀ + λ₁) (J − 1)
 //! ```
 //!
 //! J − 1 is computed from the displacement gradient, so that no digit is lost at small strain.
@@ -97,7 +97,8 @@ impl<T: Scalar> Pack<T> {
     pub(super) fn deform(&self, nodal: &Nodal<T>, deformed: &mut Deformed<T>) {
         let one = Lanes::splat(1.0);
         let (two, four) = (Lanes::splat(2.0), Lanes::splat(4.0));
-        let first = two * self.moduli.c10;
+        let moduli = &self.moduli;
+        let [of_mean, of_point] = moduli.of_dilations();
         let mut sum = Lanes::default();
         for point in 0..POINTS {
             let mut h = self.gradient(nodal, point);
@@ -106,15 +107,14 @@ impl<T: Scalar> Pack<T> {
             let traces = [0, 1, 2].map(|i| h[i][i] + minors[i][i]);
             let dilation = traces[0] + traces[1] + traces[2] + dot(&h[0], &minors[0]);
             sum += dilation;
-            deformed.pressures[point] = first * dilation;
+            deformed.pressures[point] = of_point * dilation;
             for (axis, column) in h.iter_mut().enumerate() {
                 column[axis] += one;
             }
             deformed.gradients[point] = h;
         }
-        let moduli = &self.moduli;
         let mean = sum * Lanes::splat(1.0 / POINTS as f64);
-        let all = moduli.dilation * mean - (first + four * moduli.c01);
+        let all = of_mean * mean - (two * moduli.c10 + four * moduli.c01);
         for pressure in &mut deformed.pressures {
             *pressure += all;
         }
@@ -174,11 +174,12 @@ impl<T: Scalar> Pack<T> {
             dilations[point] = contraction(&cofactors(&deformed.gradients[point]), change);
             sum += dilations[point];
         }
-        let mean = self.moduli.dilation * sum * Lanes::splat(1.0 / POINTS as f64);
-        let first = Lanes::splat(2.0) * self.moduli.c10;
+        let [of_mean, of_point] = self.moduli.of_dilations();
+        let mean = of_mean * sum * Lanes::splat(1.0 / POINTS as f64);
         let mut forces = Nodal::default();
         for (point, change) in changes.iter().enumerate() {
-            let by_dilation = (mean + first * dilations[point]) * self.quarter * deformed.follows;
+            let by_dilation =
+                (mean + of_point * dilations[point]) * self.quarter * deformed.follows;
             let stress = self.stress_change(deformed, point, change, by_dilation);
             self.add_forces(&stress, point, &mut forces);
         }

@@ -54,6 +54,11 @@ impl<T: Scalar> Lanes<T> {
     }
 
     #[inline(always)]
+    pub(super) fn min(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a < b { a } else { b })
+    }
+
+    #[inline(always)]
     fn zip(self, other: Self, f: impl Fn(T, T) -> T) -> Self {
         let mut result = self;
         for (value, other) in result.0.iter_mut().zip(other.0) {

@@ -1,13 +1,16 @@
 //! The laws that the kernel knows, in one form that is stable under compression and inversion:
 //!
 //! ```text
-//! Ψ = c₁₀ (I₁ − 3) + c₀₁ (I₂ − 3) − (2 c₁₀ + 4 c₀₁) (J − 1) + c₁₀ (J − 1)² + ½ λ (J̄ − 1)²
+//! Ψ = c₁₀ (I₁ − 3) + c₀₁ (I₂ − 3) − (2 c₁₀ + 4 c₀₁) (J − 1) + (c₁₀ + ½ λ₁) (J − 1)² + ½ (λ − λ₁) (J̄ − 1)²
 //! ```
 //!
 //! with the invariants of C themselves, not of its isochoric part, and J̄ the mean of J over the element, so that the
-//! law at rest is Hooke's with μ = 2 (c₁₀ + c₀₁) and λ [Smith, de Goes and Kim 2018], without their logarithm. With the
-//! mean in both of its squares, what changes volume within an element would lower the energy: a tip's force came out
-//! 4 % too small on every mesh. At constant volume these are the neo-Hookean and Mooney-Rivlin laws of `material`.
+//! law at rest is Hooke's with μ = 2 (c₁₀ + c₀₁) and λ [Smith, de Goes and Kim 2018], without their logarithm. At constant
+//! volume these are the neo-Hookean and Mooney-Rivlin laws of `material`.
+//!
+//! Changes of volume that vary within an element cost λ₁ = min(λ, 2 μ), as at a Poisson's ratio of 1/3: with all of λ the
+//! elements lock, and with none of it a wall of one element bends as at a ratio of 0, 15 % too easily. With J̄ in place
+//! of J in c₁₀ as well they would lower the energy: a tip's force came out 4 % too small on every mesh.
 
 use super::lanes::{LANES, Lanes, Scalar};
 use crate::{Error, LinearElastic};
@@ -68,6 +71,14 @@ impl Moduli<f64> {
 }
 
 impl<T: Scalar> Moduli<Lanes<T>> {
+    /// What (J̄ − 1) and what (J − 1) contributes to the pressure: λ − λ₁ and 2 c₁₀ + λ₁ [Pa].
+    #[inline(always)]
+    pub(super) fn of_dilations(&self) -> [Lanes<T>; 2] {
+        let [two, four] = [2.0, 4.0].map(Lanes::splat);
+        let at_points = self.dilation.min(four * (self.c10 + self.c01));
+        [self.dilation - at_points, two * self.c10 + at_points]
+    }
+
     pub(super) fn put(&mut self, lane: usize, moduli: &Moduli<f64>) {
         debug_assert!(lane < LANES);
         self.c10.0[lane] = T::of(moduli.c10);

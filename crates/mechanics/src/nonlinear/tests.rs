@@ -37,6 +37,7 @@ fn energy(pack: &Pack<f64>, nodal: &Nodal<f64>, lane: usize) -> f64 {
     let (mut sum, mut dilation) = (0.0, 0.0);
     let moduli = [pack.moduli.c10, pack.moduli.c01, pack.moduli.dilation];
     let [c10, c01, lambda] = moduli.map(|value| value.0[lane]);
+    let at_points = lambda.min(4.0 * (c10 + c01));
     for point in 0..4 {
         let h = pack.gradient(nodal, point);
         let f = Matrix3::from_fn(|i, j| h[j][i].0[lane]) + Matrix3::identity();
@@ -45,10 +46,10 @@ fn energy(pack: &Pack<f64>, nodal: &Nodal<f64>, lane: usize) -> f64 {
         let second = 0.5 * (first * first - (c * c).trace());
         let j = f.determinant();
         sum += c10 * (first - 3.0) + c01 * (second - 3.0) - (2.0 * c10 + 4.0 * c01) * (j - 1.0);
-        sum += c10 * (j - 1.0).powi(2);
+        sum += (c10 + 0.5 * at_points) * (j - 1.0).powi(2);
         dilation += 0.25 * (j - 1.0);
     }
-    pack.quarter.0[lane] * (sum + 2.0 * lambda * dilation * dilation)
+    pack.quarter.0[lane] * (sum + 2.0 * (lambda - at_points) * dilation * dilation)
 }
 
 fn pack_and_nodes() -> (Pack<f64>, Nodal<f64>) {

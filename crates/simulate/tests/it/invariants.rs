@@ -1,10 +1,9 @@
 //! What holds for every scene.
 
-use std::fmt::Write;
 use std::fs;
 
 use palpate_files::{Pose, SessionWriter};
-use palpate_geometry::{TriangleMesh, Vec3};
+use palpate_geometry::{LengthUnit, TriangleMesh, Vec3, WriteFormat};
 use palpate_simulate::{
     Error, Flow, Simulation, SimulationState, SimulationWorkspace, play, shape, step, touch,
 };
@@ -85,23 +84,6 @@ fn a_lost_workspace_changes_no_bit() {
     }
 }
 
-fn write_ply(mesh: &TriangleMesh, path: &std::path::Path) {
-    let (vertices, triangles) = (mesh.vertices(), mesh.triangles());
-    let mut text = format!(
-        "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\n\
-         property double z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
-        vertices.len(),
-        triangles.len()
-    );
-    for v in vertices {
-        writeln!(text, "{} {} {}", v.x, v.y, v.z).unwrap();
-    }
-    for [a, b, c] in triangles {
-        writeln!(text, "3 {} {} {}", a.0, b.0, c.0).unwrap();
-    }
-    fs::write(path, text).unwrap();
-}
-
 /// Rounding, and the fifth digit of a condition number at most.
 #[test]
 fn a_turned_organ_answers_with_the_same_force() {
@@ -114,7 +96,7 @@ fn a_turned_organ_answers_with_the_same_force() {
     .simulation();
     let read = |name: &str, mesh: &TriangleMesh, contact: &str| {
         let path = folder.path().join(name);
-        write_ply(mesh, &path);
+        fs::write(&path, WriteFormat::Ply.bytes(mesh, LengthUnit::Metre)).unwrap();
         let organ = format!("mesh = {:?}\nmesh_unit = \"m\"", path.to_str().unwrap());
         let setting = Setting {
             organ: &organ,

@@ -36,6 +36,7 @@ mod nodules;
 mod nonlinear;
 mod nonlinear_cavities;
 mod nonlinear_cuts;
+mod nonlinear_lobes;
 mod nonlinear_neighbours;
 mod nonlinear_organs;
 mod nonlinear_regions;

@@ -1,11 +1,10 @@
 //! A thin tube at large deformation under a ball that is as wide.
 
 use std::f64::consts::TAU;
-use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-use palpate_geometry::Vec3;
+use palpate_geometry::{LengthUnit, NodeId, TriangleMesh, Vec3, WriteFormat};
 
 use crate::nonlinear_shafts::with_friction;
 use crate::scenes::{Hand, Setting};
@@ -15,35 +14,27 @@ const RADIUS: f64 = 0.01;
 const WALL: f64 = 2e-3;
 const LENGTH: f64 = 0.08;
 
-/// A closed surface of the tube along x, its top at z = 0, as a PLY file [m].
-fn tube() -> String {
+/// A closed surface of the tube along x, its top at z = 0.
+fn tube() -> TriangleMesh {
     let (rows, columns) = (34, 26);
     let along = |row: usize| LENGTH * (row as f64 / (rows - 1) as f64 - 0.5);
     let outside = (0..rows).map(|row| (along(row), RADIUS));
     let inside = (0..rows).rev().map(|row| (along(row), RADIUS - WALL));
     let profile: Vec<(f64, f64)> = outside.chain(inside).collect();
-    let mut text = format!(
-        "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n\
-         element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-        profile.len() * columns,
-        2 * profile.len() * columns
-    );
-    for (x, radius) in &profile {
+    let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+    for (row, (x, radius)) in profile.iter().enumerate() {
         for column in 0..columns {
             let (sine, cosine) = (TAU * column as f64 / columns as f64).sin_cos();
-            let (y, z) = (radius * sine, radius * cosine - RADIUS);
-            writeln!(text, "{x} {y} {z}").unwrap();
-        }
-    }
-    for row in 0..profile.len() {
-        for column in 0..columns {
-            let at = |row: usize, column: usize| row % profile.len() * columns + column % columns;
+            vertices.push(Vec3::new(*x, radius * sine, radius * cosine - RADIUS));
+            let at = |row: usize, column: usize| {
+                NodeId((row % profile.len() * columns + column % columns) as u32)
+            };
             let [a, b] = [at(row, column), at(row, column + 1)];
             let [c, d] = [at(row + 1, column), at(row + 1, column + 1)];
-            writeln!(text, "3 {a} {c} {d}\n3 {a} {d} {b}").unwrap();
+            triangles.extend([[a, c, d], [a, d, b]]);
         }
     }
-    text
+    TriangleMesh::new(vertices, triangles).unwrap()
 }
 
 /// Depth of the anchor at the ends of the tube [m].
@@ -52,10 +43,10 @@ const REACH: f64 = 1e-4;
 /// The tube, fixed to the depth `reach` [m] at its ends, under the ball.
 fn under_ball(folder: &Path, nodes: usize, reach: f64) -> (String, String) {
     let path = folder.join("tube.ply");
-    fs::write(&path, tube()).unwrap();
+    fs::write(&path, WriteFormat::Ply.bytes(&tube(), LengthUnit::Metre)).unwrap();
     let end = 0.5 * LENGTH - reach;
     let organ = format!(
-        "mesh = {:?}\nanchor = {{ planes = [{{ point_m = [{end}, 0.0, 0.0], normal = [-1.0, 0.0, 0.0] }}, \
+        "mesh = {:?}\nmesh_unit = \"m\"\nanchor = {{ planes = [{{ point_m = [{end}, 0.0, 0.0], normal = [-1.0, 0.0, 0.0] }}, \
          {{ point_m = [-{end}, 0.0, 0.0], normal = [1.0, 0.0, 0.0] }}] }}",
         path.to_str().unwrap()
     );
@@ -108,14 +99,14 @@ fn a_ball_dragged_along_a_thin_tube_slides_at_coulombs_force() {
     assert!(some.y.abs() < 0.1 * some.z, "{some}");
 }
 
-/// Judge: tetrahedra of ten nodes by another code (FElupe, `benches/forces`), 4.75 mN at 2 mm and 10.15 mN at 5 mm. Tolerance: the model
-/// has one element across the wall (Limits in `docs/theory/large_deformation.md`); +5 and +4 % were found on 1,500 nodes, −9 and
-/// −12 % on 3,000. The force neither leaps from step to step nor goes away: a step of 50 µm adds
-/// 1.5 % of it.
+/// Judge: tetrahedra of ten nodes by another code (FElupe, `benches/forces`), 4.75 mN at 2 mm and 10.15 mN at 5 mm. Tolerance: 5 %
+/// with 3,000 nodes, as asked, where +1.6 and 0.0 % were found; with 1,500 edges are three times as long as the wall is thick (Limits
+/// in `docs/theory/large_deformation.md`), and +17 and +18 % were found. The force neither leaps from step to step nor goes away: a
+/// step of 50 µm adds 1.5 % of it.
 #[test]
 fn a_ball_on_a_thin_tube_is_felt_smoothly() {
     let folder = tempfile::tempdir().unwrap();
-    for nodes in [1500, 3000] {
+    for (nodes, most) in [(1500, 0.2), (3000, 0.05)] {
         let lines = under_ball(folder.path(), nodes, REACH);
         let simulation = ball(&lines).simulation();
         let mut hand = Hand::new(&simulation);
@@ -124,12 +115,10 @@ fn a_ball_on_a_thin_tube_is_felt_smoothly() {
         let held: Vec<f64> = (0..60).map(|_| at(5e-3)).collect();
         let deepest = held[59];
         println!("{nodes} nodes: {} and {deepest} N", pressed[39]);
-        assert!(
-            (pressed[39] / 4.75e-3 - 1.0).abs() < 0.12,
-            "{}",
-            pressed[39]
-        );
-        assert!((deepest / 10.15e-3 - 1.0).abs() < 0.15, "{deepest}");
+        for (force, expected) in [(pressed[39], 4.75e-3), (deepest, 10.15e-3)] {
+            let error = force / expected - 1.0;
+            assert!(error.abs() < most, "{force} {expected}");
+        }
         let all: Vec<f64> = pressed.into_iter().chain(held).collect();
         for pair in all.windows(2) {
             assert!((pair[1] - pair[0]).abs() < 0.05 * deepest, "{pair:?}");

@@ -1,6 +1,7 @@
 //! Where a rigid tool meets a solid, and what it will probably touch, from their shapes at rest.
 
 use nalgebra::Matrix3;
+use palpate_geometry::closest_on_triangle;
 
 use super::super::rigid_tool::{RigidShape, RigidTool};
 use crate::Vec3;
@@ -110,6 +111,17 @@ impl Footprint {
             positions,
             reach: (2.0 * size).max(0.5 * longest),
         }
+    }
+
+    /// How far its points are from these `triangles` on average [m].
+    pub(super) fn off(&self, triangles: &[[Vec3; 3]]) -> f64 {
+        let all = self.points.iter().map(|point| {
+            let distances = triangles
+                .iter()
+                .map(|triangle| (closest_on_triangle(triangle, point).position - point).norm());
+            distances.fold(f64::INFINITY, f64::min)
+        });
+        all.sum::<f64>() / self.points.len().max(1) as f64
     }
 
     /// A function that changes its sign along the sharp edge of the tool [m], if it has one.

@@ -12,8 +12,8 @@
 //! In layers under the patch edges are no longer than twice the thickness, and in and around shapes no longer than their
 //! radius asks for, both by 2⁻ᵏ.
 //!
-//! A coarse filling cuts off what is thin. Where the first mesh does not have the area of the patch, the body is filled
-//! again, with ever smaller tetrahedra at the patch.
+//! A coarse filling cuts off what is thin. Where the first mesh does not have the area of the patch, or the surface under a
+//! tool, the body is filled again, with ever smaller tetrahedra there.
 
 use std::f64::consts::TAU;
 use std::rc::Rc;
@@ -55,18 +55,19 @@ const FILLING: usize = 2_000;
 /// Tetrahedra of the last filling that is tried when a body is thin.
 const FINEST_FILLING: usize = 256_000;
 
-/// Part of its area by which the patch of the first mesh may miss that of the surface [-]: a finer filling is taken
-/// then. Where nothing is thin, chords of the circle miss it by 0.012.
+/// Part of its area by which the patch of the first mesh may miss that of the surface, and part of the size of its contact by
+/// which the surface under a tool may lie beside the mesh [-]: a finer filling is taken then. Where nothing is thin, chords of
+/// the circle miss it by 0.012.
 const MISSED: f64 = 0.05;
 
-/// Fillings that are tried after the coarse one: edges of a radius of the patch at it, and halves of that.
+/// Fillings that are tried after the coarse one: edges of a radius of the patch or the size of a contact at it, and halves of that.
 const FINER_FILLINGS: i32 = 4;
 
-/// Edges of these far from the patch, in those of the coarse one [-]. On the rim of a real liver the force differs from
+/// Edges of these far from the patch and the tools, in those of the coarse one [-]. On the rim of a real liver the force differs from
 /// that of even fillings of 64,000 tetrahedra by 2 % with this, and by 4 % without.
 const FINER: f64 = 0.63;
 
-/// By how much edges grow away from the patch [-].
+/// By how much edges grow away from the patch and the tools [-].
 const SPREAD: f64 = 0.5;
 
 /// Points around a circle from which the edge of the patch is known.
@@ -180,39 +181,70 @@ impl<'a> MeshContext<'a> {
             Body::Volume(mesh) => return Ok(context(mesh.clone(), None)),
         };
         let (coarse, edge) = filling(surface)?;
-        let Some(PatchEdge { center, radius, .. }) = &patch else {
-            return Ok(context(coarse, Some(edge)));
-        };
-        let (center, radius) = (*center, *radius);
-        let wanted = area_within(radius, &center, surface);
+        let patch = patch.as_ref();
+        let wanted = patch.map(|at| area_within(at.radius, &at.center, surface));
         let finer = |near: f64| {
             fill_graded(surface, &FillSettings::new(FINER * edge), |point| {
-                near + SPREAD * ((point - center).norm() - 1.5 * radius).max(0.0)
+                let longest = |size: f64, off: f64| size * near + SPREAD * off.max(0.0);
+                let at_patch = patch.iter().map(|at| {
+                    let off = (point - at.center).norm() - 1.5 * at.radius;
+                    longest(at.radius, off)
+                });
+                let at_tools = footprints.iter();
+                let at_tools = at_tools.map(|own| {
+                    let off = distance(&own.points, point) - 0.5 * own.size;
+                    longest(own.size, off)
+                });
+                at_patch.chain(at_tools).fold(f64::INFINITY, f64::min)
             })
         };
         let mut closest = context(coarse, Some(edge));
-        let mut found = closest.area_of_patch()?;
-        let missed = |found: f64| (found / wanted - 1.0).abs();
+        let (mut missed, mut said) = closest.missed(wanted)?;
         for halvings in 0..FINER_FILLINGS {
-            if missed(found) <= MISSED {
+            if missed <= MISSED {
                 return Ok(closest);
             }
-            let Ok(tetrahedra) = finer(radius * 2.0_f64.powi(-halvings)) else {
+            let Ok(tetrahedra) = finer(2.0_f64.powi(-halvings)) else {
                 break;
             };
             let next = context(tetrahedra, Some(FINER * edge));
-            let area = next.area_of_patch()?;
-            if missed(area) < missed(found) {
-                (closest, found) = (next, area);
+            let (less, warnings) = next.missed(wanted)?;
+            if less < missed {
+                (closest, missed, said) = (next, less, warnings);
             }
         }
-        if missed(found) > MISSED {
-            closest.warnings.push(format!(
+        closest.warnings.extend(said);
+        Ok(closest)
+    }
+
+    /// By how much the first mesh misses the `wanted` area of the patch [m²] and the surface under the tools, as a part of that area
+    /// and of the size of a contact [-]; with warnings of what is missed too much.
+    fn missed(&self, wanted: Option<f64>) -> Result<(f64, Vec<String>), Error> {
+        let mesh = self.mesh(0)?.mesh;
+        let faces = faces(&mesh);
+        let patch = self.patch.iter().zip(wanted).map(|(at, wanted)| {
+            let inside = faces_within(at.radius, &at.center, &mesh, &faces);
+            let found = area_of(&inside, &mesh);
+            let warning = format!(
                 "the body is thin at the patch, whose area on the first mesh is {found:.3e} m² and on the surface \
                  {wanted:.3e} m²"
-            ));
-        }
-        Ok(closest)
+            );
+            ((found / wanted - 1.0).abs(), warning)
+        });
+        let triangles: Vec<_> = faces.iter().map(|face| face.positions(&mesh)).collect();
+        let tools = self.footprints.iter().enumerate();
+        let tools = tools.map(|(number, own)| {
+            let off = own.off(&triangles);
+            let warning = format!(
+                "the body is thin at tool {}: the first mesh is {off:.1e} m off its surface there on average",
+                number + 1
+            );
+            (off / own.size, warning)
+        });
+        let all: Vec<_> = patch.chain(tools).collect();
+        let worst = all.iter().map(|(part, _)| *part).fold(0.0, f64::max);
+        let said = all.into_iter().filter(|(part, _)| *part > MISSED);
+        Ok((worst, said.map(|(_, warning)| warning).collect()))
     }
 
     /// A warning where `mesh` lacks a part of the body.
@@ -221,15 +253,6 @@ impl<'a> MeshContext<'a> {
             (Body::Surface(surface), Some(edge)) => Fidelity::of(mesh, surface).warning(edge),
             _ => None,
         }
-    }
-
-    /// On the first mesh [m²].
-    fn area_of_patch(&self) -> Result<f64, Error> {
-        let mesh = self.mesh(0)?.mesh;
-        let faces = faces(&mesh);
-        let patch = self.patch.iter();
-        let patch = patch.flat_map(|at| faces_within(at.radius, &at.center, &mesh, &faces));
-        Ok(area_of(&patch.collect::<Vec<_>>(), &mesh))
     }
 
     /// Centre of the patch, on the boundary [m].
@@ -393,4 +416,59 @@ fn circle_in(triangle: &[Vec3; 3], center: &Vec3, radius: f64) -> Vec<Vec3> {
             (on - point).norm() <= 0.03 * radius
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use nalgebra::Rotation3;
+    use palpate_files::scene::RegionPlane;
+    use palpate_geometry::{AabbTree, Organ};
+
+    use super::super::super::rigid_tool::{RigidShape, RigidTool};
+    use super::*;
+    use crate::LinearElastic;
+    use crate::contact::FrictionLaw;
+
+    /// Judge: the nearest places of the boundary of the first mesh to what a sphere presses on the rim of a liver. The coarse filling
+    /// ends up to 14 mm from it.
+    #[test]
+    fn the_first_mesh_has_the_rim_under_a_tool() {
+        let inward = Vec3::new(-0.5230, 0.7517, -0.4018).normalize();
+        let pressed = Vec3::new(0.0852, -0.0542, 0.0477) - 0.008 * inward;
+        let tool = RigidTool {
+            shape: RigidShape::Sphere { radius: 0.01 },
+            orientation: Rotation3::identity(),
+            friction: FrictionLaw::Frictionless,
+            path: vec![pressed],
+        };
+        let liver = Organ::Liver.surface_mesh(6000).unwrap();
+        let anchor = Region {
+            planes: vec![RegionPlane {
+                point_m: [0.0, 0.036, 0.048],
+                normal: [0.0, -0.6, -0.8],
+            }],
+            ..Region::default()
+        };
+        let problem = SolidProblem {
+            tools: vec![tool],
+            ..SolidProblem::new(
+                Body::Surface(Surface::new(liver).unwrap()),
+                anchor,
+                Arc::new(LinearElastic::new(1e4, 0.45).unwrap()),
+            )
+        };
+        let context = MeshContext::new(&problem).unwrap();
+        let mesh = context.mesh(0).unwrap().mesh;
+        let boundary = mesh.boundary_surface().unwrap();
+        let tree = AabbTree::new(boundary.mesh());
+        let points = &context.footprints[0].points;
+        let off = points.iter().map(|at| {
+            let nearest = tree.nearest(boundary.mesh(), at);
+            (nearest.on.position - at).norm()
+        });
+        let mean = off.sum::<f64>() / points.len() as f64;
+        assert!(points.len() > 100 && mean < 2e-4, "{mean}");
+    }
 }

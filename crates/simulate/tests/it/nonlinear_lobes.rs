@@ -1,0 +1,141 @@
+//! Lobes of one or two elements through their thickness, which a tip bends.
+
+use std::f64::consts::PI;
+use std::fs;
+use std::sync::Arc;
+
+use palpate_files::scene::{Region, RegionSphere};
+use palpate_geometry::{LengthUnit, TetrahedronMesh, Vec3, WriteFormat};
+use palpate_mechanics::LinearElastic;
+use palpate_mechanics::finite_elements::solid::{
+    Body, LoadPlace, Loads, SolidProblem, SurfaceLoad, solve_at,
+};
+use palpate_simulate::held_region;
+
+use crate::scenes::{Hand, Setting, YOUNGS_MODULUS};
+
+const SIZES: [f64; 2] = [0.04, 0.03];
+/// Distance of the tip from the end [m]: as far as the elements are long, so that its load is not cut off.
+const FROM_END: f64 = 0.015;
+const RADIUS: f64 = 3e-3;
+const DEPTH: f64 = 1e-4;
+const NU: f64 = 0.45;
+
+/// A lobe of so much tissue [m] that is fixed at its root, x = 0.
+struct Lobe {
+    thickness: f64,
+}
+
+impl Lobe {
+    fn mesh(&self, cells: [usize; 3]) -> TetrahedronMesh {
+        let sizes = Vec3::new(SIZES[0], SIZES[1], self.thickness);
+        TetrahedronMesh::block(Vec3::zeros(), sizes, cells).unwrap()
+    }
+
+    fn tip(&self) -> Vec3 {
+        Vec3::new(SIZES[0] - FROM_END, 0.5 * SIZES[1], self.thickness)
+    }
+
+    fn scene(&self, path: &str, nodes: usize) -> palpate_files::Scene {
+        Setting {
+            organ: &format!(
+                "mesh = {path:?}\nmesh_unit = \"m\"\nanchor = {{ planes = [{{ point_m = [1e-4, 0.0, 0.0], \
+                 normal = [1.0, 0.0, 0.0] }}] }}"
+            ),
+            kind: "nonlinear",
+            model: &format!("nodes = {nodes}"),
+            radius: RADIUS,
+            poissons_ratio: NU,
+            ..Setting::default()
+        }
+        .scene()
+    }
+
+    /// Stiffness under the tip [N/m] by quadratic elements, under an even traction, whose compliance differs from that of a tip by
+    /// what a half-space knows: 16/(3 π²) (1 − ν²)/a and (1 − ν²)/2 a over E [Johnson 1985].
+    fn expected(&self) -> f64 {
+        let mesh = self.mesh([24, 18, 4]);
+        let above = 4.0 * RADIUS;
+        let ball = RegionSphere {
+            center_m: (self.tip() + above * Vec3::z()).into(),
+            radius_m: above.hypot(RADIUS),
+        };
+        let surface = mesh.boundary_surface().unwrap();
+        let areas = surface.mesh().triangle_ids().map(|id| {
+            let centroid = surface.mesh().positions(id).iter().sum::<Vec3>() / 3.0;
+            let area = surface.mesh().area_vector(id).norm();
+            if ball.holds(centroid.into()) {
+                area
+            } else {
+                0.0
+            }
+        });
+        let even = 16.0 / (3.0 * PI.powi(2) * (areas.sum::<f64>() / PI).sqrt());
+        let place = LoadPlace::Faces(Region {
+            spheres: vec![ball],
+            ..Region::default()
+        });
+        let organ = self.scene("lobe.ply", 1500).organ;
+        let pressed = SolidProblem {
+            loads: Loads {
+                weight: None,
+                on_surface: vec![SurfaceLoad::Force {
+                    place,
+                    force: -Vec3::z(),
+                }],
+            },
+            ..SolidProblem::new(
+                Body::Volume(mesh),
+                held_region(&organ.shape, organ.anchor.as_ref()),
+                Arc::new(LinearElastic::new(YOUNGS_MODULUS, NU).unwrap()),
+            )
+        };
+        let energy = solve_at(&pressed, 0, &mut |_| ()).unwrap().energy;
+        let own = (1.0 - NU * NU) / YOUNGS_MODULUS;
+        1.0 / (2.0 * energy + own * (0.5 / RADIUS - even))
+    }
+
+    /// The same as a hand feels it in a scene.
+    fn felt(&self, nodes: usize) -> f64 {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("lobe.ply");
+        let surface = self.mesh([16, 12, 3]).boundary_surface().unwrap();
+        let bytes = WriteFormat::Ply.bytes(surface.mesh(), LengthUnit::Metre);
+        fs::write(&path, bytes).unwrap();
+        let scene = self.scene(path.to_str().unwrap(), nodes);
+        let simulation = palpate_simulate::Simulation::new(&scene).unwrap();
+        let mut hand = Hand::new(&simulation);
+        let mut force = 0.0;
+        for step in 1..=20 {
+            let depth = DEPTH * f64::from(step.min(10)) / 10.0;
+            force = hand.at(&(self.tip() - depth * Vec3::z())).z;
+        }
+        force / DEPTH
+    }
+}
+
+/// Judge: quadratic elements, 4 through the thickness. Tolerance: 5 %, as asked of the nonlinear model.
+fn lobes_bend_as_finite_elements_do(thicknesses: &[f64], nodes: &[usize]) {
+    for &thickness in thicknesses {
+        let lobe = Lobe { thickness };
+        let expected = lobe.expected();
+        for &nodes in nodes {
+            let error = lobe.felt(nodes) / expected - 1.0;
+            let [millimetres, percent] = [1e3 * thickness, 100.0 * error];
+            println!("{millimetres:.0} mm, {nodes} nodes: {percent:+.1} %");
+            assert!(error.abs() < 0.05, "{thickness} {nodes}: {error}");
+        }
+    }
+}
+
+#[test]
+fn a_lobe_of_one_element_bends_as_finite_elements_do() {
+    lobes_bend_as_finite_elements_do(&[5e-3], &[700, 1500]);
+}
+
+#[test]
+#[ignore = "slow: a minute"]
+fn lobes_of_3_to_12_mm_bend_as_finite_elements_do() {
+    let thicknesses = [3e-3, 4e-3, 5e-3, 7e-3, 12e-3];
+    lobes_bend_as_finite_elements_do(&thicknesses, &[700, 1500, 4000]);
+}
