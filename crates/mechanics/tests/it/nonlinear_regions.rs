@@ -134,27 +134,34 @@ fn found(cells: [usize; 3], c10: &Tissue, way: Vec3) -> Vec3 {
 fn small_moves_of_layers_and_inclusions_are_those_of_finite_elements() {
     let [pressed, pulled] = SMALL;
     for (case, way) in CASES.iter().zip([pulled, pressed]) {
-        as_finite_elements(case, way);
+        as_finite_elements(case, way, ([8, 8, 4], 0.05));
     }
 }
 
-/// The other two.
+/// The other two. Elements of 7.5 mm hold the ball too fast that they are larger than, by 6.2 % of the way aside; those of 6 mm are
+/// within 5 %.
 #[test]
-#[ignore = "slow: half a minute"]
+#[ignore = "slow: a minute"]
 fn more_small_moves_are_those_of_finite_elements() {
-    for (case, way) in CASES.iter().zip(SMALL) {
-        as_finite_elements(case, way);
-    }
+    let [layer, ball] = &CASES;
+    let [pressed, pulled] = SMALL;
+    as_finite_elements(layer, pressed, ([8, 8, 4], 0.05));
+    as_finite_elements(ball, pulled, ([8, 8, 4], 0.07));
+    as_finite_elements(ball, pulled, ([10, 10, 5], 0.05));
 }
 
 const SMALL: [Vec3; 2] = [Vec3::new(0.0, 0.0, -3e-4), Vec3::new(3e-4, 0.0, 0.0)];
 
-fn as_finite_elements((name, c10): &(&str, &'static Tissue), way: Vec3) {
-    let force = found([8, 8, 4], c10, way);
+fn as_finite_elements(
+    (name, c10): &(&str, &'static Tissue),
+    way: Vec3,
+    (cells, most): ([usize; 3], f64),
+) {
+    let force = found(cells, c10, way);
     let moved = judge([12, 12, 6], c10, force);
     let error = (moved - way).norm() / way.norm();
     println!("{name} {way:?}: {error:.4}");
-    assert!(error < 0.05, "{name}: {error}");
+    assert!(error < most, "{name}: {error}");
 }
 
 /// As above, and by a third of the load's radius. Judge: the same elements of the same law, a third of the size. Tolerance
