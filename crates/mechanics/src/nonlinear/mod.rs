@@ -1,6 +1,6 @@
 //! A body at large deformation, moved by tools at haptic rates.
 //!
-//! Quadratic tetrahedra with one change of volume each, of a law that is stable under compression (`law`), in
+//! Quadratic tetrahedra that resist their mean change of volume most, of a law that is stable under compression (`law`), in
 //! quasi-static equilibrium with rigid tools, each of which moves a few nodes through its own compliance
 //! ([`Coupling`]). One step per period:
 //!
