@@ -146,8 +146,8 @@ impl<'a> Thickness<'a> {
 /// Cosine of the angle between the normals of a wall and of its edge, at most [-].
 const ACROSS: f64 = 0.5;
 
-/// Gives the triangles at the edge of a wall its thickness, as far as it is thick: `through` the crest of a rim, and the side of a
-/// plate, the way is a long one [m].
+/// The thickness of each triangle [m]: its distance `through` the body, but on the crest of a rim and on the side of a plate, where
+/// that is long, the thickness of the wall that ends there, as far from the wall as it is thick.
 fn with_edges(surface: &Surface, mut through: Vec<f64>) -> Vec<f64> {
     let mesh = surface.mesh();
     let centroid = |id: TriangleId| mesh.positions(id).iter().sum::<Vec3>() / 3.0;

@@ -55,9 +55,9 @@ const FILLING: usize = 2_000;
 /// Tetrahedra of the last filling that is tried when a body is thin.
 const FINEST_FILLING: usize = 256_000;
 
-/// Part of its area by which the patch of the first mesh may miss that of the surface, and part of the size of its contact by
-/// which the surface under a tool may lie beside the mesh [-]: a finer filling is taken then. Where nothing is thin, chords of
-/// the circle miss it by 0.012.
+/// Largest error of the first mesh [-] before a finer filling is tried: of the area of the patch, as a part of it, and of the
+/// surface under a tool, as its distance from the mesh over the size of the contact. Where nothing is thin, chords of the
+/// circle miss the area by 0.012.
 const MISSED: f64 = 0.05;
 
 /// Fillings that are tried after the coarse one: edges of a radius of the patch or the size of a contact at it, and halves of that.
