@@ -1,17 +1,20 @@
 //! The surface as a tool of a given size feels it: normals and curvatures averaged over patches.
 //!
-//! A mesh has neither: its normal jumps at every edge and its curvature sits in the edges. Around each
-//! vertex v a paraboloid z = z₀ + a·x − ½ x·K·x is fitted by least squares to the connected vertices
-//! within a radius, with the weight (1 − (r/radius)²)² times the cosine of their normals. Between
-//! vertices normal and K are interpolated linearly, so both are continuous over the whole surface.
+//! A mesh has neither: its normal jumps at every edge and its curvature sits in the edges. The normal at a
+//! vertex v is the mean over the connected surface within a radius, with the weight (1 − (r/radius)²)² times the
+//! cosine to the normal at v. For the curvature a paraboloid z = z₀ + a·x − ½ x·K·x is fitted by least squares to the
+//! connected vertices, with the same weights. Between vertices normal and K are interpolated linearly, so both are
+//! continuous over the whole surface.
 //!
-//! *How we know*: `analytic::curvature_of_sphere_and_cylinder`, `invariants::patch_field_turns_along`.
+//! *How we know*: `analytic::curvature_of_sphere_and_cylinder`, `analytic::normals_are_those_of_the_surface_and_not_of_its_mesh`,
+//! `invariants::patch_field_turns_along`.
 //!
-//! *Limits*: where the mesh is coarser than the radius, the radius grows to one ring of triangles;
-//! a feature smaller than the patch is felt blunt.
+//! *Limits*: where the mesh is coarser than the radius, the radius grows to the longest edge at the vertex, for the curvature
+//! to one and a half times that; a feature smaller than the patch is felt blunt.
 
 use nalgebra::{Matrix3, Matrix6, Vector6};
 
+use crate::deviation::for_each_middle;
 use crate::{NodeId, Surface, TriangleId, Vec3};
 
 /// Averaged outward normals and curvature tensors of a [`Surface`], vertex by vertex.
@@ -43,12 +46,14 @@ impl PatchField {
         let count = surface.mesh().vertices().len();
         let mut normals = Vec::with_capacity(count);
         for v in 0..count {
-            walk.around(surface, NodeId(v as u32), radius);
+            let node = NodeId(v as u32);
+            walk.around(surface, node, radius.max(longest_edge(surface, node)));
             normals.push(walk.mean_normal(surface));
         }
         let mut curvatures = Vec::with_capacity(count);
         for (v, normal) in normals.iter().enumerate() {
-            walk.around(surface, NodeId(v as u32), radius);
+            let node = NodeId(v as u32);
+            walk.around(surface, node, radius.max(1.5 * longest_edge(surface, node)));
             curvatures.push(walk.fit(surface, normal));
         }
         Self {
@@ -85,9 +90,14 @@ impl PatchField {
     }
 }
 
+/// A triangle of a mean has this many rows of parts per radius, and no more than [`MOST_ROWS`] in all.
+const ROWS_PER_RADIUS: f64 = 6.0;
+const MOST_ROWS: f64 = 6.0;
+
 /// Collects the vertices of a patch, edge by edge, with their weights.
 struct Walk {
     seen: Vec<u32>,
+    seen_triangles: Vec<u32>,
     turn: u32,
     found: Vec<(NodeId, f64)>,
     radius: f64,
@@ -98,6 +108,7 @@ impl Walk {
     fn new(surface: &Surface) -> Self {
         Self {
             seen: vec![0; surface.mesh().vertices().len()],
+            seen_triangles: vec![0; surface.mesh().triangles().len()],
             turn: 0,
             found: Vec::new(),
             radius: 0.0,
@@ -111,7 +122,7 @@ impl Walk {
         let origin = positions[center.index()];
         self.turn += 1;
         self.center = center;
-        self.radius = radius.max(1.5 * longest_edge(surface, center));
+        self.radius = radius;
         self.found.clear();
         self.found.push((center, 1.0));
         self.seen[center.index()] = self.turn;
@@ -137,13 +148,42 @@ impl Walk {
         }
     }
 
-    fn mean_normal(&self, surface: &Surface) -> Vec3 {
-        let sum: Vec3 = self
-            .found
-            .iter()
-            .map(|&(node, weight)| weight * surface.vertex_normals()[node.index()])
-            .sum();
-        sum.normalize()
+    /// Over the triangles at the collected vertices.
+    fn mean_normal(&mut self, surface: &Surface) -> Vec3 {
+        let mesh = surface.mesh();
+        let origin = mesh.vertices()[self.center.index()];
+        let facing = surface.vertex_normals()[self.center.index()];
+        let mut sum = Vec3::zeros();
+        for &(node, _) in &self.found {
+            for &triangle in surface.adjacency().around(node) {
+                if std::mem::replace(&mut self.seen_triangles[triangle.index()], self.turn)
+                    == self.turn
+                {
+                    continue;
+                }
+                let area = mesh.area_vector(triangle);
+                let cosine = area.dot(&facing) / area.norm().max(f64::MIN_POSITIVE);
+                if cosine > 0.0 {
+                    sum += cosine * self.mean_weight(surface, triangle, &origin) * area;
+                }
+            }
+        }
+        sum.try_normalize(0.0).unwrap_or(facing)
+    }
+
+    /// The mean of (1 − (r/radius)²)² over a triangle, r from `origin`.
+    fn mean_weight(&self, surface: &Surface, triangle: TriangleId, origin: &Vec3) -> f64 {
+        let mesh = surface.mesh();
+        let [a, b, c] = mesh.positions(triangle);
+        let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
+        let rows = (ROWS_PER_RADIUS * longest / self.radius).ceil();
+        let rows = rows.clamp(1.0, MOST_ROWS) as usize;
+        let mut sum = 0.0;
+        for_each_middle(mesh, triangle, rows, |place| {
+            let ratio = (place - origin).norm() / self.radius;
+            sum += (1.0 - ratio * ratio).max(0.0).powi(2);
+        });
+        sum / (rows * rows) as f64
     }
 
     fn fit(&self, surface: &Surface, normal: &Vec3) -> Matrix3<f64> {

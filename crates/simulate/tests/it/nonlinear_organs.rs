@@ -133,9 +133,7 @@ fn organs_that_are_pulled_far_are_those_of_fine_meshes() {
 }
 
 /// Judge: FElupe's tetrahedra of ten nodes, linear tissue, contact on the deformed surface (`benches/forces`, error 0.9 %): a sphere of
-/// 10 mm on the left rim, 23 mm thick. The deeper it is, the stiffer it is felt (Limits in `docs/theory/large_deformation.md`), on
-/// every mesh: 3 % at 0.5 mm, where +1.4 % were found; 10 and 12 % at 2 and 5 mm, where +9 and +11 % were, and with 6,000 nodes +7
-/// and +8 %.
+/// 10 mm on the left rim, 23 mm thick. Tolerance: 5 %, as asked; −2.9, +3.0 and +3.4 % were found at 0.5, 2 and 5 mm.
 #[test]
 fn the_rim_of_a_liver_is_that_of_finite_elements() {
     let setting = Setting {
@@ -154,9 +152,9 @@ fn the_rim_of_a_liver_is_that_of_finite_elements() {
     let held = (0..40).map(|_| go(5e-3)).last().unwrap();
     let felt = [pressed[20], pressed[80], held];
     let expected = [0.009_756, 0.053_568, 0.169_303];
-    for ((felt, expected), most) in felt.iter().zip(expected).zip([0.03, 0.1, 0.12]) {
+    for (felt, expected) in felt.iter().zip(expected) {
         let error = felt / expected - 1.0;
         println!("{error:+.3}");
-        assert!(error.abs() < most, "{error}");
+        assert!(error.abs() < 0.05, "{error}");
     }
 }
