@@ -73,6 +73,11 @@ impl PatchField {
         &self.normals
     }
 
+    /// Curvature tensors at the vertices [1/m].
+    pub fn vertex_curvatures(&self) -> &[Matrix3<f64>] {
+        &self.curvatures
+    }
+
     /// The patch at the point of `triangle` with the weights `barycentric` [-].
     pub fn at(&self, surface: &Surface, triangle: TriangleId, barycentric: &[f64; 3]) -> Patch {
         let mut normal = Vec3::zeros();

@@ -130,7 +130,7 @@ impl LoadShape {
 }
 
 /// 48 J₃(x)/x³.
-fn bump(x: f64) -> f64 {
+pub(crate) fn bump(x: f64) -> f64 {
     // J₃(x)/x³ = 1/(15 π) ∫₀^π cos(x cos t) sin⁶ t dt: a smooth periodic function, for which the midpoint rule is exact to
     // rounding once it has more points than x/2.
     const POINTS: usize = 40;

@@ -44,6 +44,7 @@ pub mod nonlinear;
 pub mod regions;
 pub mod surface_response;
 mod tip_law;
+pub mod wall;
 
 pub use cores::{on_all_cores, threads_were_refused};
 pub use error::Error;

@@ -102,6 +102,20 @@ fn through_each(
     })
 }
 
+/// How thick the wall under each triangle is [m]; infinite where the surface behind is not its other side.
+pub(crate) fn through_walls(surface: &Surface, tree: &AabbTree) -> Vec<f64> {
+    let mesh = surface.mesh();
+    let mut through = vec![f64::INFINITY; mesh.triangles().len()];
+    for (triangle, hit) in through_each(surface, tree, mesh.triangle_ids()) {
+        let [here, there] = [triangle, hit.triangle].map(|id| mesh.area_vector(id).normalize());
+        // The faces of a wedge that is no rim are not two sides of a wall.
+        if here.dot(&there) < FACES {
+            through[triangle.index()] = hit.distance;
+        }
+    }
+    through
+}
+
 /// How thick an organ is, at any place of it.
 pub(crate) struct Thickness<'a> {
     surface: &'a Surface,
@@ -112,16 +126,8 @@ pub(crate) struct Thickness<'a> {
 
 impl<'a> Thickness<'a> {
     pub(crate) fn new(surface: &'a Surface) -> Self {
-        let mesh = surface.mesh();
-        let tree = AabbTree::new(mesh);
-        let mut through = vec![f64::INFINITY; mesh.triangles().len()];
-        for (triangle, hit) in through_each(surface, &tree, mesh.triangle_ids()) {
-            let [here, there] = [triangle, hit.triangle].map(|id| mesh.area_vector(id).normalize());
-            // The faces of a wedge that is no rim are not two sides of a wall.
-            if here.dot(&there) < FACES {
-                through[triangle.index()] = hit.distance;
-            }
-        }
+        let tree = AabbTree::new(surface.mesh());
+        let through = through_walls(surface, &tree);
         Self {
             surface,
             tree,

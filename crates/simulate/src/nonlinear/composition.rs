@@ -17,6 +17,7 @@ use super::merged::Merged;
 use super::mesh_warnings::mesh_warnings;
 use super::regions::{Elements, Regions};
 use super::soft::{Piece, SoftBody, touching};
+use super::wall_yield::WallField;
 use crate::neighbour::Neighbour;
 use crate::{Error, held_region};
 
@@ -35,6 +36,8 @@ pub(super) struct Composition {
     surface: Surface,
     pub(super) shown: Surface,
     pub(super) tree: AabbTree,
+    /// The walls under what is shown.
+    pub(super) walls: WallField,
     /// Where the organ is held.
     anchor: Region,
     soft: Vec<SoftBody>,
@@ -122,11 +125,17 @@ impl Composition {
         let ratio = ratios.fold(regions.largest_ratio(), f64::max);
         let (low, high) = shown.mesh().bounds();
         let of_tissues = regions.warnings.clone();
+        let mut walls = WallField::default();
+        walls.extend(surface, &regions);
+        for body in soft {
+            walls.extend(&body.surface, &body.regions);
+        }
         let composition = Self {
             pieces: Piece::all((surface, regions), soft, tools),
             surface: surface.clone(),
             shown: shown.clone(),
             tree: tree.clone(),
+            walls,
             anchor: held_region(&scene.organ.shape, scene.organ.anchor.as_ref()),
             soft: soft.to_vec(),
             neighbours: neighbours.to_vec(),

@@ -51,6 +51,7 @@ mod soft;
 mod soundness;
 mod target;
 mod touch;
+mod wall_yield;
 
 use composition::{Composition, Filled};
 use cut_body::FollowedCuts;

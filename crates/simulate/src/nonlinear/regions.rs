@@ -32,6 +32,9 @@ const GROWTH: f64 = 0.25;
 /// Radii [m] for which the layers are solved: from one, each by this factor larger than the one before.
 const LEAST_RADIUS: f64 = 1e-4;
 const FACTOR: f64 = 1.2;
+
+/// Places on a way through a wall.
+const STEPS: u32 = 6;
 const RADII: usize = 45;
 
 /// A tissue of the organ.
@@ -161,6 +164,19 @@ impl Regions {
         let is_tissue = |number: usize| self.cavities.iter().all(|own| own.number != number);
         self.map
             .region_below(|number| is_tissue(*number) && self.map.height(*number, place) <= 0.0)
+    }
+
+    /// The mean of Young's modulus from `place` on along a `way` [m], over that at the surface [-].
+    pub(super) fn stiffness_through(&self, place: &Vec3, way: &Vec3) -> f64 {
+        let surface = self.at_rest().youngs_modulus();
+        if self.tissues.len() == 1 {
+            return 1.0;
+        }
+        let each = (0..STEPS).map(|step| {
+            let on = place + way * ((f64::from(step) + 0.5) / f64::from(STEPS));
+            self.tissues[self.tissue_at(&on)].law.youngs_modulus()
+        });
+        each.sum::<f64>() / f64::from(STEPS) / surface
     }
 
     /// The tissues: of the organ, of the layers from outside, of the inclusions.

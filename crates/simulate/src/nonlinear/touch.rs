@@ -343,9 +343,10 @@ impl NonlinearOrgan {
         if is_wrapped {
             return None;
         }
-        let rim = self.rim(body, number, tool.typical_radius);
-        let rim = place.frame.tr_mul(&rim) * place.frame;
-        let further = frame.tr_mul(&now.yields) * frame - self.of_load(&now) + rim;
+        let radius = tool.typical_radius;
+        let local = self.rim(body, number, radius) + self.wall(body, number, radius);
+        let local = place.frame.tr_mul(&local) * place.frame;
+        let further = frame.tr_mul(&now.yields) * frame - self.of_load(&now) + local;
         let law = self.composition.pieces[body.on[number]].tip_law((number, tool));
         let law = law.beside(place.mean_curvature());
         let answer = law.force_in_series(&moved, &further);

@@ -43,6 +43,7 @@ mod nonlinear_regions;
 mod nonlinear_shafts;
 mod nonlinear_soft;
 mod nonlinear_tube;
+mod nonlinear_walls;
 mod performance;
 mod precision_cutting;
 mod random_scenes;

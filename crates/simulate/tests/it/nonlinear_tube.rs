@@ -10,13 +10,12 @@ use crate::nonlinear_shafts::with_friction;
 use crate::scenes::{Hand, Setting};
 use palpate_simulate::Simulation;
 
-const RADIUS: f64 = 0.01;
-const WALL: f64 = 2e-3;
-const LENGTH: f64 = 0.08;
+pub(crate) const RADIUS: f64 = 0.01;
+pub(crate) const WALL: f64 = 2e-3;
+pub(crate) const LENGTH: f64 = 0.08;
 
-/// A closed surface of the tube along x, its top at z = 0.
-fn tube() -> TriangleMesh {
-    let (rows, columns) = (34, 26);
+/// A closed surface of the tube along x, its top at z = 0: vertices in so many rows on either side, and columns around it.
+pub(crate) fn tube(rows: usize, columns: usize) -> TriangleMesh {
     let along = |row: usize| LENGTH * (row as f64 / (rows - 1) as f64 - 0.5);
     let outside = (0..rows).map(|row| (along(row), RADIUS));
     let inside = (0..rows).rev().map(|row| (along(row), RADIUS - WALL));
@@ -43,7 +42,16 @@ const REACH: f64 = 1e-4;
 /// The tube, fixed to the depth `reach` [m] at its ends, under the ball.
 fn under_ball(folder: &Path, nodes: usize, reach: f64) -> (String, String) {
     let path = folder.join("tube.ply");
-    fs::write(&path, WriteFormat::Ply.bytes(&tube(), LengthUnit::Metre)).unwrap();
+    fs::write(
+        &path,
+        WriteFormat::Ply.bytes(&tube(34, 26), LengthUnit::Metre),
+    )
+    .unwrap();
+    held_tube(&path, nodes, reach)
+}
+
+/// The tube in a file, fixed to the depth `reach` [m] at its ends: lines of `[organ]` and of `[model]`.
+pub(crate) fn held_tube(path: &Path, nodes: usize, reach: f64) -> (String, String) {
     let end = 0.5 * LENGTH - reach;
     let organ = format!(
         "mesh = {:?}\nmesh_unit = \"m\"\nanchor = {{ planes = [{{ point_m = [{end}, 0.0, 0.0], normal = [-1.0, 0.0, 0.0] }}, \

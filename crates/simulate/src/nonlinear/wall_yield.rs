@@ -1,0 +1,91 @@
+//! What a wall yields to a tip more than its elements know, which are larger than the tip.
+//!
+//! Their load is wider. On a half-space its compliance is exchanged for that of the tip; a thin wall also bends more under a narrow
+//! load (`WallWaves` of the mechanics), the more so the larger its elements are.
+//!
+//! *How we know*: `nonlinear_walls::…`, beside finite elements of a tube.
+//!
+//! *Limits*: what jaws hold lacks it: a wall that is pulled far hangs on its tension and bends no more. Walls over cavities are as thick as
+//! the organ.
+
+use nalgebra::Matrix3;
+use palpate_geometry::{AabbTree, NodeId, PatchField, Surface};
+use palpate_mechanics::wall::{WallCompliance, WallWaves};
+
+use super::regions::Regions;
+use super::{Body, NonlinearOrgan};
+use crate::walls::through_walls;
+
+/// Half of a wall's thickness over the radius of its convex side, at most [-]: a lumen is no narrower than the rest.
+const MOST_CURVED: f64 = 0.8;
+
+/// The walls under the vertices of the surface that is seen.
+#[derive(Debug, Clone, Default)]
+pub(super) struct WallField {
+    at: Vec<WallCompliance>,
+}
+
+impl WallField {
+    /// Adds those of a piece with its tissues.
+    pub(super) fn extend(&mut self, surface: &Surface, regions: &Regions) {
+        let mesh = surface.mesh();
+        let through = through_walls(surface, &AabbTree::new(mesh));
+        let walls = through.iter().copied().filter(|own| own.is_finite());
+        let mut walls: Vec<f64> = walls.collect();
+        walls.sort_by(f64::total_cmp);
+        let Some(&typical) = walls.get(walls.len() / 2) else {
+            let all = self.at.len() + mesh.vertices().len();
+            return self.at.resize(all, WallCompliance::default());
+        };
+        let patches = PatchField::new(surface, typical);
+        let waves = WallWaves::new(regions.at_rest().poissons_ratio());
+        let (low, high) = mesh.bounds();
+        let width = 0.5 * (high - low).norm();
+        for (number, place) in mesh.vertices().iter().enumerate() {
+            let (mut area, mut of_walls, mut volume) = (0.0, 0.0, 0.0);
+            for &triangle in surface.adjacency().around(NodeId(number as u32)) {
+                let own = mesh.area_vector(triangle).norm();
+                area += own;
+                if through[triangle.index()].is_finite() {
+                    of_walls += own;
+                    volume += own * through[triangle.index()];
+                }
+            }
+            if of_walls == 0.0 {
+                self.at.push(WallCompliance::default());
+                continue;
+            }
+            let thickness = volume / of_walls;
+            let curvature = patches.vertex_curvatures()[number];
+            let mean = 0.5 * curvature.trace();
+            let away = (0.5 * curvature.norm_squared() - mean * mean)
+                .max(0.0)
+                .sqrt();
+            let of_middle = |own: f64| own / (1.0 - (0.5 * thickness * own).min(MOST_CURVED));
+            let curvatures = [mean + away, mean - away].map(of_middle);
+            let inward = -patches.vertex_normals()[number];
+            let stiffness = regions.stiffness_through(place, &(inward * thickness));
+            let wall = waves.compliance(thickness, curvatures, width);
+            self.at.push(wall.times(of_walls / area / stiffness));
+        }
+    }
+}
+
+impl NonlinearOrgan {
+    /// What what tool `number` loads, with a radius [m], yields more along its normal, at rest [m/N].
+    pub(super) fn wall(&self, body: &Body, number: usize, radius: f64) -> Matrix3<f64> {
+        let load = &body.loads[number];
+        let composition = &self.composition;
+        let mesh = composition.shown.mesh();
+        let near = composition.tree.nearest(mesh, &load.place);
+        let corners = mesh.corners(near.triangle).into_iter();
+        let further: f64 = corners
+            .zip(near.on.barycentric)
+            .map(|(node, weight)| {
+                weight * composition.walls.at[node.index()].further(radius, load.radius)
+            })
+            .sum();
+        let law = composition.pieces[body.on[number]].law();
+        load.normal * load.normal.transpose() * (further / law.youngs_modulus())
+    }
+}
