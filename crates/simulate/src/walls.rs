@@ -102,15 +102,15 @@ fn through_each(
     })
 }
 
-/// How thick the wall under each triangle is [m]; infinite where the surface behind is not its other side.
-pub(crate) fn through_walls(surface: &Surface, tree: &AabbTree) -> Vec<f64> {
+/// The other side of the wall under each triangle, if what lies behind is that.
+pub(crate) fn through_walls(surface: &Surface, tree: &AabbTree) -> Vec<Option<Hit>> {
     let mesh = surface.mesh();
-    let mut through = vec![f64::INFINITY; mesh.triangles().len()];
+    let mut through = vec![None; mesh.triangles().len()];
     for (triangle, hit) in through_each(surface, tree, mesh.triangle_ids()) {
         let [here, there] = [triangle, hit.triangle].map(|id| mesh.area_vector(id).normalize());
         // The faces of a wedge that is no rim are not two sides of a wall.
         if here.dot(&there) < FACES {
-            through[triangle.index()] = hit.distance;
+            through[triangle.index()] = Some(hit);
         }
     }
     through
@@ -127,7 +127,9 @@ pub(crate) struct Thickness<'a> {
 impl<'a> Thickness<'a> {
     pub(crate) fn new(surface: &'a Surface) -> Self {
         let tree = AabbTree::new(surface.mesh());
-        let through = through_walls(surface, &tree);
+        let through = through_walls(surface, &tree).into_iter();
+        let through = through.map(|hit| hit.map_or(f64::INFINITY, |hit| hit.distance));
+        let through = through.collect();
         Self {
             surface,
             tree,

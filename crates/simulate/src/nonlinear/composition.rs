@@ -126,9 +126,10 @@ impl Composition {
         let (low, high) = shown.mesh().bounds();
         let of_tissues = regions.warnings.clone();
         let mut walls = WallField::default();
-        walls.extend(surface, &regions);
+        let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
+        walls.extend((surface, &regions), |place| anchor.holds((*place).into()));
         for body in soft {
-            walls.extend(&body.surface, &body.regions);
+            walls.extend((&body.surface, &body.regions), |place| body.holds(place));
         }
         let composition = Self {
             pieces: Piece::all((surface, regions), soft, tools),
@@ -136,7 +137,7 @@ impl Composition {
             shown: shown.clone(),
             tree: tree.clone(),
             walls,
-            anchor: held_region(&scene.organ.shape, scene.organ.anchor.as_ref()),
+            anchor,
             soft: soft.to_vec(),
             neighbours: neighbours.to_vec(),
             series,

@@ -6,10 +6,10 @@
 //! *How we know*: `nonlinear_walls::…`, beside finite elements of a tube.
 //!
 //! *Limits*: what jaws hold lacks it: a wall that is pulled far hangs on its tension and bends no more. Walls over cavities are as thick as
-//! the organ.
+//! the organ, and one that lies on a neighbour counts as free.
 
 use nalgebra::Matrix3;
-use palpate_geometry::{AabbTree, NodeId, PatchField, Surface};
+use palpate_geometry::{AabbTree, NodeId, PatchField, Surface, TriangleId, Vec3};
 use palpate_mechanics::wall::{WallCompliance, WallWaves};
 
 use super::regions::Regions;
@@ -26,12 +26,20 @@ pub(super) struct WallField {
 }
 
 impl WallField {
-    /// Adds those of a piece with its tissues.
-    pub(super) fn extend(&mut self, surface: &Surface, regions: &Regions) {
+    /// Adds those of a piece with its tissues. Where it is held behind a place it is no wall: it does not bend.
+    pub(super) fn extend(
+        &mut self,
+        (surface, regions): (&Surface, &Regions),
+        is_held: impl Fn(&Vec3) -> bool,
+    ) {
         let mesh = surface.mesh();
-        let through = through_walls(surface, &AabbTree::new(mesh));
-        let walls = through.iter().copied().filter(|own| own.is_finite());
-        let mut walls: Vec<f64> = walls.collect();
+        let centroid = |id: TriangleId| mesh.positions(id).iter().sum::<Vec3>() / 3.0;
+        let through = through_walls(surface, &AabbTree::new(mesh)).into_iter();
+        let through: Vec<Option<f64>> = through
+            .map(|hit| hit.filter(|hit| !is_held(&centroid(hit.triangle))))
+            .map(|hit| hit.map(|hit| hit.distance))
+            .collect();
+        let mut walls: Vec<f64> = through.iter().flatten().copied().collect();
         walls.sort_by(f64::total_cmp);
         let Some(&typical) = walls.get(walls.len() / 2) else {
             let all = self.at.len() + mesh.vertices().len();
@@ -46,9 +54,9 @@ impl WallField {
             for &triangle in surface.adjacency().around(NodeId(number as u32)) {
                 let own = mesh.area_vector(triangle).norm();
                 area += own;
-                if through[triangle.index()].is_finite() {
+                if let Some(thickness) = through[triangle.index()] {
                     of_walls += own;
-                    volume += own * through[triangle.index()];
+                    volume += own * thickness;
                 }
             }
             if of_walls == 0.0 {
