@@ -35,6 +35,22 @@ pub struct Patch {
     pub curvature: Matrix3<f64>,
 }
 
+impl Patch {
+    /// The principal curvatures [1/m], the larger one first.
+    pub fn principal_curvatures(&self) -> [f64; 2] {
+        principal(&self.curvature)
+    }
+}
+
+/// The eigenvalues of a curvature tensor but for that of the normal, which is zero.
+fn principal(curvature: &Matrix3<f64>) -> [f64; 2] {
+    let mean = 0.5 * curvature.trace();
+    let half = (0.5 * curvature.norm_squared() - mean * mean)
+        .max(0.0)
+        .sqrt();
+    [mean + half, mean - half]
+}
+
 /// Weight of the curvature against the data: a hundredth of a vertex is enough to settle a patch with
 /// too few vertices to tell, and far too little to flatten a real one.
 const RIDGE: f64 = 1e-2;
@@ -73,9 +89,9 @@ impl PatchField {
         &self.normals
     }
 
-    /// Curvature tensors at the vertices [1/m].
-    pub fn vertex_curvatures(&self) -> &[Matrix3<f64>] {
-        &self.curvatures
+    /// Principal curvatures at a vertex [1/m], the larger one first.
+    pub fn principal_curvatures(&self, node: NodeId) -> [f64; 2] {
+        principal(&self.curvatures[node.index()])
     }
 
     /// The patch at the point of `triangle` with the weights `barycentric` [-].

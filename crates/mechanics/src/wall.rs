@@ -41,14 +41,14 @@ const LEAST_RADIUS: f64 = 0.3;
 const FACTOR: f64 = SQRT_2;
 const RADII: usize = 11;
 
-/// The waves of walls of one Poisson's ratio.
+/// The Fourier operator of walls of one Poisson's ratio: what each wave number is moved by.
 #[derive(Debug, Clone)]
-pub struct WallWaves {
-    waves: Vec<Wave>,
+pub struct WallOperator {
+    harmonics: Vec<Harmonic>,
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Wave {
+struct Harmonic {
     /// q [-].
     number: f64,
     /// E k G of half a half-space, of a plate that is squeezed, and of one that bends, over k t [-].
@@ -68,11 +68,11 @@ pub struct WallCompliance {
     yields: [f64; RADII],
 }
 
-impl WallWaves {
+impl WallOperator {
     /// Of walls with this Poisson's ratio [-].
     pub fn new(poissons_ratio: f64) -> Self {
         let step = (HIGHEST / LOWEST).ln() / SAMPLES as f64;
-        let waves = (0..=SAMPLES).map(|sample| {
+        let harmonics = (0..=SAMPLES).map(|sample| {
             let q = LOWEST * (step * sample as f64).exp();
             let half = (1.0 - poissons_ratio * poissons_ratio) / q;
             let end = if sample % SAMPLES == 0 { 0.5 } else { 1.0 };
@@ -81,7 +81,7 @@ impl WallWaves {
                 true => q.powi(3) / 6.0 * (1.0 + q * q / 20.0),
                 false => q.sinh() - q,
             };
-            Wave {
+            Harmonic {
                 number: q,
                 half,
                 squeezed: half * (q.cosh() - 1.0) / (q.sinh() + q),
@@ -93,7 +93,7 @@ impl WallWaves {
             }
         });
         Self {
-            waves: waves.collect(),
+            harmonics: harmonics.collect(),
         }
     }
 
@@ -107,11 +107,13 @@ impl WallWaves {
         let [one, other] = curvatures.map(f64::abs);
         let longest = thickness * one.max(other).max(1.0 / width);
         let mut yields = [0.0; RADII];
-        for wave in self.waves.iter().filter(|wave| wave.number >= longest) {
-            let bent = stretches.iter().map(|own| 1.0 / (1.0 / wave.bent + own));
+        for harmonic in self.harmonics.iter().filter(|own| own.number >= longest) {
+            let bent = stretches
+                .iter()
+                .map(|own| 1.0 / (1.0 / harmonic.bent + own));
             let bent = bent.sum::<f64>() / DIRECTIONS as f64;
-            let more = (wave.squeezed + bent - 2.0 * wave.half) / thickness;
-            for (yields, weight) in yields.iter_mut().zip(&wave.weights) {
+            let more = (harmonic.squeezed + bent - 2.0 * harmonic.half) / thickness;
+            for (yields, weight) in yields.iter_mut().zip(&harmonic.weights) {
                 *yields += weight * more;
             }
         }
@@ -131,7 +133,7 @@ impl WallCompliance {
     /// How much farther a flat tip of radius `tip` [m] goes than a load (1 − (r/R)²)² of the radius `load` [m] takes its own mean,
     /// beyond the same difference on a half-space, times Young's modulus over the force [1/m]: as far as a point load, less the part that
     /// makes it nothing where the pressures of both have the same second moment, 2 a²/3 and R²/4.
-    pub fn further(&self, tip: f64, load: f64) -> f64 {
+    pub fn beyond_half_space(&self, tip: f64, load: f64) -> f64 {
         if self.thickness == 0.0 {
             return 0.0;
         }
@@ -154,11 +156,11 @@ mod tests {
     /// s = R²/4 by s/(4 π D) ln w + …, w the width. Tolerance: 4 %, half a sample of the integral over ln q.
     #[test]
     fn a_wide_thin_plate_bends_as_its_closed_form() {
-        let waves = WallWaves::new(NU);
+        let operator = WallOperator::new(NU);
         let (thickness, load) = (0.002, 0.01);
         let [narrow, wide] = [0.05, 0.8].map(|width| {
-            let wall = waves.compliance(thickness, [0.0; 2], width);
-            wall.further(0.0, load)
+            let wall = operator.compliance(thickness, [0.0; 2], width);
+            wall.beyond_half_space(0.0, load)
         });
         let stiffness = thickness.powi(3) / (12.0 * (1.0 - NU * NU));
         let expected = 0.25 * load * load / (4.0 * PI * stiffness) * f64::ln(16.0);
@@ -170,14 +172,14 @@ mod tests {
     /// less than a hundredth of it. A tip as wide as the load goes as far; a curved wall yields less than a flat one.
     #[test]
     fn a_thick_wall_is_a_half_space() {
-        let waves = WallWaves::new(NU);
+        let operator = WallOperator::new(NU);
         let load = 0.002;
         let of_load = 2.408 * (1.0 - NU * NU) / (PI * load);
-        let thick = waves.compliance(0.02, [0.0; 2], 0.1);
-        assert!(thick.further(0.0, load).abs() < 0.01 * of_load);
-        let [flat, curved] = [0.0, 100.0].map(|own| waves.compliance(0.002, [own, 0.0], 0.1));
-        assert_eq!(flat.further(0.62 * load, load), 0.0);
-        let [flat, curved] = [flat, curved].map(|wall| wall.further(0.0, 3.0 * load));
+        let thick = operator.compliance(0.02, [0.0; 2], 0.1);
+        assert!(thick.beyond_half_space(0.0, load).abs() < 0.01 * of_load);
+        let [flat, curved] = [0.0, 100.0].map(|own| operator.compliance(0.002, [own, 0.0], 0.1));
+        assert_eq!(flat.beyond_half_space(0.62 * load, load), 0.0);
+        let [flat, curved] = [flat, curved].map(|wall| wall.beyond_half_space(0.0, 3.0 * load));
         assert!(0.0 < curved && curved < 0.7 * flat, "{curved} {flat}");
     }
 }

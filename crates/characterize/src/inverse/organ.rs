@@ -171,11 +171,7 @@ impl Organ {
         let of_patch = |size: f64| {
             let field = PatchField::new(&self.surface, size * radius);
             let patch = field.at(&self.surface, place.triangle, &place.barycentric);
-            // The eigenvalue of the normal is zero.
-            let mean = 0.5 * patch.curvature.trace();
-            let away = (0.5 * patch.curvature.norm_squared() - mean * mean).max(0.0);
-            let away = away.sqrt();
-            CurvedContact::of(indenter, [mean + away, mean - away], radius)
+            CurvedContact::of(indenter, patch.principal_curvatures(), radius)
         };
         let [Some(near), Some(wide)] = [of_patch(PATCHES[0])?, of_patch(PATCHES[1])?] else {
             return Ok((None, 0.0));

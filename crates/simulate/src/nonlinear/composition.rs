@@ -17,7 +17,7 @@ use super::merged::Merged;
 use super::mesh_warnings::mesh_warnings;
 use super::regions::{Elements, Regions};
 use super::soft::{Piece, SoftBody, touching};
-use super::wall_yield::WallField;
+use super::wall_compliance::WallField;
 use crate::neighbour::Neighbour;
 use crate::{Error, held_region};
 

@@ -51,7 +51,7 @@ mod soft;
 mod soundness;
 mod target;
 mod touch;
-mod wall_yield;
+mod wall_compliance;
 
 use composition::{Composition, Filled};
 use cut_body::FollowedCuts;

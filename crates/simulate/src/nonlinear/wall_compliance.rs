@@ -1,7 +1,7 @@
-//! What a wall yields to a tip more than its elements know, which are larger than the tip.
+//! The compliance of a wall under a tip that its elements, which are larger than the tip, do not have.
 //!
 //! Their load is wider. On a half-space its compliance is exchanged for that of the tip; a thin wall also bends more under a narrow
-//! load (`WallWaves` of the mechanics), the more so the larger its elements are.
+//! load (`WallOperator` of the mechanics), the more so the larger its elements are.
 //!
 //! *How we know*: `nonlinear_walls::…`, beside finite elements of a tube.
 //!
@@ -10,7 +10,7 @@
 
 use nalgebra::Matrix3;
 use palpate_geometry::{AabbTree, NodeId, PatchField, Surface, TriangleId, Vec3};
-use palpate_mechanics::wall::{WallCompliance, WallWaves};
+use palpate_mechanics::wall::{WallCompliance, WallOperator};
 
 use super::regions::Regions;
 use super::{Body, NonlinearOrgan};
@@ -26,17 +26,17 @@ pub(super) struct WallField {
 }
 
 impl WallField {
-    /// Adds those of a piece with its tissues. Where it is held behind a place it is no wall: it does not bend.
+    /// Adds those of a piece with its tissues. Where its other side is fixed it is no wall: it does not bend.
     pub(super) fn extend(
         &mut self,
         (surface, regions): (&Surface, &Regions),
-        is_held: impl Fn(&Vec3) -> bool,
+        is_fixed: impl Fn(&Vec3) -> bool,
     ) {
         let mesh = surface.mesh();
         let centroid = |id: TriangleId| mesh.positions(id).iter().sum::<Vec3>() / 3.0;
         let through = through_walls(surface, &AabbTree::new(mesh)).into_iter();
         let through: Vec<Option<f64>> = through
-            .map(|hit| hit.filter(|hit| !is_held(&centroid(hit.triangle))))
+            .map(|hit| hit.filter(|hit| !is_fixed(&centroid(hit.triangle))))
             .map(|hit| hit.map(|hit| hit.distance))
             .collect();
         let mut walls: Vec<f64> = through.iter().flatten().copied().collect();
@@ -46,12 +46,13 @@ impl WallField {
             return self.at.resize(all, WallCompliance::default());
         };
         let patches = PatchField::new(surface, typical);
-        let waves = WallWaves::new(regions.at_rest().poissons_ratio());
+        let operator = WallOperator::new(regions.at_rest().poissons_ratio());
         let (low, high) = mesh.bounds();
         let width = 0.5 * (high - low).norm();
         for (number, place) in mesh.vertices().iter().enumerate() {
             let (mut area, mut of_walls, mut volume) = (0.0, 0.0, 0.0);
-            for &triangle in surface.adjacency().around(NodeId(number as u32)) {
+            let node = NodeId(number as u32);
+            for &triangle in surface.adjacency().around(node) {
                 let own = mesh.area_vector(triangle).norm();
                 area += own;
                 if let Some(thickness) = through[triangle.index()] {
@@ -64,16 +65,11 @@ impl WallField {
                 continue;
             }
             let thickness = volume / of_walls;
-            let curvature = patches.vertex_curvatures()[number];
-            let mean = 0.5 * curvature.trace();
-            let away = (0.5 * curvature.norm_squared() - mean * mean)
-                .max(0.0)
-                .sqrt();
             let of_middle = |own: f64| own / (1.0 - (0.5 * thickness * own).min(MOST_CURVED));
-            let curvatures = [mean + away, mean - away].map(of_middle);
+            let curvatures = patches.principal_curvatures(node).map(of_middle);
             let inward = -patches.vertex_normals()[number];
             let stiffness = regions.stiffness_through(place, &(inward * thickness));
-            let wall = waves.compliance(thickness, curvatures, width);
+            let wall = operator.compliance(thickness, curvatures, width);
             self.at.push(wall.times(of_walls / area / stiffness));
         }
     }
@@ -81,19 +77,19 @@ impl WallField {
 
 impl NonlinearOrgan {
     /// What what tool `number` loads, with a radius [m], yields more along its normal, at rest [m/N].
-    pub(super) fn wall(&self, body: &Body, number: usize, radius: f64) -> Matrix3<f64> {
+    pub(super) fn wall_compliance(&self, body: &Body, number: usize, radius: f64) -> Matrix3<f64> {
         let load = &body.loads[number];
         let composition = &self.composition;
         let mesh = composition.shown.mesh();
         let near = composition.tree.nearest(mesh, &load.place);
         let corners = mesh.corners(near.triangle).into_iter();
-        let further: f64 = corners
+        let compliance: f64 = corners
             .zip(near.on.barycentric)
             .map(|(node, weight)| {
-                weight * composition.walls.at[node.index()].further(radius, load.radius)
+                weight * composition.walls.at[node.index()].beyond_half_space(radius, load.radius)
             })
             .sum();
         let law = composition.pieces[body.on[number]].law();
-        load.normal * load.normal.transpose() * (further / law.youngs_modulus())
+        load.normal * load.normal.transpose() * (compliance / law.youngs_modulus())
     }
 }
