@@ -44,6 +44,7 @@ fn condensed_elements(criterion: &mut Criterion) {
         held: &held,
         touchable,
         edge: EDGE,
+        regions: None,
     };
     let start = Instant::now();
     let go_on = &mut |_| ControlFlow::Continue(());

@@ -35,6 +35,7 @@ pub mod enhance;
 mod error;
 pub mod finite_elements;
 pub mod finite_spheres;
+pub mod inclusion;
 mod indentation_curve;
 pub mod layered;
 mod limits;

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use palpate_files::scene::InclusionShape;
-use palpate_geometry::{AabbTree, MeshError, Surface, TriangleMesh, Vec3};
+use palpate_geometry::{AabbTree, MeshError, Resolved, Surface, TriangleMesh, Vec3};
 
 /// Directions in which a triangle of the outer surface may look away: off its normal [-], and how many of these besides the normal.
 const OFF_NORMAL: f64 = 0.7;
@@ -139,6 +139,32 @@ impl RegionMap {
         })
     }
 
+    /// All that says where its regions are, as bytes: the same for equal regions alone.
+    pub fn bytes(&self, write: &mut dyn FnMut(&[u8])) {
+        for region in &self.regions {
+            match region {
+                Mapped::Layer { top, bottom } => {
+                    write(b"layer");
+                    write(&top.to_le_bytes());
+                    write(&bottom.to_le_bytes());
+                }
+                // Numbers are printed so that they are read as the same ones.
+                Mapped::Shape(shape) => write(format!("{shape:?}").as_bytes()),
+                Mapped::Enclosed(Enclosed { surface, .. }) => {
+                    write(b"enclosed");
+                    let mesh = surface.mesh();
+                    write(&(mesh.vertices().len() as u64).to_le_bytes());
+                    for coordinate in mesh.vertices().iter().flatten() {
+                        write(&coordinate.to_le_bytes());
+                    }
+                    for node in mesh.triangles().iter().flatten() {
+                        write(&node.0.to_le_bytes());
+                    }
+                }
+            }
+        }
+    }
+
     fn check(&self, surface: &Surface, tree: &AabbTree) -> Result<(), RegionError> {
         let mut borders: Vec<(usize, Vec<Vec3>)> = Vec::new();
         for (region, number) in self.regions.iter().zip(1..) {
@@ -213,12 +239,52 @@ impl RegionMap {
         }
     }
 
+    /// About so many places [m] spread evenly over a shape or what a surface encloses, and the volume of each [m³]; none of what has
+    /// no border of its own.
+    pub fn places_in(&self, number: usize, about: f64) -> Option<(Vec<Vec3>, f64)> {
+        let border = match self.region(number)? {
+            Mapped::Layer { .. } => return None,
+            Mapped::Shape(shape) => border(shape),
+            Mapped::Enclosed(enclosed) => enclosed.surface.mesh().vertices().to_vec(),
+        };
+        let [volume, _] = self.volume_and_area(number)?;
+        let first = border.first().copied().unwrap_or_default();
+        let low = border.iter().fold(first, |low, place| low.inf(place));
+        let high = border.iter().fold(first, |high, place| high.sup(place));
+        let spacing = (volume / about).cbrt();
+        let counts = [0, 1, 2].map(|axis| ((high - low)[axis] / spacing).ceil() as usize);
+        let along =
+            |axis: usize| (0..counts[axis]).map(move |n| low[axis] + (n as f64 + 0.5) * spacing);
+        let mut places = Vec::new();
+        for (x, y) in along(0).flat_map(|x| along(1).map(move |y| (x, y))) {
+            let column = along(2).map(|z| Vec3::new(x, y, z));
+            places.extend(column.filter(|place| self.height(number, place) <= 0.0));
+        }
+        let each = volume / places.len() as f64;
+        (!places.is_empty()).then_some((places, each))
+    }
+
     /// Distance to the outer surface [m]; infinite without layers.
     fn depth(&self, place: &Vec3) -> f64 {
         let outer = self.outer.as_ref();
         outer.map_or(f64::INFINITY, |(mesh, tree)| {
             tree.nearest(mesh, place).distance
         })
+    }
+
+    /// The borders that tetrahedra are not to cross, as heights over them [m], in the order of [`bounded`](Self::bounded).
+    pub fn heights(&self) -> Vec<impl Fn(&Vec3) -> f64 + use<'_>> {
+        let numbers = self.bounded();
+        numbers
+            .map(|number| move |place: &Vec3| self.height(number, place))
+            .collect()
+    }
+
+    /// The region of a tetrahedron, by the sides of the [`heights`](Self::heights) on which it lies.
+    pub fn number_of(&self, tetrahedron: usize, resolved: &[Resolved]) -> usize {
+        let mut below = self.bounded().zip(resolved);
+        let found = below.find(|(_, level)| level.below[tetrahedron]);
+        found.map_or(0, |(number, _)| number)
     }
 
     /// The region of what lies below the borders that `is_below` says.

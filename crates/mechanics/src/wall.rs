@@ -133,7 +133,7 @@ impl WallCompliance {
     /// How much farther a flat tip of radius `tip` [m] goes than a load (1 − (r/R)²)² of the radius `load` [m] takes its own mean,
     /// beyond the same difference on a half-space, times Young's modulus over the force [1/m]: as far as a point load, less the part that
     /// makes it nothing where the pressures of both have the same second moment, 2 a²/3 and R²/4.
-    pub fn beyond_half_space(&self, tip: f64, load: f64) -> f64 {
+    pub fn beyond_half_space(&self, [tip, load]: [f64; 2]) -> f64 {
         if self.thickness == 0.0 {
             return 0.0;
         }
@@ -160,7 +160,7 @@ mod tests {
         let (thickness, load) = (0.002, 0.01);
         let [narrow, wide] = [0.05, 0.8].map(|width| {
             let wall = operator.compliance(thickness, [0.0; 2], width);
-            wall.beyond_half_space(0.0, load)
+            wall.beyond_half_space([0.0, load])
         });
         let stiffness = thickness.powi(3) / (12.0 * (1.0 - NU * NU));
         let expected = 0.25 * load * load / (4.0 * PI * stiffness) * f64::ln(16.0);
@@ -176,10 +176,10 @@ mod tests {
         let load = 0.002;
         let of_load = 2.408 * (1.0 - NU * NU) / (PI * load);
         let thick = operator.compliance(0.02, [0.0; 2], 0.1);
-        assert!(thick.beyond_half_space(0.0, load).abs() < 0.01 * of_load);
+        assert!(thick.beyond_half_space([0.0, load]).abs() < 0.01 * of_load);
         let [flat, curved] = [0.0, 100.0].map(|own| operator.compliance(0.002, [own, 0.0], 0.1));
-        assert_eq!(flat.beyond_half_space(0.62 * load, load), 0.0);
-        let [flat, curved] = [flat, curved].map(|wall| wall.beyond_half_space(0.0, 3.0 * load));
+        assert_eq!(flat.beyond_half_space([0.62 * load, load]), 0.0);
+        let [flat, curved] = [flat, curved].map(|wall| wall.beyond_half_space([0.0, 3.0 * load]));
         assert!(0.0 < curved && curved < 0.7 * flat, "{curved} {flat}");
     }
 }

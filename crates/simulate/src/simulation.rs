@@ -1,17 +1,19 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use palpate_files::scene::{Enhancement, HandOver, ModelKind, Nodule};
+use palpate_files::scene::{
+    Enhancement, HandOver, Inclusion, Layer, ModelKind, Nodule, Organ, ResponseMethod,
+};
 use palpate_files::{Scene, SessionHeader};
 use palpate_geometry::{AabbTree, Surface, TriangleMesh};
 use palpate_mechanics::Material;
 
-use crate::cutting::CuttingModel;
+use crate::cutting::{CuttingModel, cuts};
 use crate::digest::SceneDigest;
 use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin, surround};
 use crate::neighbour::Neighbour;
-use crate::nonlinear::{Beside, NonlinearOrgan, Regions, SoftBody};
-use crate::region_places::read_regions;
+use crate::nonlinear::{Beside, NonlinearOrgan, SoftBody};
+use crate::regions::{InclusionTable, RegionTissue, Regions};
 use crate::tool::{Tool, settings, typical_radius};
 use crate::{Error, Progress, Resources, Work, nodule, organ, target, tip_laws, trocar};
 
@@ -79,18 +81,20 @@ impl Simulation {
         }
         nodule::check(&scene.organ.nodules, &surface, &tree)?;
         target::check_line(scene, &surface, &tree)?;
-        let is_nonlinear = scene.model.kind == ModelKind::Nonlinear;
-        let (layers, inclusions) = (&scene.organ.layers, &scene.organ.inclusions);
-        let felt_layers = if is_nonlinear { &layers[..] } else { &[] };
-        let (map, more) = read_regions(felt_layers, inclusions, &surface, &tree)?;
-        warnings.extend(more);
-        let mut enclosed: Vec<Surface> = map.enclosed().cloned().collect();
-        let regions = match scene.model.kind {
-            ModelKind::Local | ModelKind::Hybrid => None,
-            ModelKind::Nonlinear => {
-                Some(Regions::new(layers, inclusions, map, (&tissue, &material))?)
-            }
+        let kind = scene.model.kind;
+        let is_nonlinear = kind == ModelKind::Nonlinear;
+        let felt = felt_parts(&scene.organ, kind);
+        let own = (&tissue, &material);
+        let regions = Regions::read((felt.0, &felt.1), (&surface, &tree), own)?;
+        warnings.extend_from_slice(&regions.warnings);
+        warnings.extend(not_felt(scene, &regions));
+        let is_felt = match kind {
+            ModelKind::Local => false,
+            ModelKind::Hybrid => !regions.are_alike() && !is_of_one_tissue(scene),
+            ModelKind::Nonlinear => true,
         };
+        let mut enclosed: Vec<Surface> = regions.enclosed().cloned().collect();
+        let regions = is_felt.then_some(regions);
         let (mut soft, more) = match is_nonlinear {
             true => SoftBody::all(scene)?,
             false => Default::default(),
@@ -124,24 +128,40 @@ impl Simulation {
             .zip(&touched)
             .map(|(tool, (_, own))| Tool::new(tool, settings, &own.at_rest, &surface, &tree))
             .collect::<Result<Vec<_>, _>>()?;
-        let global = match scene.model.kind {
+        let law = |region: &RegionTissue| match kind {
+            ModelKind::Nonlinear => region.law,
+            ModelKind::Local | ModelKind::Hybrid => region.material.at_rest,
+        };
+        let of_soft = soft.iter().map(|body| (&body.surface, &body.regions));
+        let bodies = regions
+            .iter()
+            .map(|own| (&organ_surface, own))
+            .chain(of_soft);
+        let bodies: Vec<_> = bodies.map(|(of, own)| (of, own.inclusions(law))).collect();
+        for tool in &mut tools {
+            tool.inclusions = InclusionTable::new(tool.typical_radius, &bodies);
+        }
+        let surface_material = match &regions {
+            Some(regions) => regions.at_surface().material.clone(),
+            None => material.clone(),
+        };
+        let global = match kind {
             ModelKind::Local | ModelKind::Nonlinear => None,
             ModelKind::Hybrid => {
-                let problem = GlobalProblem::new(scene, &surface, &material.at_rest)?;
+                let regions = regions.as_ref();
+                let law = &surface_material.at_rest;
+                let problem = GlobalProblem::new(scene, &surface, law, regions)?;
                 let (global, more) = problem.solve(scene, &surface, resources, watch)?;
                 warnings.extend(more);
                 tools
                     .iter_mut()
-                    .try_for_each(|tool| global.lie_under(tool))?;
+                    .try_for_each(|tool| global.lie_under(tool, regions))?;
                 Some(global)
             }
         };
         let beside = regions.iter().flat_map(Regions::beside);
         let bending = soft.iter().flat_map(|body| body.regions.all());
         let felt: Vec<_> = beside.chain(bending).cloned().collect();
-        let surface_material = regions
-            .as_ref()
-            .map(|regions| regions.at_surface().material.clone());
         let neighbours = Neighbour::all(scene, &tools)?;
         target::check_touch(
             &scene.task.goal,
@@ -166,8 +186,7 @@ impl Simulation {
             warnings.extend(body.meet(scene, &tools, at_step)?);
         }
         let nonlinear = match regions {
-            None => None,
-            Some(regions) => {
+            Some(regions) if is_nonlinear => {
                 let (shown, organ) = ((&surface, &tree), (&organ_surface, regions));
                 let beside = Beside {
                     tools: &tools,
@@ -178,8 +197,9 @@ impl Simulation {
                 warnings.extend(more);
                 Some(Arc::new(organ))
             }
+            _ => None,
         };
-        if scene.model.kind == ModelKind::Local {
+        if kind == ModelKind::Local {
             let organ = (scene, &surface);
             if let Err(error) = surround(&mut tools, organ, &material.at_rest, resources.memory) {
                 warnings.push(format!(
@@ -195,13 +215,6 @@ impl Simulation {
         })?);
         let cutting = CuttingModel::new(scene, &surface)?;
         warnings.extend(cutting.iter().filter_map(CuttingModel::warning));
-        if !scene.organ.layers.is_empty() && nonlinear.is_none() {
-            warnings.push(
-                "layers are cut, seen and perforated each by itself; to a touch the organ answers as its own \
-                 tissue"
-                    .to_owned(),
-            );
-        }
         if scene.model.gravity_m_per_s2.is_some() && nonlinear.is_none() {
             warnings.push(
                 "only the nonlinear model has weight; `model.gravity_m_per_s2` changes nothing here"
@@ -211,12 +224,6 @@ impl Simulation {
         if scene.organ.self_contact && nonlinear.is_none() {
             warnings.push(
                 "only the nonlinear model has parts that touch; `organ.self_contact` changes nothing here"
-                    .to_owned(),
-            );
-        }
-        if !scene.organ.inclusions.is_empty() && nonlinear.is_none() {
-            warnings.push(
-                "only the nonlinear model feels inclusions; this one answers as if there were none"
                     .to_owned(),
             );
         }
@@ -234,7 +241,7 @@ impl Simulation {
             ),
             seed: scene.variant.as_ref().map_or(0, |own| own.seed),
             step: scene.model.step_s,
-            kind: scene.model.kind,
+            kind,
             hand_over: scene.model.hand_over,
             force_scale: scene.model.force_scale,
             typical_edge: typical_edge(&surface),
@@ -243,7 +250,7 @@ impl Simulation {
             neighbours,
             surface,
             tree,
-            material: surface_material.unwrap_or(material),
+            material: surface_material,
             tools,
             global,
             nonlinear,
@@ -346,6 +353,73 @@ impl Simulation {
             force_scale: self.force_scale,
         }
     }
+}
+
+/// The layers, and the inclusions and cavities, that a model feels; those of the local model are only checked.
+fn felt_parts(organ: &Organ, kind: ModelKind) -> (&[Layer], Vec<Inclusion>) {
+    let inclusions = organ.inclusions.iter();
+    match kind {
+        ModelKind::Local => (&[], organ.inclusions.clone()),
+        ModelKind::Hybrid => {
+            let solid = inclusions.filter(|own| own.tissue().is_some());
+            (&organ.layers, solid.cloned().collect())
+        }
+        ModelKind::Nonlinear => (&organ.layers, organ.inclusions.clone()),
+    }
+}
+
+/// Whether the method that a scene asks for knows one tissue alone.
+fn is_of_one_tissue(scene: &Scene) -> bool {
+    match scene.model.kind {
+        ModelKind::Local => true,
+        ModelKind::Hybrid => scene.model.response == ResponseMethod::BoundaryElements,
+        ModelKind::Nonlinear => false,
+    }
+}
+
+/// What a model does not feel of the parts of an organ.
+fn not_felt(scene: &Scene, regions: &Regions) -> Vec<String> {
+    let organ = &scene.organ;
+    let is_hybrid = scene.model.kind == ModelKind::Hybrid;
+    let ignores = is_of_one_tissue(scene);
+    let model = match is_hybrid {
+        true => "a response by boundary elements is of one tissue (`model.response`):",
+        false => "the local model is of one tissue:",
+    };
+    let has = |solid: bool| {
+        let mut inclusions = organ.inclusions.iter();
+        inclusions.any(|own| own.tissue().is_some() == solid)
+    };
+    let mut said = Vec::new();
+    if ignores && !organ.layers.is_empty() {
+        said.push(format!(
+            "{model} layers are cut, seen and perforated each by itself, and to a touch the organ answers as its own tissue"
+        ));
+    }
+    if ignores && has(true) {
+        said.push(format!("{model} inclusions change no force"));
+    }
+    if scene.model.kind != ModelKind::Nonlinear && has(false) {
+        said.push(
+            "only the nonlinear model has cavities; this one answers as if they were filled"
+                .to_owned(),
+        );
+    }
+    if is_hybrid && !ignores && !regions.are_alike() {
+        if !regions.relax_alike() {
+            said.push(
+                "the hybrid model relaxes everywhere as the tissue at the surface does; the nonlinear model has the relaxation \
+                 of each tissue"
+                    .to_owned(),
+            );
+        }
+        if scene.tools.iter().any(|tool| cuts(tool.kind)) {
+            said.push(
+                "a cut changes the forces of the hybrid model as in one tissue, that at the surface".to_owned(),
+            );
+        }
+    }
+    said
 }
 
 /// Of the hemisphere with the volume V of a body: R³ = 3 V / (2 π) [m].

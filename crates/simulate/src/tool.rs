@@ -12,6 +12,7 @@ use palpate_mechanics::{LinearElastic, TipLaw};
 
 use crate::Error;
 use crate::organ::length_unit;
+use crate::regions::InclusionTable;
 
 use crate::trocar::Trocar;
 
@@ -44,6 +45,8 @@ pub struct Tool {
     pub(crate) placement: Placement,
     /// What the whole organ adds under this tip, if there is a model of it.
     pub(crate) field: Option<TipField>,
+    /// What inclusions are to this tip, beside what they are to its load.
+    pub(crate) inclusions: InclusionTable,
     /// What the organ yields beyond a half-space under this tip at each vertex [1/m], for the local model; none where
     /// that is not known.
     pub(crate) further: Option<Arc<[Matrix3<f64>]>>,
@@ -94,6 +97,7 @@ impl Tool {
             patches: PatchField::new(surface, model.held_radius(typical)),
             placement: settings.placement,
             field: None,
+            inclusions: InclusionTable::default(),
             further: None,
             typical_radius: typical,
             model,

@@ -6,7 +6,8 @@ use super::part::CAVITY;
 use super::{CavityContent, LengthUnit, PartContent, Shape, TissueChoice};
 use crate::{Domain, Error, Key, Keys};
 
-/// A part of an organ with a tissue of its own, such as a tumour or a vessel, or a cavity. The nonlinear model feels it.
+/// A part of an organ with a tissue of its own, such as a tumour or a vessel, which the hybrid and the nonlinear model feel, or a cavity, which the
+/// nonlinear model has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inclusion {
     /// Its name, for people.

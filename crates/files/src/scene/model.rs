@@ -151,11 +151,21 @@ fn choose(organ: &Organ, tools: &[Tool], asked: Asked) -> (ModelKind, &'static s
         (ModelKind::Nonlinear, reason)
     } else if asked.is_hollow {
         (ModelKind::Nonlinear, "it alone has cavities")
-    } else if asked.cuts || any(&[ToolKind::Scissors, ToolKind::Hook]) || !organ.layers.is_empty() {
-        (ModelKind::Hybrid, "a cut changes its forces alone")
+    } else if asked.cuts || any(&[ToolKind::Scissors, ToolKind::Hook]) {
+        (ModelKind::Hybrid, "its forces change while a blade cuts")
+    } else if !organ.layers.is_empty() {
+        (
+            ModelKind::Hybrid,
+            "it feels layers, and its forces change as they open",
+        )
     } else if any(&[ToolKind::Grasper]) {
         let reason = "a grasper pulls and lifts, and it alone is right at large deformation";
         (ModelKind::Nonlinear, reason)
+    } else if !organ.inclusions.is_empty() {
+        (
+            ModelKind::Hybrid,
+            "it feels inclusions at no cost in a step",
+        )
     } else {
         (
             ModelKind::Local,

@@ -44,8 +44,8 @@ pub struct Nodule {
 }
 
 /// A layer of an organ. A blade opens it where it goes as deep as the layer's lower face, and any tool where the
-/// layer is bare and the normal force exceeds `perforation_force_n`. The nonlinear model feels its tissue; with the other
-/// models the organ answers as `organ.tissue` does. Below the layers is `organ.tissue`.
+/// layer is bare and the normal force exceeds `perforation_force_n`. The hybrid and the nonlinear model feel its tissue; with the
+/// local model the organ answers as `organ.tissue` does. Below the layers is `organ.tissue`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
     /// Its name, for people.
@@ -81,14 +81,15 @@ impl Organ {
             "layer",
             Layer::KEYS,
             "Its layers from outside to inside, at most 6, above `tissue`. A blade opens a layer where it goes as deep as its \
-             lower face, and any tool where it is bare and the normal force exceeds `perforation_force_n`. The nonlinear \
-             model feels its tissue; with the others the organ answers as `tissue` does.",
+             lower face, and any tool where it is bare and the normal force exceeds `perforation_force_n`. The hybrid and \
+             the nonlinear model feel its tissue; with the local one the organ answers as `tissue` does.",
         )
         .optional("", "it is of one tissue"),
         Key::tables(
             "inclusion",
             Inclusion::KEYS,
-            "Parts of another tissue, such as a tumour or a vessel, and cavities. The nonlinear model feels them.",
+            "Parts of another tissue, such as a tumour or a vessel, which the hybrid and the nonlinear model feel, and cavities, \
+             which the nonlinear model has.",
         )
         .optional("", "none"),
         Key::tables(
@@ -101,7 +102,8 @@ impl Organ {
         Key::tables(
             "nodule",
             Nodule::KEYS,
-            "Balls of stiffer tissue, whose answer the local and the hybrid model estimate.",
+            "Balls of stiffer tissue, whose effect on the force is estimated, so that they may be drawn anew for each attempt \
+             without a new preparation. Where they stay, `inclusion` is more accurate.",
         )
         .optional("", "none"),
         Key::truth(

@@ -71,6 +71,11 @@ impl LinearElastic {
         self.youngs_modulus / (2.0 * (1.0 + self.poissons_ratio))
     }
 
+    /// Bulk modulus K = E / (3 (1 − 2 ν)) [Pa].
+    pub fn bulk_modulus(&self) -> f64 {
+        self.youngs_modulus / (3.0 * (1.0 - 2.0 * self.poissons_ratio))
+    }
+
     /// Lamé's first parameter λ = E ν / ((1 + ν)(1 − 2 ν)) [Pa].
     pub fn lame_modulus(&self) -> f64 {
         let nu = self.poissons_ratio;

@@ -59,7 +59,10 @@ impl<T: Precision> SurfaceResponse<T> {
         let nu = self.parts().poissons_ratio;
         let along = tip.normal * tip.normal.dot(&tip.force);
         let across = tip.force - along;
-        let yields = (along * (1.0 - nu) + across * (1.0 - 0.5 * nu)) * ((1.0 + nu) / PI);
+        let [more_across, more_along] = load.yields();
+        let along = along * (more_along * (1.0 - nu));
+        let across = across * (more_across * (1.0 - 0.5 * nu));
+        let yields = (along + across) * ((1.0 + nu) / PI);
         let reach = load.reach();
         for (triangle, part, inverse) in load.around() {
             let centroid = surface.mesh().positions(triangle).iter().sum::<Vec3>() / 3.0;

@@ -18,6 +18,8 @@
 //! no steps. R > 1.69 a makes c_self less than the compliance of the tip at every ν, and the tips of several
 //! tools together make no energy.
 //!
+//! On layers c_self is that of the load on a layered half-space, c_self times what its shape yields more there.
+//!
 //! What lies on the anchor keeps its weight and yields nothing, Ξ = 0. What was not prepared yields as a
 //! half-space does: its terms fall out of both sums.
 //!
@@ -82,6 +84,8 @@ struct VertexLoad {
     further: Matrix3<f64>,
     /// R [m].
     reach: f64,
+    /// How much more than their outermost tissue the layers yield to the load: along the surface and along its normal [-].
+    yields: [f64; 2],
     /// The free triangles on this side of the organ within twice that, and a triangle more; with what they
     /// see of the load, Σ w ⟨1/r⟩ [1/m].
     around: Vec<(TriangleId, f32)>,
@@ -104,6 +108,22 @@ impl TipField {
         surface: &Surface,
         radius: f64,
     ) -> Result<Self, Error> {
+        Self::on_layers(response, surface, radius, |_| [1.0; 2])
+    }
+
+    /// The same on an organ whose layers yield more than their outermost tissue: to a load of each radius [m] along the
+    /// surface and along its normal, by the factors [-] of `yields` ([`LayeredHalfSpace::yields`]).
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    ///
+    /// [`LayeredHalfSpace::yields`]: crate::layered::LayeredHalfSpace::yields
+    pub fn on_layers<T: Precision>(
+        response: &SurfaceResponse<T>,
+        surface: &Surface,
+        radius: f64,
+        yields: impl Fn(f64) -> [f64; 2] + Sync,
+    ) -> Result<Self, Error> {
         let triangles = [surface.mesh().triangles().len(), response.parts().triangles];
         if triangles[0] != triangles[1] {
             return Err(Error::OtherSurface {
@@ -121,7 +141,8 @@ impl TipField {
         on_all_cores(vertices.iter_mut().enumerate(), |(vertex, load)| {
             let spread = Spread::about(surface, NodeId(vertex as u32), radius);
             load.shares = spread.shares(response);
-            load.further = further(response, surface, &spread);
+            load.yields = yields(spread.reach);
+            load.further = further(response, surface, &spread, load.yields);
             load.around = seen_from(response, surface, &spread, &load.shares);
             load.reach = spread.reach;
         });
@@ -153,9 +174,17 @@ impl TipLoad<'_> {
     }
 
     /// R, the radius of the load [m].
-    pub(super) fn reach(&self) -> f64 {
+    pub fn reach(&self) -> f64 {
         let corners = self.corners.iter();
         corners.map(|(load, weight)| load.reach * weight).sum()
+    }
+
+    /// How much more than their outermost tissue the layers yield to it: along the surface and along its normal [-].
+    pub(super) fn yields(&self) -> [f64; 2] {
+        [0, 1].map(|axis| {
+            let corners = self.corners.iter();
+            corners.map(|(load, part)| load.yields[axis] * part).sum()
+        })
     }
 
     /// The free triangles within twice that: of each vertex its part, with what they see of its load [1/m].
@@ -313,11 +342,12 @@ fn seen_from<T: Precision>(
     free.filter_map(sees).collect()
 }
 
-/// wᵀ Ξ w − c_self [1/m].
+/// wᵀ Ξ w − c_self [1/m], on layers that yield more than their outermost tissue along and across the surface [-].
 fn further<T: Precision>(
     response: &SurfaceResponse<T>,
     surface: &Surface,
     spread: &Spread,
+    [more_along, more_across]: [f64; 2],
 ) -> Matrix3<f64> {
     let parts = response.parts();
     let nu = parts.poissons_ratio;
@@ -344,7 +374,10 @@ fn further<T: Precision>(
         }
     }
     let along = tangents * along * tangents;
-    let own = (Matrix3::identity() * ((1.0 - nu) * inverse) + along * nu) * ((1.0 + nu) / PI);
+    let normals = spread.normal * spread.normal.transpose();
+    let across = normals * (more_across * (1.0 - nu) * inverse);
+    let along = (tangents * ((1.0 - nu) * inverse) + along * nu) * more_along;
+    let own = (across + along) * ((1.0 + nu) / PI);
     let further = yields - own;
     0.5 * (further + further.transpose())
 }

@@ -24,6 +24,7 @@ fn problem<'a>(solid: &'a Held, touchable: &'a [TriangleId], edge: f64) -> Conde
         held: &solid.held,
         touchable,
         edge,
+        regions: None,
     }
 }
 

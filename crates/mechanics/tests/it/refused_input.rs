@@ -350,6 +350,7 @@ fn triangles_that_are_none_or_out_of_order_are_refused_at_once() {
             held,
             touchable,
             edge: 0.01,
+            regions: None,
         };
         let memory = usize::MAX;
         let found = boundary.solve::<f32>(memory, &mut progress).unwrap_err();
@@ -383,6 +384,7 @@ fn triangles_that_are_none_or_out_of_order_are_refused_at_once() {
             held,
             touchable: free,
             edge,
+            regions: None,
         };
         let found = problem.solve::<f32>(usize::MAX, &mut progress);
         assert!(matches!(found, Err(Error::NotALength { .. })), "{edge}");

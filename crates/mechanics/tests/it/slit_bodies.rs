@@ -121,6 +121,7 @@ impl Table {
                 held: &solid.held,
                 touchable: &touchable,
                 edge,
+                regions: None,
             }
             .solve(usize::MAX, &mut |_| ControlFlow::Continue(()))
             .unwrap(),

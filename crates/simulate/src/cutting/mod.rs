@@ -41,5 +41,5 @@ pub(crate) use blade_tracking::{Blade, track_blade};
 pub(crate) use cut_path::advance;
 pub use cuts::Cuts;
 pub use gape::gape;
-pub(crate) use model::CuttingModel;
+pub(crate) use model::{CuttingModel, cuts};
 pub use parts::CutPart;

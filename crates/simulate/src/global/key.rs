@@ -1,4 +1,5 @@
 use palpate_geometry::{Surface, TriangleId};
+use palpate_mechanics::finite_elements::condensed::RegionLaws;
 use sha2::{Digest, Sha256};
 
 use super::method::Method;
@@ -15,6 +16,7 @@ pub(super) struct Ingredients<'a> {
     pub(super) held: &'a [TriangleId],
     pub(super) touchable: &'a [TriangleId],
     pub(super) method: Method,
+    pub(super) regions: Option<RegionLaws<'a>>,
 }
 
 impl Ingredients<'_> {
@@ -43,6 +45,13 @@ impl Ingredients<'_> {
                 hash.update(triangle.0.to_le_bytes());
             }
         }
+        if let Some(RegionLaws { map, laws }) = self.regions {
+            map.bytes(&mut |bytes| hash.update(bytes));
+            for law in laws {
+                hash.update(law.youngs_modulus().to_le_bytes());
+                hash.update(law.poissons_ratio().to_le_bytes());
+            }
+        }
         let digits = hash.finalize();
         digits.iter().map(|byte| format!("{byte:02x}")).collect()
     }
@@ -50,8 +59,12 @@ impl Ingredients<'_> {
 
 #[cfg(test)]
 mod tests {
+    use palpate_files::scene::InclusionShape;
+    use palpate_geometry::{AabbTree, Organ};
+    use palpate_mechanics::LinearElastic;
+    use palpate_mechanics::regions::{RegionMap, RegionPlace};
+
     use super::*;
-    use palpate_geometry::Organ;
 
     #[test]
     fn every_ingredient_counts() {
@@ -67,6 +80,7 @@ mod tests {
                 held: &of(held),
                 touchable: &of(touchable),
                 method,
+                regions: None,
             }
             .key()
         };
@@ -86,5 +100,40 @@ mod tests {
         all.sort();
         all.dedup();
         assert_eq!(all.len(), 7);
+    }
+
+    #[test]
+    fn every_region_counts() {
+        let surface = Surface::new(Organ::Cube.surface_mesh(108).unwrap()).unwrap();
+        let tree = AabbTree::new(surface.mesh());
+        let key = |depth: f64, radius: f64, modulus: f64| {
+            let ball = InclusionShape::Ball {
+                center_m: [0.0, 0.0, 0.02],
+                radius_m: radius,
+            };
+            let places = [RegionPlace::Layer(depth), RegionPlace::Shape(ball)];
+            let map = RegionMap::new(&surface, &tree, places).unwrap();
+            let laws = [1.0, 1.0, modulus].map(|of| LinearElastic::new(of, 0.3).unwrap());
+            Ingredients {
+                surface: &surface,
+                poissons_ratio: 0.3,
+                held: &[],
+                touchable: &[],
+                method: Method::FiniteElements { edge: 1e-2 },
+                regions: Some(RegionLaws {
+                    map: &map,
+                    laws: &laws,
+                }),
+            }
+            .key()
+        };
+        let first = key(1e-3, 5e-3, 2.0);
+        assert_eq!(first, key(1e-3, 5e-3, 2.0));
+        let others = [
+            key(2e-3, 5e-3, 2.0),
+            key(1e-3, 6e-3, 2.0),
+            key(1e-3, 5e-3, 3.0),
+        ];
+        assert!(others.iter().all(|other| *other != first));
     }
 }

@@ -31,10 +31,15 @@ impl Method {
     }
 
     /// Finite elements for `surface`, where they are wanted: the best first, the next where walls are lost
-    /// between its tetrahedra.
-    pub(super) fn finite(wanted: ResponseMethod, surface: &Surface, walls: &Walls) -> Vec<Self> {
+    /// between its tetrahedra. They alone answer for several tissues.
+    pub(super) fn finite(
+        wanted: ResponseMethod,
+        has_regions: bool,
+        surface: &Surface,
+        walls: &Walls,
+    ) -> Vec<Self> {
         let finite = match wanted {
-            ResponseMethod::Automatic => walls.are_thin(),
+            ResponseMethod::Automatic => has_regions || walls.are_thin(),
             ResponseMethod::BoundaryElements => false,
             ResponseMethod::FiniteElements => true,
         };
@@ -44,10 +49,8 @@ impl Method {
         let shortest = (12.0 * surface.mesh().volume() / MOST_TETRAHEDRA).cbrt();
         // Where no wall bends, they need not be as small as the triangles.
         let edge = walls.edge_of_tetrahedra().max(shortest);
-        (0..TRIES)
-            .map(|tries| edge * SHORTER.powi(tries))
-            .filter(|edge| *edge >= shortest)
-            .map(|edge| Self::FiniteElements { edge })
-            .collect()
+        let edges = (0..TRIES).map(|tries| edge * SHORTER.powi(tries));
+        let edges = edges.filter(|edge| *edge >= shortest);
+        edges.map(|edge| Self::FiniteElements { edge }).collect()
     }
 }

@@ -10,7 +10,7 @@
 //! around it only yields further; the fine one is what is seen.
 //!
 //! Boundary elements solve for it, or, where walls are too thin for them (`crate::walls`) or the scene asks for
-//! them, finite elements condensed to the surface.
+//! them, finite elements condensed to the surface. These alone have layers and inclusions, which then cost nothing in a step.
 //!
 //! Finer triangles around a contact are made by who looks at it ([`EnhancedSurface`]), of what a step tells
 //! ([`OrganField`]).
@@ -43,8 +43,11 @@ use palpate_files::scene::{Organ, Smoothing};
 use palpate_geometry::{AabbTree, Surface, TriangleId, Vec3};
 use palpate_mechanics::LinearElastic;
 use palpate_mechanics::enhance::{Carrier, EnhancementModel, Press, SurfaceField};
+use palpate_mechanics::finite_elements::condensed::RegionLaws;
+use palpate_mechanics::regions::RegionMap;
 use palpate_mechanics::surface_response::{SurfaceResponse, TipField};
 
+use crate::regions::Regions;
 use crate::tool::Tool;
 use crate::walls::Walls;
 use crate::{Error, Progress, Resources, held_region};
@@ -107,10 +110,20 @@ pub(crate) struct GlobalWorkspace {
 
 impl GlobalModel {
     /// Finds what the organ adds to a tool's tip, wherever it touches.
-    pub(crate) fn lie_under(&self, tool: &mut Tool) -> Result<(), Error> {
+    pub(crate) fn lie_under(
+        &self,
+        tool: &mut Tool,
+        regions: Option<&Regions>,
+    ) -> Result<(), Error> {
         let surface = self.enhancement.interpolation().surface();
-        let field = TipField::new(&self.response, surface, tool.typical_radius)?;
-        tool.field = Some(field);
+        let (response, radius) = (&self.response, tool.typical_radius);
+        tool.field = Some(match regions {
+            None => TipField::new(response, surface, radius)?,
+            Some(regions) => {
+                let yields = |load| regions.yields_to_load(load);
+                TipField::on_layers(response, surface, radius, yields)?
+            }
+        });
         Ok(())
     }
 
@@ -131,9 +144,10 @@ impl GlobalModel {
 }
 
 /// What a whole organ's response is made from.
-pub(crate) struct GlobalProblem {
+pub(crate) struct GlobalProblem<'a> {
     surface: Surface,
     poissons_ratio: f64,
+    regions: Option<OrganRegions<'a>>,
     held: Vec<TriangleId>,
     touchable: Vec<TriangleId>,
     walls: Walls,
@@ -142,9 +156,35 @@ pub(crate) struct GlobalProblem {
     pub(crate) warnings: Vec<String>,
 }
 
-impl GlobalProblem {
-    /// That of the organ of `scene`, which is seen as `shown`.
-    pub(crate) fn new(scene: &Scene, shown: &Surface, law: &LinearElastic) -> Result<Self, Error> {
+/// The tissues of an organ of several.
+struct OrganRegions<'a> {
+    map: &'a RegionMap,
+    /// With moduli in parts of that at the surface.
+    laws: Vec<LinearElastic>,
+}
+
+impl<'a> OrganRegions<'a> {
+    fn new(regions: &'a Regions) -> Result<Self, Error> {
+        let unit = regions.at_surface().material.at_rest.youngs_modulus();
+        let laws = regions.tissues.iter().map(|region| {
+            let law = &region.material.at_rest;
+            LinearElastic::new(law.youngs_modulus() / unit, law.poissons_ratio())
+        });
+        Ok(Self {
+            map: &regions.map,
+            laws: laws.collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+impl<'a> GlobalProblem<'a> {
+    /// That of the organ of `scene`, which is seen as `shown`, of `law` at its surface, and elsewhere of that of its `regions`.
+    pub(crate) fn new(
+        scene: &Scene,
+        shown: &Surface,
+        law: &LinearElastic,
+        regions: Option<&'a Regions>,
+    ) -> Result<Self, Error> {
         let wanted = scene.model.mechanical_triangles;
         let (surface, warnings) = mechanical_surface::mechanical_surface(shown, wanted)?;
         let (held, touchable) = sort(&scene.organ, &surface);
@@ -153,7 +193,8 @@ impl GlobalProblem {
         }
         let walls = Walls::new(&surface, &touchable);
         Ok(Self {
-            finite: Method::finite(scene.model.response, &surface, &walls),
+            finite: Method::finite(scene.model.response, regions.is_some(), &surface, &walls),
+            regions: regions.map(OrganRegions::new).transpose()?,
             walls,
             surface,
             poissons_ratio: law.poissons_ratio(),
@@ -218,6 +259,10 @@ impl GlobalProblem {
                 Err(error) => missed = Some(error),
             }
         }
+        if let Some(error) = missed.take_if(|_| self.regions.is_some()) {
+            // Boundary elements would not feel them.
+            return Err(error);
+        }
         let method = Method::BoundaryElements;
         let mut found = solve::response(&self.ingredients(method), resources, watch)?;
         found.warnings.extend(missed.map(|error| {
@@ -236,6 +281,10 @@ impl GlobalProblem {
             poissons_ratio: self.poissons_ratio,
             held: &self.held,
             touchable: &self.touchable,
+            regions: self.regions.as_ref().map(|own| RegionLaws {
+                map: own.map,
+                laws: &own.laws,
+            }),
         }
     }
 }

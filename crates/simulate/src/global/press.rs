@@ -201,7 +201,14 @@ impl GlobalModel {
         let compliance = load.map_or(Matrix3::zeros(), |load| {
             let slit = workspace.slit.as_ref();
             let more = slit.map_or(Matrix3::zeros(), |slit| slit.further(number));
-            let free = (load.structural_compliance() + more) * softness;
+            let (place, radii) = (&contact.place, [tool.typical_radius, load.reach()]);
+            let at = (place.triangle, &place.point);
+            let inclusions = tool
+                .inclusions
+                .compliance(simulation.surface.mesh(), at, radii);
+            let normal = frame.column(2);
+            let inclusions = normal * normal.transpose() * inclusions;
+            let free = (load.structural_compliance() + inclusions + more) * softness;
             frame.tr_mul(&(free - held.fixes(number, number, tools.len()))) * frame
         });
         let state = &mut tools[number];

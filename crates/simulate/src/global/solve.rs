@@ -80,6 +80,7 @@ fn solve(
         held,
         touchable,
         method,
+        regions,
     } = ingredients;
     let mut watch = |solving| watch(of_stage(solving, method));
     let response = match method {
@@ -96,6 +97,7 @@ fn solve(
             held,
             touchable,
             edge,
+            regions,
         }
         .solve(memory, &mut watch),
     };

@@ -13,12 +13,13 @@ use palpate_mechanics::nonlinear::{
 use super::Beside;
 use super::anchor::Anchor;
 use super::filling::{grading, tetrahedra};
+use super::local_compliance::WallField;
 use super::merged::Merged;
 use super::mesh_warnings::mesh_warnings;
-use super::regions::{Elements, Regions};
+use super::regions::Elements;
 use super::soft::{Piece, SoftBody, touching};
-use super::wall_compliance::WallField;
 use crate::neighbour::Neighbour;
+use crate::regions::Regions;
 use crate::{Error, held_region};
 
 /// About so many nodes, if the scene does not say; with cavities, over which a press is 10 % too stiff with fewer.
@@ -124,7 +125,7 @@ impl Composition {
         let ratios = soft.iter().map(|body| body.regions.largest_ratio());
         let ratio = ratios.fold(regions.largest_ratio(), f64::max);
         let (low, high) = shown.mesh().bounds();
-        let of_tissues = regions.warnings.clone();
+        let of_tissues = regions.nonlinear_warnings.clone();
         let mut walls = WallField::default();
         let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
         walls.extend((surface, &regions), |place| anchor.holds((*place).into()));

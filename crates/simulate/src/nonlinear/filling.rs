@@ -4,8 +4,8 @@ use palpate_geometry::{
     FillSettings, Surface, TetrahedronError, TetrahedronMesh, Vec3, coarsen, fill, refine_to,
 };
 
-use super::regions::Regions;
 use crate::Error;
+use crate::regions::Regions;
 use crate::walls::Thickness;
 
 /// Tetrahedra of the first filling for each node that is wanted, and by how much they become more where walls are lost.

@@ -7,8 +7,8 @@ use palpate_geometry::{
     Level, Resolved, Surface, TetrahedronError, TetrahedronMesh, Vec3, resolve_levels,
 };
 
-use super::regions::Regions;
 use crate::Error;
+use crate::regions::Regions;
 
 /// Volumes are those of the shapes within this part [-], after so many trials at most; the closest of them is refused beyond the
 /// other part.

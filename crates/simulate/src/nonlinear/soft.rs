@@ -15,10 +15,9 @@ use palpate_mechanics::nonlinear::{NonlinearModel, TouchingBoundary};
 use palpate_mechanics::{LinearElastic, TipLaw};
 
 use super::merged::Merged;
-use super::regions::Regions;
 use crate::Error;
 use crate::organ::{back, held_region, read_neighbour, read_tissue};
-use crate::region_places::read_regions;
+use crate::regions::Regions;
 use crate::tip_laws::stiffen;
 use crate::tool::{Tool, typical_radius};
 use crate::walls::typical_wall;
@@ -55,12 +54,12 @@ impl SoftBody {
             let (surface, more) = read_neighbour(neighbour)?;
             warnings.extend(more);
             let tree = AabbTree::new(surface.mesh());
-            let (map, more) = read_regions(layers, inclusions, &surface, &tree)?;
-            warnings.extend(more);
             let (tissue, material) = read_tissue(tissue)?;
             warnings.extend(material.warnings.iter().cloned());
-            let regions = Regions::new(layers, inclusions, map, (&tissue, &material))?;
-            warnings.extend(regions.warnings.iter().cloned());
+            let parts = (&layers[..], &inclusions[..]);
+            let regions = Regions::read(parts, (&surface, &tree), (&tissue, &material))?;
+            warnings.extend_from_slice(&regions.warnings);
+            warnings.extend_from_slice(&regions.nonlinear_warnings);
             let body = Self {
                 surface,
                 regions,

@@ -344,7 +344,7 @@ impl NonlinearOrgan {
             return None;
         }
         let radius = tool.typical_radius;
-        let local = self.rim(body, number, radius) + self.wall_compliance(body, number, radius);
+        let local = self.rim(body, number, radius) + self.local_compliance((number, tool), body);
         let local = place.frame.tr_mul(&local) * place.frame;
         let further = frame.tr_mul(&now.yields) * frame - self.of_load(&now) + local;
         let law = self.composition.pieces[body.on[number]].tip_law((number, tool));

@@ -17,6 +17,8 @@
 //! The tetrahedra know the surface but not its triangles: P takes the sixteen equal parts of a triangle,
 //! each at the nearest place of their boundary.
 //!
+//! Layers and inclusions have tetrahedra of their own, which do not cross their borders ([`RegionLaws`]).
+//!
 //! *How we know*: `condensed::…`: tubes and a hemisphere under a tip against finite elements that are
 //! graded toward it, boundary elements on a thick body, symmetry; `projection::tests`: forces that balance.
 //! Measured: `docs/theory/condensed_elements.md`.
@@ -25,7 +27,8 @@
 //! they are no longer than some triangles; the turn of a force about its triangle is that of the nearest
 //! place, off by the distance between the two surfaces.
 
+mod filling;
 mod problem;
 mod projection;
 
-pub use problem::CondensedProblem;
+pub use problem::{CondensedProblem, RegionLaws};

@@ -1,7 +1,6 @@
 use std::ops::ControlFlow;
-use std::sync::Arc;
 
-use palpate_geometry::{AabbTree, FillSettings, Surface, TriangleId, fill};
+use palpate_geometry::{AabbTree, Surface, TriangleId};
 
 use super::super::mesh::ElementMesh;
 use super::super::model::{
@@ -9,10 +8,12 @@ use super::super::model::{
 };
 use super::super::newton;
 use super::super::supports::Supports;
+use super::filling::Filling;
 use super::projection::{Boundary, Projection};
 use crate::boundary_elements::{Precision, Progress, ResponseMemory, Stage, held_triangles};
 use crate::cores::{cores, on_all_cores};
 use crate::linear::sparse::Factors;
+use crate::regions::RegionMap;
 use crate::surface_response::{ResponseParts, Sampling, SurfaceResponse, TouchableTriangle};
 use crate::{Error, LinearElastic, Vec3};
 
@@ -36,6 +37,17 @@ pub struct CondensedProblem<'a> {
     pub touchable: &'a [TriangleId],
     /// Longest edge of the tetrahedra [m]; seven tenths of a wall are short enough.
     pub edge: f64,
+    /// Its tissues, where it has several; then `poissons_ratio` is that of the one with Young's modulus 1.
+    pub regions: Option<RegionLaws<'a>>,
+}
+
+/// The tissues of a solid.
+#[derive(Debug, Clone, Copy)]
+pub struct RegionLaws<'a> {
+    /// Where they are.
+    pub map: &'a RegionMap,
+    /// The law of each region, from number 0 on, with Young's moduli in parts of that to which the response is scaled [-].
+    pub laws: &'a [LinearElastic],
 }
 
 /// K in factors, and the way from its unknowns to the triangles.
@@ -125,15 +137,18 @@ impl CondensedProblem<'_> {
         memory: usize,
         progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Condensed, Error> {
-        let law = LinearElastic::new(1.0, self.poissons_ratio)?;
         report_progress(progress, Stage::Assembly, 0.0)?;
-        let filling = fill(self.surface, &FillSettings::new(self.edge))?;
+        let Filling { mesh, laws } = Filling::of(self)?;
         report_progress(progress, Stage::Assembly, 0.01)?;
-        let boundary = Boundary::new(&filling)?;
+        let boundary = Boundary::new(&mesh)?;
         let projection = Projection::new(self.surface, &boundary);
-        let elements = ElementMesh::from_tetrahedra(&filling);
+        let elements = ElementMesh::from_tetrahedra(&mesh);
         let held = self.held_nodes(is_held, &elements.nodes, &boundary, &projection);
-        let model = FiniteElementModel::new(elements, Arc::new(law), Formulation::Mixed)?;
+        let regions: Vec<u32> = (0..mesh.tetrahedra().len())
+            .map(|number| mesh.region(number))
+            .collect();
+        let model =
+            FiniteElementModel::with_regions(elements, &laws, &regions, Formulation::Mixed)?;
         report_progress(progress, Stage::Assembly, 0.05)?;
         let mut workspace = FiniteElementWorkspace::new(&model)?;
         let size = model.size();

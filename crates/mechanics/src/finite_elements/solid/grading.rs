@@ -309,7 +309,7 @@ impl<'a> MeshContext<'a> {
             .iter()
             .filter_map(Footprint::height)
             .collect();
-        let heights = self.regions.heights();
+        let heights = self.regions.map.heights();
         let mut levels = Vec::new();
         levels.extend(circle.iter().map(|height| Level {
             height,

@@ -3,8 +3,8 @@
 use palpate_geometry::{AabbTree, Resolved, TetrahedronMesh};
 
 use super::problem::{Body, SolidPlace, SolidProblem};
+use crate::Error;
 use crate::regions::{RegionError, RegionMap, RegionPlace};
-use crate::{Error, Vec3};
 
 /// The regions of a problem.
 #[derive(Debug)]
@@ -52,36 +52,21 @@ impl SolidRegions {
         })
     }
 
-    /// The borders that tetrahedra are not to cross, as heights over them [m].
-    pub(super) fn heights(&self) -> Vec<impl Fn(&Vec3) -> f64 + use<'_>> {
-        let numbers = self.map.bounded();
-        numbers
-            .map(|number| move |place: &Vec3| self.map.height(number, place))
-            .collect()
-    }
-
     /// The mesh with its regions, as numbers among those of the problem from 1, of the sides on which its tetrahedra lie
-    /// (`resolved`, one for each of [`heights`](Self::heights)); and warnings.
+    /// (`resolved`, one for each of [`RegionMap::heights`]); and warnings.
     pub(super) fn put(
         &self,
         mesh: TetrahedronMesh,
         resolved: &[Resolved],
     ) -> Result<(TetrahedronMesh, Vec<String>), Error> {
-        let levels: Vec<usize> = self.map.bounded().collect();
-        let sides = |tetrahedron: usize| {
-            let below = levels.iter().zip(resolved);
-            below
-                .filter(move |(_, level)| level.below[tetrahedron])
-                .map(|(number, _)| *number)
-        };
         let mut regions = Vec::with_capacity(mesh.tetrahedra().len());
         for tetrahedron in 0..mesh.tetrahedra().len() {
-            regions.push(match sides(tetrahedron).next() {
-                Some(number) => self.bounded[number - 1],
-                None => {
+            regions.push(match self.map.number_of(tetrahedron, resolved) {
+                0 => {
                     let cell = mesh.region(tetrahedron) as usize;
                     self.cells.get(cell).copied().unwrap_or(0)
                 }
+                number => self.bounded[number - 1],
             } as u32);
         }
         let is_somewhere = |number: &usize| regions.contains(&(*number as u32));

@@ -1,19 +1,21 @@
-//! The compliance of a wall under a tip that its elements, which are larger than the tip, do not have.
+//! What a tip is moved by walls and inclusions that the elements, which are larger than the tip, do not have.
 //!
 //! Their load is wider. On a half-space its compliance is exchanged for that of the tip; a thin wall also bends more under a narrow
-//! load (`WallOperator` of the mechanics), the more so the larger its elements are.
+//! load (`WallOperator` of the mechanics), the more so the larger its elements are, and an inclusion is felt otherwise
+//! (`InclusionField`).
 //!
-//! *How we know*: `nonlinear_walls::…`, beside finite elements of a tube.
+//! *How we know*: `nonlinear_walls::…`, `regions::…`, beside finite elements.
 //!
-//! *Limits*: what jaws hold lacks it: a wall that is pulled far hangs on its tension and bends no more. Walls over cavities are as thick as
-//! the organ, and one that lies on a neighbour counts as free.
+//! *Limits*: what jaws hold lacks both: a wall that is pulled far hangs on its tension and bends no more. Walls over cavities are as
+//! thick as the organ, and one that lies on a neighbour counts as free.
 
 use nalgebra::Matrix3;
 use palpate_geometry::{AabbTree, NodeId, PatchField, Surface, TriangleId, Vec3};
 use palpate_mechanics::wall::{WallCompliance, WallOperator};
 
-use super::regions::Regions;
 use super::{Body, NonlinearOrgan};
+use crate::regions::Regions;
+use crate::tool::Tool;
 use crate::walls::through_walls;
 
 /// Half of a wall's thickness over the radius of its convex side, at most [-]: a lumen is no narrower than the rest.
@@ -76,19 +78,27 @@ impl WallField {
 }
 
 impl NonlinearOrgan {
-    /// What what tool `number` loads, with a radius [m], yields more along its normal, at rest [m/N].
-    pub(super) fn wall_compliance(&self, body: &Body, number: usize, radius: f64) -> Matrix3<f64> {
+    /// What a tip, that of `tool` by its number, is moved by walls and inclusions along its normal, at rest, that its load is not
+    /// [m/N].
+    pub(super) fn local_compliance(
+        &self,
+        (number, tool): (usize, &Tool),
+        body: &Body,
+    ) -> Matrix3<f64> {
         let load = &body.loads[number];
         let composition = &self.composition;
         let mesh = composition.shown.mesh();
         let near = composition.tree.nearest(mesh, &load.place);
+        let radii = [tool.typical_radius, load.radius];
         let corners = mesh.corners(near.triangle).into_iter();
-        let compliance: f64 = corners
+        let of_walls: f64 = corners
             .zip(near.on.barycentric)
             .map(|(node, weight)| {
-                weight * composition.walls.at[node.index()].beyond_half_space(radius, load.radius)
+                weight * composition.walls.at[node.index()].beyond_half_space(radii)
             })
             .sum();
+        let at = (near.triangle, &load.place);
+        let compliance = of_walls + tool.inclusions.compliance(mesh, at, radii);
         let law = composition.pieces[body.on[number]].law();
         load.normal * load.normal.transpose() * (compliance / law.youngs_modulus())
     }

@@ -1,0 +1,320 @@
+//! How much less a half-space yields to a load on its surface where an inclusion lies below.
+//!
+//! An inclusion of other moduli in a stress that is σ without it makes the compliance C of a load smaller by x C, with
+//!
+//! ```text
+//! x C = ∫ (A_K σ_m²/K + A_G s:s/(2 G)) dV,   A_K = (K'/K − 1)/(1 + α (K'/K − 1)),   A_G alike with G and β
+//! ```
+//!
+//! over the inclusion, σ_m and s being the mean and the deviator of the stress of a unit force, and α and β those of a ball
+//! [Eshelby 1957]. That is so where it is small beside its depth. Where it takes a large part of the energy, C is smaller by
+//! x/(1 + (1 − β) x) of itself: the bound of Hashin and Shtrikman for balls of that share, which makes a tip that is deep in a
+//! large inclusion as stiff as the inclusion. Stresses are those of a flat punch [Sneddon 1946], and of loads (1 − (r/R)²)² as
+//! sums of punches, in closed form.
+//!
+//! A mesh whose load is wider than a tip does not have what the inclusion does to the tip. [`InclusionField::exchange`] is the
+//! difference.
+//!
+//! *How we know*: tests of this module; `regions::…` of `simulate`, beside finite elements.
+//!
+//! *Limits*: the force along the normal; a flat surface; inclusions feel neither one another nor the surface; of other shapes than
+//! a ball, α and β are those of a ball.
+
+use std::f64::consts::PI;
+
+use nalgebra::Complex;
+
+use crate::regions::RegionMap;
+use crate::{LinearElastic, Vec3};
+
+/// Places of an inclusion at which stress is taken, about.
+const PLACES: f64 = 300.0;
+
+/// Punches of which a load is the sum.
+const PUNCHES: usize = 8;
+
+/// A tip that would feel an inclusion less than this if both were points does not feel it [-].
+const LEAST: f64 = 5e-4;
+
+/// What is left at least of the stiffness of a place over a soft inclusion [-].
+const LEAST_STIFFNESS: f64 = 0.1;
+
+/// The inclusions of a body.
+#[derive(Debug, Clone, Default)]
+pub struct InclusionField {
+    inclusions: Vec<Inclusion>,
+    poissons_ratio: f64,
+    /// Young's modulus of what is around over that to which compliances are scaled [-].
+    modulus: f64,
+}
+
+#[derive(Debug, Clone)]
+struct Inclusion {
+    places: Vec<Vec3>,
+    /// Their mean [m].
+    middle: Vec3,
+    /// Of each place [m³].
+    volume: f64,
+    /// A_K E/K and A_G E/(2 G), with the moduli of what is around [-].
+    changes: [f64; 2],
+    /// α and β [-].
+    shares: [f64; 2],
+}
+
+/// A load on the surface: a sum of punches with these weights [-] and radii [m].
+struct Load([(f64, f64); PUNCHES]);
+
+impl InclusionField {
+    /// Of the shapes of a `map`, in tissue of the law `around` and with the bulk and shear `moduli` of its regions [Pa] from number 0
+    /// on: zeros of what is empty. Compliances are scaled to the Young's modulus `unit` [Pa].
+    pub fn new(map: &RegionMap, around: &LinearElastic, moduli: &[[f64; 2]], unit: f64) -> Self {
+        let nu = around.poissons_ratio();
+        let shares = [
+            (1.0 + nu) / (3.0 * (1.0 - nu)),
+            2.0 * (4.0 - 5.0 * nu) / (15.0 * (1.0 - nu)),
+        ];
+        let modulus = around.youngs_modulus();
+        let of_energy = [around.bulk_modulus(), 2.0 * around.shear_modulus()];
+        let of_around = [around.bulk_modulus(), around.shear_modulus()];
+        let inclusions = moduli.iter().enumerate().filter_map(|(number, moduli)| {
+            let (places, volume) = map.places_in(number, PLACES)?;
+            let changes = [0, 1].map(|k| {
+                let more = moduli[k] / of_around[k] - 1.0;
+                more / (1.0 + shares[k] * more) * modulus / of_energy[k]
+            });
+            Some(Inclusion {
+                middle: places.iter().sum::<Vec3>() / places.len() as f64,
+                places,
+                volume,
+                changes,
+                shares,
+            })
+        });
+        Self {
+            inclusions: inclusions.filter(|own| own.changes != [0.0; 2]).collect(),
+            poissons_ratio: nu,
+            modulus: modulus / unit,
+        }
+    }
+
+    /// Whether it has none.
+    pub fn is_empty(&self) -> bool {
+        self.inclusions.is_empty()
+    }
+
+    /// How much more a flat tip of the radius `tip` [m] is moved at `place` [m] along the outward `normal` [-] than loads
+    /// (1 − (r/R)²)² of the radii `loads` [m] move their own means, beyond the same difference without inclusions, times Young's
+    /// modulus over the force [1/m]: less than zero over what is stiff.
+    pub fn exchange<const LOADS: usize>(
+        &self,
+        (tip, loads): (f64, [f64; LOADS]),
+        place: &Vec3,
+        normal: &Vec3,
+    ) -> [f64; LOADS] {
+        let mut sums = [0.0; LOADS];
+        for inclusion in &self.inclusions {
+            if self.is_out_of_reach(inclusion, tip, place) {
+                continue;
+            }
+            let less = |load: Load| self.less(inclusion, &load, [place, normal]);
+            let of_tip = less(Load::punch(tip));
+            for (sum, load) in sums.iter_mut().zip(loads) {
+                *sum += (less(Load::bump(load)) - of_tip) / self.modulus;
+            }
+        }
+        sums
+    }
+
+    /// Whether a tip at `place` would not feel an inclusion if both were points.
+    fn is_out_of_reach(&self, inclusion: &Inclusion, tip: f64, place: &Vec3) -> bool {
+        let square = (inclusion.middle - place).norm_squared();
+        let change = inclusion.changes.iter().map(|change| change.abs());
+        let volume = inclusion.volume * inclusion.places.len() as f64;
+        // A point force has a stress of 3/(2 π r²) at most, and a tip the compliance 1/(2 a).
+        let stress = 1.5 / (PI * square);
+        2.0 * tip * stress * stress * volume * change.sum::<f64>() < LEAST
+    }
+
+    /// By how much less a load moves itself at a place and normal, times the Young's modulus of what is around [1/m].
+    fn less(&self, inclusion: &Inclusion, load: &Load, [place, normal]: [&Vec3; 2]) -> f64 {
+        let mut energies = [0.0; 2];
+        for inside in &inclusion.places {
+            let way = inside - place;
+            let depth = -way.dot(normal);
+            if depth <= 0.0 {
+                continue;
+            }
+            let off = (way.norm_squared() - depth * depth).max(0.0).sqrt();
+            let stress = load.stress(off, depth, self.poissons_ratio);
+            for ((energy, stress), change) in energies.iter_mut().zip(stress).zip(inclusion.changes)
+            {
+                *energy += inclusion.volume * change * stress;
+            }
+        }
+        let own = load.own_compliance(self.poissons_ratio);
+        let x = energies.map(|energy| energy / own);
+        let sizes = x.map(f64::abs);
+        let all = sizes[0] + sizes[1];
+        if all == 0.0 {
+            return 0.0;
+        }
+        let share = (sizes[0] * inclusion.shares[0] + sizes[1] * inclusion.shares[1]) / all;
+        let x = x[0] + x[1];
+        own * x / (1.0 + (1.0 - share) * x).max(LEAST_STIFFNESS)
+    }
+}
+
+impl Load {
+    /// That of a flat punch.
+    fn punch(radius: f64) -> Self {
+        let mut punches = [(0.0, radius); PUNCHES];
+        punches[0].0 = 1.0;
+        Self(punches)
+    }
+
+    /// (1 − (r/R)²)²: punches of the radii t R with the weights 32/π t² (1 − t²)^(3/2) dt.
+    fn bump(radius: f64) -> Self {
+        Self(std::array::from_fn(|n| {
+            let step = 0.5 * PI / PUNCHES as f64;
+            let (sine, cosine) = (step * (n as f64 + 0.5)).sin_cos();
+            let weight = 32.0 / PI * sine.powi(2) * cosine.powi(4) * step;
+            (weight, sine * radius)
+        }))
+    }
+
+    fn punches(&self) -> impl Iterator<Item = &(f64, f64)> + Clone {
+        self.0.iter().filter(|(weight, _)| *weight > 0.0)
+    }
+
+    /// How far a unit force moves itself on a half-space, times Young's modulus [1/m].
+    fn own_compliance(&self, poissons_ratio: f64) -> f64 {
+        let pairs = self.punches().flat_map(|one| {
+            let other = self.punches();
+            other.map(move |other| one.0 * other.0 / (2.0 * one.1.max(other.1)))
+        });
+        (1.0 - poissons_ratio * poissons_ratio) * pairs.sum::<f64>()
+    }
+
+    /// σ_m² and s:s [1/m⁴] of a unit force, at the distance `off` [m] from its axis and the depth `z` [m].
+    fn stress(&self, off: f64, z: f64, poissons_ratio: f64) -> [f64; 2] {
+        let r = off.max(1e-6 * z);
+        // σ_zz, σ_rz, σ_rr, σ_θθ: imaginary parts, for a punch is a point force at an imaginary depth.
+        let mut sums = [0.0; 4];
+        for (weight, radius) in self.punches() {
+            let depth = Complex::new(z, -radius);
+            let distance = (depth * depth + r * r).sqrt();
+            let cubed = distance * distance * distance;
+            let bent = (distance - depth) / r;
+            let around = (bent * (1.0 - 2.0 * poissons_ratio) - bent * z / distance) / r;
+            let inverse = distance.inv();
+            let each = [
+                inverse + depth * z / cubed,
+                Complex::from(z * r) / cubed,
+                inverse - depth * z / cubed - around,
+                inverse * (2.0 * poissons_ratio) + around,
+            ];
+            let unit = -weight / (2.0 * PI * radius);
+            for (sum, one) in sums.iter_mut().zip(each) {
+                *sum += unit * one.im;
+            }
+        }
+        let [axial, shear, radial, hoop] = sums;
+        let mean = (axial + radial + hoop) / 3.0;
+        let deviator = [axial, radial, hoop].map(|stress| (stress - mean).powi(2));
+        [
+            mean * mean,
+            deviator.iter().sum::<f64>() + 2.0 * shear * shear,
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use palpate_files::scene::InclusionShape;
+    use palpate_geometry::{AabbTree, Organ, Surface};
+
+    use super::*;
+    use crate::layered::bump;
+    use crate::regions::RegionPlace;
+
+    /// Judges: Boussinesq's point force far away; σ_zz of a punch on its axis, F/(2 π a²) (1 + 3 ζ²)/(1 + ζ²)² with ζ = z/a
+    /// [Johnson 1985]; equilibrium, σ_zz over a plane being the force.
+    #[test]
+    fn stresses_are_those_of_closed_forms() {
+        let (a, nu) = (0.004, 0.3);
+        let load = Load::punch(a);
+        let [mean, deviator] = load.stress(0.3, 0.4, nu);
+        let far = 0.5_f64;
+        let expected = -(1.0 + nu) * 0.4 / (3.0 * PI * far.powi(3));
+        assert!((mean / expected.powi(2) - 1.0).abs() < 1e-3, "{mean}");
+        let incompressible = load.stress(0.3, 0.4, 0.5)[1];
+        let radial = 1.5 * 0.8 / (PI * far * far);
+        assert!((incompressible / (2.0 / 3.0 * radial * radial) - 1.0).abs() < 1e-3);
+        assert!(deviator > 0.0);
+        // In incompressible tissue the stress on the axis is uniaxial but for a mean: s:s = 2/3 (σ_zz − σ_rr)².
+        let zeta: f64 = 1.5;
+        let [mean, deviator] = load.stress(0.0, zeta * a, 0.5);
+        let axial = -(1.0 + 3.0 * zeta.powi(2)) / (1.0 + zeta.powi(2)).powi(2) / (2.0 * PI * a * a);
+        let found = -mean.sqrt() - (2.0 / 3.0 * deviator).sqrt();
+        assert!((found / axial - 1.0).abs() < 1e-3, "{found} {axial}");
+    }
+
+    /// Judge: the Hankel transform of the load and its integral.
+    #[test]
+    fn a_load_is_the_sum_of_its_punches() {
+        let load = Load::bump(1.0);
+        for x in [0.0, 1.0, 3.0, 6.0] {
+            let sum: f64 = load
+                .punches()
+                .map(|(weight, t)| {
+                    weight
+                        * if x == 0.0 {
+                            1.0
+                        } else {
+                            (x * t).sin() / (x * t)
+                        }
+                })
+                .sum();
+            assert!((sum - bump(x)).abs() < 1e-5, "{x}: {sum} {}", bump(x));
+        }
+        // 48² ∫ J₃²(x) x⁻⁶ dx/π; tolerance: the cusp at equal radii, the square of a step.
+        let own = load.own_compliance(0.0);
+        assert!((own * PI / 2.408_17 - 1.0).abs() < 0.01, "{}", own * PI);
+    }
+
+    fn ball(radius: f64, depth: f64, times: f64) -> InclusionField {
+        let surface = Surface::new(Organ::Cube.surface_mesh(768).unwrap()).unwrap();
+        let tree = AabbTree::new(surface.mesh());
+        let shape = InclusionShape::Ball {
+            center_m: [0.0, 0.0, 0.05 - depth],
+            radius_m: radius,
+        };
+        let map = RegionMap::new(&surface, &tree, [RegionPlace::Shape(shape)]).unwrap();
+        let around = LinearElastic::new(1.0, 0.499).unwrap();
+        let moduli = [around.bulk_modulus(), around.shear_modulus()];
+        let inside = moduli.map(|modulus| times * modulus);
+        InclusionField::new(&map, &around, &[moduli, inside], 1.0)
+    }
+
+    /// Judges: a ball so deep that the stress in it is nearly uniform, whose energy is known [Eshelby 1957]: tolerance 5 %, the squares of
+    /// its radius and that of the tip over the depth are 1 % each; none far away; one that is softer yields more; a load with the second
+    /// moment of the tip's, R = 1.63 a, stands for it.
+    #[test]
+    fn a_deep_ball_is_felt_by_its_energy() {
+        let (radius, depth, a) = (0.006, 0.04, 0.004);
+        let place = 0.05 * Vec3::z();
+        let felt =
+            |times, load| ball(radius, depth, times).exchange((a, [load]), &place, &Vec3::z())[0];
+        let volume = 4.0 / 3.0 * PI * radius.powi(3);
+        let stress: f64 = 1.5 / (PI * depth * depth);
+        let expected = -2.0 / (1.0 + 0.4 * 2.0) * volume * stress * stress;
+        // A load as wide as a metre moves nothing.
+        let found = felt(3.0, 1.0);
+        assert!((found / expected - 1.0).abs() < 0.05, "{found} {expected}");
+        assert!(felt(0.3, 1.0) > 0.0 && felt(1.0, 1.0) == 0.0);
+        assert!(felt(3.0, 1.63 * a).abs() < 0.01 * found.abs());
+        let far = place + 0.045 * Vec3::x();
+        let aside = ball(0.002, 0.01, 3.0).exchange((1e-4, [1.0]), &far, &Vec3::z());
+        assert_eq!(aside, [0.0]);
+    }
+}

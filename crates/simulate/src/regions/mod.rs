@@ -1,0 +1,277 @@
+//! The tissues of an organ: layers, inclusions and what is around them, where `palpate_mechanics::regions` says.
+//!
+//! What a tip meets, and what the load that stands for it in a mesh does at the surface, are those of a layered half-space
+//! (`palpate_mechanics::layered`).
+
+mod inclusion_table;
+mod places;
+
+pub(crate) use inclusion_table::InclusionTable;
+pub use places::read_inclusion;
+
+use palpate_files::Tissue;
+use palpate_files::scene::{CavityContent, Inclusion, Layer, PartContent, TissueChoice};
+use palpate_files::tissue::LawName;
+use palpate_geometry::{AabbTree, Surface, Vec3};
+use palpate_mechanics::inclusion::InclusionField;
+use palpate_mechanics::layered::{LayeredHalfSpace, LoadShape};
+use palpate_mechanics::nonlinear::Moduli;
+use palpate_mechanics::regions::RegionMap;
+use palpate_mechanics::{LinearElastic, Material};
+
+use crate::Error;
+use crate::organ::read_tissue;
+
+/// The nonlinear model takes a larger Poisson's ratio as this [-]: volume is kept to the percent, and a few iterations suffice.
+const LARGEST_RATIO: f64 = 0.49;
+
+/// Radii [m] for which the layers are solved: from one, each by this factor larger than the one before.
+const LEAST_RADIUS: f64 = 1e-4;
+const FACTOR: f64 = 1.2;
+const RADII: usize = 45;
+
+/// A tissue of the organ.
+#[derive(Debug, Clone)]
+pub(crate) struct RegionTissue {
+    pub(crate) tissue: Tissue,
+    pub(crate) material: Material,
+    /// As the nonlinear model takes it.
+    pub(crate) moduli: Moduli<f64>,
+    /// At rest, as the nonlinear model takes it.
+    pub(crate) law: LinearElastic,
+}
+
+/// A cavity of the organ.
+#[derive(Debug, Clone)]
+pub(crate) struct RegionCavity {
+    /// Its number in the map.
+    pub(crate) number: usize,
+    pub(crate) name: String,
+    pub(crate) content: CavityContent,
+}
+
+/// Where which tissue is.
+#[derive(Debug, Clone)]
+pub(crate) struct Regions {
+    /// Of the organ, of the layers from outside, of the inclusions. That of a cavity has no element.
+    pub(crate) tissues: Vec<RegionTissue>,
+    pub(crate) cavities: Vec<RegionCavity>,
+    pub(crate) layers: usize,
+    /// Names of layers and inclusions.
+    pub(crate) names: Vec<String>,
+    pub(crate) map: RegionMap,
+    /// How much more than their outermost tissue the layers yield to a flat tip and to a load of each radius [-].
+    punch: Vec<[f64; 2]>,
+    load: Vec<[f64; 2]>,
+    /// On the tissues, and on what the nonlinear model makes of them.
+    pub(crate) warnings: Vec<String>,
+    pub(crate) nonlinear_warnings: Vec<String>,
+}
+
+impl Regions {
+    /// The `layers` and `inclusions` of the body within `surface`, whose tree is `tree`, which is otherwise of one tissue.
+    ///
+    /// # Errors
+    /// When a file cannot be read, or a layer or a shape does not fit into the body.
+    pub(crate) fn read(
+        (layers, inclusions): (&[Layer], &[Inclusion]),
+        (surface, tree): (&Surface, &AabbTree),
+        (tissue, material): (&Tissue, &Material),
+    ) -> Result<Self, Error> {
+        let (map, mut warnings) = places::read_regions(layers, inclusions, surface, tree)?;
+        let own = (tissue.clone(), material.clone());
+        let mut read = |choice: &TissueChoice| {
+            let (tissue, material) = read_tissue(choice)?;
+            warnings.extend(material.warnings.iter().cloned());
+            Ok::<_, Error>((tissue, material))
+        };
+        let mut nonlinear_warnings = Vec::new();
+        let mut region = |own| RegionTissue::new(own, &mut nonlinear_warnings);
+        let mut tissues = vec![region(own)?];
+        for layer in layers {
+            tissues.push(region(read(&layer.tissue)?)?);
+        }
+        let mut cavities = Vec::new();
+        for inclusion in inclusions {
+            let number = tissues.len();
+            tissues.push(match &inclusion.content {
+                PartContent::Tissue(tissue) => region(read(tissue)?)?,
+                PartContent::Cavity(content) => {
+                    cavities.push(RegionCavity {
+                        number,
+                        name: inclusion.name.clone(),
+                        content: *content,
+                    });
+                    tissues[0].clone()
+                }
+            });
+        }
+        for warnings in [&mut warnings, &mut nonlinear_warnings] {
+            warnings.sort();
+            warnings.dedup();
+        }
+        let layered = LayeredHalfSpace {
+            layers: layers
+                .iter()
+                .zip(&tissues[1..])
+                .map(|(layer, region)| (layer.thickness_m, region.law))
+                .collect(),
+            base: tissues[0].law,
+        };
+        let yields = |shape| -> Vec<[f64; 2]> {
+            let radii = (0..RADII).filter(|_| !layers.is_empty());
+            radii
+                .map(|n| layered.yields(shape, LEAST_RADIUS * FACTOR.powi(n as i32)))
+                .collect()
+        };
+        let names = layers.iter().map(|layer| &layer.name);
+        let names = names.chain(inclusions.iter().map(|inclusion| &inclusion.name));
+        Ok(Self {
+            layers: layers.len(),
+            names: names.cloned().collect(),
+            map,
+            punch: yields(LoadShape::Punch),
+            load: yields(LoadShape::Bump),
+            tissues,
+            cavities,
+            warnings,
+            nonlinear_warnings,
+        })
+    }
+
+    /// The region of a place [m], as if cavities were filled.
+    pub(crate) fn tissue_at(&self, place: &Vec3) -> usize {
+        let is_tissue = |number: usize| self.cavities.iter().all(|own| own.number != number);
+        self.map
+            .region_below(|number| is_tissue(*number) && self.map.height(*number, place) <= 0.0)
+    }
+
+    /// Whether all of it is of one law.
+    pub(crate) fn are_alike(&self) -> bool {
+        let first = &self.tissues[0].tissue.elasticity;
+        let mut others = self.beside();
+        self.cavities.is_empty() && others.all(|tissue| tissue.elasticity == *first)
+    }
+
+    /// Whether all of it relaxes alike.
+    pub(crate) fn relax_alike(&self) -> bool {
+        let mut others = self.tissues.iter();
+        let surface = &self.at_surface().material.prony;
+        others.all(|region| region.material.prony == *surface)
+    }
+
+    /// The tissues: of the organ, of the layers from outside, of the inclusions.
+    pub(crate) fn all(&self) -> impl Iterator<Item = &Tissue> {
+        self.tissues.iter().map(|region| &region.tissue)
+    }
+
+    /// The closed surfaces of inclusions.
+    pub(crate) fn enclosed(&self) -> impl Iterator<Item = &Surface> {
+        self.map.enclosed()
+    }
+
+    /// Layers and inclusions: with what tissue, beside that of the organ.
+    pub(crate) fn beside(&self) -> impl Iterator<Item = &Tissue> {
+        self.tissues[1..].iter().map(|region| &region.tissue)
+    }
+
+    /// What lies at the outer surface.
+    pub(crate) fn at_surface(&self) -> &RegionTissue {
+        &self.tissues[usize::from(self.layers > 0)]
+    }
+
+    /// How much more than the tissue at the surface the layers yield to a flat tip of this radius [m]: along the surface, and
+    /// along its normal [-].
+    pub(crate) fn yields_to_tip(&self, radius: f64) -> [f64; 2] {
+        interpolate(&self.punch, radius)
+    }
+
+    /// The same for a load.
+    pub(crate) fn yields_to_load(&self, radius: f64) -> [f64; 2] {
+        interpolate(&self.load, radius)
+    }
+
+    /// What the inclusions, and cavities, are to loads on the tissue around them, whose `law` of each tissue is scaled to Young's
+    /// modulus of the tissue at the surface.
+    pub(crate) fn inclusions(
+        &self,
+        law: impl Fn(&RegionTissue) -> LinearElastic,
+    ) -> InclusionField {
+        let around = law(&self.tissues[0]);
+        let moduli = self.tissues.iter().enumerate().map(|(number, region)| {
+            let cavity = self.cavities.iter().find(|own| own.number == number);
+            match cavity.map(|own| own.content) {
+                None => [law(region).bulk_modulus(), law(region).shear_modulus()],
+                Some(CavityContent::Pressure(_)) => [0.0; 2],
+                Some(CavityContent::Fluid(_)) => [around.bulk_modulus(), 0.0],
+            }
+        });
+        let moduli: Vec<_> = moduli.collect();
+        let unit = law(self.at_surface()).youngs_modulus();
+        InclusionField::new(&self.map, &around, &moduli, unit)
+    }
+
+    /// What a tip of this radius [m] meets: the tissue at the surface, as stiff as the layers are to it.
+    pub(crate) fn touched(&self, radius: f64) -> Result<(Tissue, Material), Error> {
+        let RegionTissue {
+            tissue, material, ..
+        } = self.at_surface();
+        if self.layers == 0 {
+            return Ok((tissue.clone(), material.clone()));
+        }
+        let factor = 1.0 / self.yields_to_tip(radius)[1];
+        let mut tissue = tissue.clone();
+        tissue.elasticity = tissue.elasticity.times(factor);
+        let material = Material::from_tissue(&tissue)?;
+        Ok((tissue, material))
+    }
+}
+
+impl RegionTissue {
+    fn new(
+        (tissue, material): (Tissue, Material),
+        warnings: &mut Vec<String>,
+    ) -> Result<Self, Error> {
+        let given = material.at_rest.poissons_ratio();
+        let ratio = given.min(LARGEST_RATIO);
+        let shear = material.at_rest.shear_modulus();
+        if ratio < given {
+            warnings.push(format!(
+                "Poisson's ratio {given:.4} is taken as {LARGEST_RATIO} around the tips, with the same shear modulus: the \
+                 nonlinear model keeps volume to the percent"
+            ));
+        }
+        let law = tissue.elasticity.law();
+        let (c10, c01) = match (law, tissue.elasticity.values().as_slice()) {
+            (LawName::MooneyRivlin, &[c10, c01]) => (c10, c01),
+            (LawName::Linear | LawName::NeoHookean, _) => (0.5 * shear, 0.0),
+            _ => {
+                warnings.push(format!(
+                    "the organ around the tips answers as neo-Hookean tissue of the same modulus at rest; the tips \
+                     themselves meet the {} law",
+                    law.row().title
+                ));
+                (0.5 * shear, 0.0)
+            }
+        };
+        Ok(Self {
+            moduli: Moduli::mooney_rivlin(c10, c01, ratio)?,
+            law: LinearElastic::new(2.0 * shear * (1.0 + ratio), ratio)?,
+            tissue,
+            material,
+        })
+    }
+}
+
+/// At a radius [m]; one of nothing.
+fn interpolate(table: &[[f64; 2]], radius: f64) -> [f64; 2] {
+    let Some(last) = table.len().checked_sub(1) else {
+        return [1.0; 2];
+    };
+    let at = (radius / LEAST_RADIUS).ln() / FACTOR.ln();
+    let at = at.clamp(0.0, last as f64);
+    let low = (at as usize).min(last.saturating_sub(1));
+    let part = at - low as f64;
+    let [from, to] = [table[low], table[(low + 1).min(last)]];
+    [0, 1].map(|axis| (1.0 - part) * from[axis] + part * to[axis])
+}
