@@ -17,7 +17,7 @@
 //! which is exact for a known load. That of a flat punch is the sum of three, (1 − (r/a)²) to the powers −1/2, 1/2 and 3/2,
 //! that yields least under a given force: it is flat. Loads along the surface are taken to have the same shapes.
 //!
-//! *How we know*: tests of this module, `nonlinear_regions::…` of `simulate`.
+//! *How we know*: tests of this module, `regions::…` of `simulate`.
 //!
 //! *Limits*: flat layers, small strain; a smooth punch.
 

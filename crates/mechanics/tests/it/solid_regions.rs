@@ -13,7 +13,7 @@ use palpate_mechanics::layered::{LayeredHalfSpace, LoadShape};
 use palpate_mechanics::regions::{RegionError, RegionPlace};
 use palpate_mechanics::{Error, Law, LinearElastic, Vec3};
 
-use crate::solid::{at, cube, plane};
+use crate::solid::{HALF, at, cube, plane};
 
 const DENSITY: f64 = 1000.0;
 
@@ -158,65 +158,111 @@ fn volumes(positions: &[Vec3], cells: &[u32], regions: &[u32]) -> [f64; 2] {
     volumes
 }
 
-/// A punch on a layer of this thickness on a cube of another tissue, which has Poisson's ratio [-] and modulus [Pa].
-const RADIUS: f64 = 4e-3;
-const THICKNESS: f64 = 5e-3;
+/// A punch on a layer, this many times as thick as its radius, on a cube of another tissue, which has Poisson's ratio [-] and
+/// modulus [Pa].
+const THICKNESS: f64 = 1.25;
 const RATIO: f64 = 0.3;
 const BASE: f64 = 10e3;
 
-fn of_half_space(modulus: f64) -> f64 {
-    (1.0 - RATIO * RATIO) / (2.0 * RADIUS * modulus)
-}
+/// Under a punch of this radius [m].
+struct Layered(f64);
 
-fn uniform() -> SolidProblem {
-    SolidProblem {
-        law: linear(BASE, RATIO),
-        ..cube(RADIUS, RATIO, Friction::Frictionless)
+impl Layered {
+    /// What a half-space of the base yields [m/N].
+    fn half_space(&self) -> f64 {
+        (1.0 - RATIO * RATIO) / (2.0 * self.0 * BASE)
+    }
+
+    fn uniform(&self) -> SolidProblem {
+        SolidProblem {
+            law: linear(BASE, RATIO),
+            ..cube(self.0, RATIO, Friction::Frictionless)
+        }
+    }
+
+    /// A layer that is `contrast` times as stiff, around the whole cube.
+    fn coated(&self, contrast: f64) -> SolidProblem {
+        let layer = RegionPlace::Layer(THICKNESS * self.0);
+        SolidProblem {
+            regions: vec![region(layer, linear(contrast * BASE, RATIO))],
+            ..self.uniform()
+        }
+    }
+
+    /// The same as cells of a volume mesh, on the top of the cube alone.
+    fn on_top(&self, contrast: f64) -> SolidProblem {
+        let thickness = THICKNESS * self.0;
+        let (low, high) = (Vec3::repeat(-HALF), Vec3::repeat(HALF));
+        let block = TetrahedronMesh::block(low, high, [8, 8, 5]).unwrap();
+        let (mut vertices, tetrahedra) = block.into_parts();
+        let levels = [-1.0, -0.5, 0.0, 0.5, 1.0 - thickness / HALF, 1.0];
+        for vertex in &mut vertices {
+            let level = 2.5 * (vertex.z / HALF + 1.0);
+            vertex.z = HALF * levels[level.round() as usize];
+        }
+        let mesh = TetrahedronMesh::new(vertices, tetrahedra).unwrap();
+        let numbers = (0..mesh.tetrahedra().len()).map(|t| {
+            let height = mesh.positions(t).iter().sum::<Vec3>().z / 4.0;
+            u32::from(height > HALF - thickness)
+        });
+        let mesh = mesh.clone().with_regions(numbers.collect()).unwrap();
+        SolidProblem {
+            body: Body::Volume(mesh),
+            regions: vec![SolidRegion {
+                place: SolidPlace::Cells(1),
+                content: RegionContent::Tissue {
+                    law: linear(contrast * BASE, RATIO),
+                    density: DENSITY,
+                },
+            }],
+            ..self.uniform()
+        }
+    }
+
+    /// The compliance of a problem [m/N], without the error of the first order in the edges.
+    fn converged(&self, problem: &SolidProblem) -> f64 {
+        let [coarse, fine] = [0, 1].map(|halvings| {
+            let answer = at(problem, halvings);
+            println!("{} unknowns, {:?}", answer.unknowns, answer.warnings);
+            0.01 * self.0 / answer.force_along
+        });
+        2.0 * fine - coarse
+    }
+
+    /// How far `problem` is off [-]. Judge: a layered half-space by transfer matrices (`palpate_mechanics::layered`), whose layer is
+    /// `contrast` times as stiff, after what the cube yields less than a half-space far from the punch.
+    fn off(&self, contrast: f64, problem: &SolidProblem) -> f64 {
+        let of = |modulus| LinearElastic::new(modulus, RATIO).unwrap();
+        let layered = LayeredHalfSpace {
+            layers: vec![(THICKNESS * self.0, of(contrast * BASE))],
+            base: of(BASE),
+        };
+        let of_layered = layered.yields(LoadShape::Punch, self.0)[1] * self.half_space() / contrast;
+        let of_cube = self.half_space() - self.converged(&self.uniform());
+        let off = self.converged(problem) / (of_layered - of_cube) - 1.0;
+        let part = of_cube / of_layered;
+        println!(
+            "stiffness ratio {contrast}: {:.2} % off; the cube yields {:.2} % less",
+            100.0 * off,
+            100.0 * part
+        );
+        off
     }
 }
 
-/// What a layered half-space yields by transfer matrices, whose layer is `contrast` times as stiff.
-fn of_layered(contrast: f64) -> f64 {
-    let modulus = contrast * BASE;
-    let layered = LayeredHalfSpace {
-        layers: vec![(THICKNESS, LinearElastic::new(modulus, RATIO).unwrap())],
-        base: LinearElastic::new(BASE, RATIO).unwrap(),
-    };
-    layered.yields(LoadShape::Punch, RADIUS)[1] * of_half_space(modulus)
-}
-
-fn compliance(problem: &SolidProblem, halvings: i32) -> f64 {
-    let answer = at(problem, halvings);
-    println!("{} unknowns, {:?}", answer.unknowns, answer.warnings);
-    0.01 * RADIUS / answer.force_along
-}
-
-/// Judge: layered half-spaces by transfer matrices (`palpate_mechanics::layered`), after what the block yields less than a
-/// half-space far from the punch. The layer goes around the whole cube, which is not felt where it is soft. Tolerance 2 %, as
-/// asked for.
+/// Tolerance 2 %, as asked for. A layer of the product goes around the whole cube, which is not felt where it is soft. A stiff one
+/// would stiffen the sides, so that it is cells on the top; and what the cube yields less has to be little of what the layer does, for
+/// it is that of a cube without a layer.
 #[test]
-#[ignore = "one to two minutes"]
+#[ignore = "slow: four minutes"]
 fn a_layer_yields_as_on_a_half_space() {
-    // Of the first order in the edges.
-    let converged = |problem: &SolidProblem| {
-        let [coarse, fine] = [0, 1].map(|halvings| compliance(problem, halvings));
-        2.0 * fine - coarse
-    };
-    let of_block = of_half_space(BASE) - converged(&uniform());
-    let part = of_block / of_half_space(BASE);
-    println!("the block yields {:.2} % less", 100.0 * part);
     for contrast in [0.1, 0.3] {
-        let expected = of_layered(contrast) - of_block;
-        let layered = SolidProblem {
-            regions: vec![region(
-                RegionPlace::Layer(THICKNESS),
-                linear(contrast * BASE, RATIO),
-            )],
-            ..uniform()
-        };
-        let off = converged(&layered) / expected - 1.0;
-        println!("stiffness ratio {contrast}: {:.3} % off", 100.0 * off);
-        assert!(off.abs() < 0.02);
+        let layered = Layered(4e-3);
+        assert!(layered.off(contrast, &layered.coated(contrast)).abs() < 0.02);
+    }
+    for contrast in [3.0, 10.0] {
+        let layered = Layered(2e-3);
+        assert!(layered.off(contrast, &layered.on_top(contrast)).abs() < 0.02);
     }
 }
 

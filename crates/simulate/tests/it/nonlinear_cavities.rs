@@ -87,8 +87,7 @@ fn judge(content: CavityContent, depth: f64) -> (f64, CavityAnswer) {
 }
 
 /// Judge: finite elements (`palpate solve`), whose patch of the tip's area is bonded and moved as far, which is a fifth of its radius.
-/// Tolerances, those that the model is asked for: force 5 %, pressure 5 %, volume of a fluid 0.5 %, with 3,500 nodes, where the force is
-/// 2 % too large. With the 2,500 of the default it is 8 %, and no more than 10. Empty, the ball loses volume as in
+/// Tolerances, those that the model is asked for: force 5 %, pressure 5 %, volume of a fluid 0.5 %. Empty, the ball loses volume as in
 /// the judge within 5 % of what it loses, and the force is as much smaller.
 #[test]
 #[ignore = "slow: two minutes, most of them the judge's"]
@@ -104,7 +103,8 @@ fn a_press_over_a_cavity_is_that_of_finite_elements() {
         let (force, cavities) = press(&simulation, depth);
         let (expected, exact) = judge(content, depth);
         let (by_default, _) = press(&cube(&organ, "").simulation(), depth);
-        assert!((by_default / expected - 1.0).abs() < 0.1, "{by_default}");
+        println!("with as many nodes as by default: {by_default} N");
+        assert!((by_default / expected - 1.0).abs() < 0.05, "{by_default}");
         let [own] = &cavities[..] else {
             panic!("{cavities:?}")
         };

@@ -46,13 +46,12 @@ The keys of each kind:
   uniaxial     stretches
   solid        mesh (a surface or tetrahedra) and mesh_unit, or builtin and triangles; anchor as in
                a scene; patch = { center_m, radius_m, displacement_m, contact = \"stick\" | \"slip\" },
-               [[tool]] with shape, from_m, path_m and friction,
-               gravity_m_per_s2, or [[load]] with force_n or pressure_pa and a place: box_m, center_m
-               and radius_m, region = { planes, boxes, spheres } or line = { from_m, to_m }; points_m,
-               whose
-               displacement_m is asked for; [[point]] with name, at_m, and perhaps along and
-               measured_m, to which fit_stiffness = true fits the tissue; [[region]] with name,
-               tissue and a shape: layer, ball, ellipsoid, capsule, surface or label
+               [[tool]] with shape, from_m, path_m and friction, gravity_m_per_s2, or [[load]] with
+               force_n or pressure_pa and a place: box_m, center_m and radius_m, region = { planes,
+               boxes, spheres } or line = { from_m, to_m }; points_m, whose displacement_m is asked
+               for; [[point]] with name, at_m, and perhaps along and measured_m, to which
+               fit_stiffness = true fits the tissue; [[region]] with name, tissue or cavity, and a
+               shape: layer, ball, ellipsoid, capsule, surface or label
 All have format = 1, kind, accuracy (0.01 if not given), and tissue (a table or a file) or \
 builtin_tissue, as in a scene. A key ends in its unit; depths_mm is read as well as depths_m. \
 Moduli are instantaneous; only a ramp relaxes. `palpate examples DIR` writes a problem of each kind."
