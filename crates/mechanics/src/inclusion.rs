@@ -8,7 +8,7 @@
 //!
 //! over the inclusion, σ_m and s being the mean and the deviator of the stress of a unit force, and α and β those of a ball
 //! [Eshelby 1957]. That is so where it is small beside its depth. Where it takes a large part of the energy, C is smaller by
-//! x/(1 + (1 − β) x) of itself: the bound of Hashin and Shtrikman for balls of that share, which makes a tip that is deep in a
+//! x/(1 + (1 − β) x) of itself: the bound for balls of that share [Hashin and Shtrikman 1963], which makes a tip that is deep in a
 //! large inclusion as stiff as the inclusion. Stresses are those of a flat punch [Sneddon 1946], and of loads (1 − (r/R)²)² as
 //! sums of punches, in closed form.
 //!

@@ -1,9 +1,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use palpate_files::scene::{
-    Enhancement, HandOver, Inclusion, Layer, ModelKind, Nodule, Organ, ResponseMethod,
-};
+use palpate_files::scene::{Enhancement, HandOver, Layer, ModelKind, Nodule, ResponseMethod};
 use palpate_files::{Scene, SessionHeader};
 use palpate_geometry::{AabbTree, Surface, TriangleMesh};
 use palpate_mechanics::Material;
@@ -83,16 +81,15 @@ impl Simulation {
         target::check_line(scene, &surface, &tree)?;
         let kind = scene.model.kind;
         let is_nonlinear = kind == ModelKind::Nonlinear;
-        let felt = felt_parts(&scene.organ, kind);
-        let own = (&tissue, &material);
-        let regions = Regions::read((felt.0, &felt.1), (&surface, &tree), own)?;
+        let layers: &[Layer] = match kind {
+            ModelKind::Local => &[],
+            ModelKind::Hybrid | ModelKind::Nonlinear => &scene.organ.layers,
+        };
+        let parts = (layers, &scene.organ.inclusions[..]);
+        let regions = Regions::read(parts, (&surface, &tree), (&tissue, &material))?;
         warnings.extend_from_slice(&regions.warnings);
         warnings.extend(not_felt(scene, &regions));
-        let is_felt = match kind {
-            ModelKind::Local => false,
-            ModelKind::Hybrid => !regions.are_alike() && !is_of_one_tissue(scene),
-            ModelKind::Nonlinear => true,
-        };
+        let is_felt = is_nonlinear || !(is_of_one_tissue(scene) || regions.are_alike());
         let mut enclosed: Vec<Surface> = regions.enclosed().cloned().collect();
         let regions = is_felt.then_some(regions);
         let (mut soft, more) = match is_nonlinear {
@@ -355,19 +352,6 @@ impl Simulation {
     }
 }
 
-/// The layers, and the inclusions and cavities, that a model feels; those of the local model are only checked.
-fn felt_parts(organ: &Organ, kind: ModelKind) -> (&[Layer], Vec<Inclusion>) {
-    let inclusions = organ.inclusions.iter();
-    match kind {
-        ModelKind::Local => (&[], organ.inclusions.clone()),
-        ModelKind::Hybrid => {
-            let solid = inclusions.filter(|own| own.tissue().is_some());
-            (&organ.layers, solid.cloned().collect())
-        }
-        ModelKind::Nonlinear => (&organ.layers, organ.inclusions.clone()),
-    }
-}
-
 /// Whether the method that a scene asks for knows one tissue alone.
 fn is_of_one_tissue(scene: &Scene) -> bool {
     match scene.model.kind {
@@ -386,24 +370,14 @@ fn not_felt(scene: &Scene, regions: &Regions) -> Vec<String> {
         true => "a response by boundary elements is of one tissue (`model.response`):",
         false => "the local model is of one tissue:",
     };
-    let has = |solid: bool| {
-        let mut inclusions = organ.inclusions.iter();
-        inclusions.any(|own| own.tissue().is_some() == solid)
-    };
     let mut said = Vec::new();
     if ignores && !organ.layers.is_empty() {
         said.push(format!(
             "{model} layers are cut, seen and perforated each by itself, and to a touch the organ answers as its own tissue"
         ));
     }
-    if ignores && has(true) {
+    if ignores && !organ.inclusions.is_empty() {
         said.push(format!("{model} inclusions change no force"));
-    }
-    if scene.model.kind != ModelKind::Nonlinear && has(false) {
-        said.push(
-            "only the nonlinear model has cavities; this one answers as if they were filled"
-                .to_owned(),
-        );
     }
     if is_hybrid && !ignores && !regions.are_alike() {
         if !regions.relax_alike() {

@@ -22,7 +22,7 @@ use crate::neighbour::Neighbour;
 use crate::regions::Regions;
 use crate::{Error, held_region};
 
-/// About so many nodes, if the scene does not say; with cavities, over which a press is 10 % too stiff with fewer.
+/// About so many nodes, if the scene does not say; more with cavities, whose walls are of few elements.
 const NODES: usize = 1_500;
 const NODES_HOLLOW: usize = 2_500;
 
