@@ -5,6 +5,7 @@ use palpate_files::scene::{Enhancement, HandOver, Layer, ModelKind, Nodule, Resp
 use palpate_files::{Scene, SessionHeader};
 use palpate_geometry::{AabbTree, Surface, TriangleMesh};
 use palpate_mechanics::Material;
+use palpate_mechanics::contact::Tip;
 
 use crate::cutting::{CuttingModel, cuts};
 use crate::digest::SceneDigest;
@@ -135,7 +136,11 @@ impl Simulation {
             .map(|own| (&organ_surface, own))
             .chain(of_soft);
         let bodies: Vec<_> = bodies.map(|(of, own)| (of, own.inclusions(law))).collect();
-        for tool in &mut tools {
+        // The contact of a sphere grows with depth: of the force far from rest a table for one radius would be wrong by a third.
+        let flat = tools
+            .iter_mut()
+            .filter(|tool| matches!(tool.tip, Tip::Flat { .. }));
+        for tool in flat {
             tool.inclusions = InclusionTable::new(tool.typical_radius, &bodies);
         }
         let surface_material = match &regions {
