@@ -33,7 +33,7 @@ const PLACES: f64 = 200.0;
 /// Punches of which a load is the sum.
 const PUNCHES: usize = 8;
 
-/// A tip that would feel an inclusion less than this if both were points does not feel it [-].
+/// A tip that would feel an inclusion less than this if it was a point does not feel it [-].
 const LEAST: f64 = 3e-3;
 
 /// What is left at least of the stiffness of a place over a soft inclusion [-].
@@ -51,8 +51,6 @@ pub struct InclusionField {
 #[derive(Debug, Clone)]
 struct Inclusion {
     places: Vec<Vec3>,
-    /// Their mean [m].
-    middle: Vec3,
     /// Of each place [m³].
     volume: f64,
     /// A_K E/K and A_G E/(2 G), with the moduli of what is around [-].
@@ -83,7 +81,6 @@ impl InclusionField {
                 more / (1.0 + shares[k] * more) * modulus / of_energy[k]
             });
             Some(Inclusion {
-                middle: places.iter().sum::<Vec3>() / places.len() as f64,
                 places,
                 volume,
                 changes,
@@ -107,7 +104,8 @@ impl InclusionField {
     /// modulus over the force [1/m]: less than zero over what is stiff.
     pub fn exchange<const LOADS: usize>(
         &self,
-        (tip, loads): (f64, [f64; LOADS]),
+        tip: f64,
+        loads: [f64; LOADS],
         place: &Vec3,
         normal: &Vec3,
     ) -> [f64; LOADS] {
@@ -125,14 +123,15 @@ impl InclusionField {
         sums
     }
 
-    /// Whether a tip at `place` would not feel an inclusion if both were points.
+    /// Whether a tip at `place` would not feel an inclusion if it was a point.
     fn is_out_of_reach(&self, inclusion: &Inclusion, tip: f64, place: &Vec3) -> bool {
-        let square = (inclusion.middle - place).norm_squared();
-        let change = inclusion.changes.iter().map(|change| change.abs());
-        let volume = inclusion.volume * inclusion.places.len() as f64;
+        let changes = inclusion.changes.iter().map(|change| change.abs());
         // A point force has a stress of 3/(2 π r²) at most, and a tip the compliance 1/(2 a).
-        let stress = 1.5 / (PI * square);
-        2.0 * tip * stress * stress * volume * change.sum::<f64>() < LEAST
+        let squares = inclusion.places.iter().map(|inside| {
+            let stress = 1.5 / (PI * (inside - place).norm_squared());
+            stress * stress
+        });
+        2.0 * tip * changes.sum::<f64>() * inclusion.volume * squares.sum::<f64>() < LEAST
     }
 
     /// By how much less a load moves itself at a place and normal, times the Young's modulus of what is around [1/m].
@@ -304,7 +303,7 @@ mod tests {
         let (radius, depth, a) = (0.009, 0.04, 0.004);
         let place = 0.05 * Vec3::z();
         let felt =
-            |times, load| ball(radius, depth, times).exchange((a, [load]), &place, &Vec3::z())[0];
+            |times, load| ball(radius, depth, times).exchange(a, [load], &place, &Vec3::z())[0];
         let volume = 4.0 / 3.0 * PI * radius.powi(3);
         let stress: f64 = 1.5 / (PI * depth * depth);
         let mean = stress * stress * (1.0 + 0.8 * (radius / depth).powi(2));
@@ -315,7 +314,7 @@ mod tests {
         assert!(felt(0.1, 1.0) > 0.0 && felt(1.0, 1.0) == 0.0);
         assert!(felt(3.0, 1.63 * a).abs() < 0.01 * found.abs());
         let far = place + 0.045 * Vec3::x();
-        let aside = ball(0.002, 0.01, 3.0).exchange((1e-4, [1.0]), &far, &Vec3::z());
+        let aside = ball(0.002, 0.01, 3.0).exchange(1e-4, [1.0], &far, &Vec3::z());
         assert_eq!(aside, [0.0]);
     }
 }

@@ -136,7 +136,7 @@ impl Simulation {
             .map(|own| (&organ_surface, own))
             .chain(of_soft);
         let bodies: Vec<_> = bodies.map(|(of, own)| (of, own.inclusions(law))).collect();
-        // The contact of a sphere grows with depth: of the force far from rest a table for one radius would be wrong by a third.
+        // The contact of a sphere grows with depth: a table for one radius would make a deep force a third too large.
         let flat = tools
             .iter_mut()
             .filter(|tool| matches!(tool.tip, Tip::Flat { .. }));

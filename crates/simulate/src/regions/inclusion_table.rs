@@ -41,7 +41,8 @@ impl InclusionTable {
                     for (own, [u, v, w]) in own.iter_mut().zip(PLACES_OF) {
                         let mean = |of: &[Vec3; 3]| of[0] * u + of[1] * v + of[2] * w;
                         *own = field.exchange(
-                            (radius, loads),
+                            radius,
+                            loads,
                             &mean(&corners),
                             &mean(&normals).normalize(),
                         );
