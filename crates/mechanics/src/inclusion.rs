@@ -282,12 +282,17 @@ mod tests {
     }
 
     fn ball(radius: f64, depth: f64, times: f64) -> InclusionField {
-        let surface = Surface::new(Organ::Cube.surface_mesh(768).unwrap()).unwrap();
-        let tree = AabbTree::new(surface.mesh());
         let shape = InclusionShape::Ball {
             center_m: [0.0, 0.0, 0.05 - depth],
             radius_m: radius,
         };
+        inclusion(shape, times)
+    }
+
+    /// A shape in the built-in cube, so many times as stiff.
+    fn inclusion(shape: InclusionShape, times: f64) -> InclusionField {
+        let surface = Surface::new(Organ::Cube.surface_mesh(768).unwrap()).unwrap();
+        let tree = AabbTree::new(surface.mesh());
         let map = RegionMap::new(&surface, &tree, [RegionPlace::Shape(shape)]).unwrap();
         let around = LinearElastic::new(1.0, 0.499).unwrap();
         let moduli = [around.bulk_modulus(), around.shear_modulus()];
@@ -316,5 +321,25 @@ mod tests {
         let far = place + 0.045 * Vec3::x();
         let aside = ball(0.002, 0.01, 3.0).exchange(1e-4, [1.0], &far, &Vec3::z());
         assert_eq!(aside, [0.0]);
+    }
+
+    /// Judge: the same tip over the middle, which has as much of the inclusion on each side as the end has on one.
+    #[test]
+    fn the_end_of_a_long_inclusion_is_felt() {
+        let vessel = InclusionShape::Capsule {
+            from_m: [-0.04, 0.0, 0.04],
+            to_m: [0.04, 0.0, 0.04],
+            radius_m: 0.004,
+        };
+        let field = inclusion(vessel, 10.0);
+        let at = |x: f64| {
+            let place = Vec3::new(x, 0.0, 0.05);
+            field.exchange(0.002, [1.0], &place, &Vec3::z())[0]
+        };
+        let (middle, end) = (at(0.0), at(0.04));
+        assert!(
+            middle < 0.0 && end < 0.5 * middle && end > middle,
+            "{middle} {end}"
+        );
     }
 }
