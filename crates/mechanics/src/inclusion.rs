@@ -12,8 +12,8 @@
 //! large inclusion as stiff as the inclusion. Stresses are those of a flat punch [Sneddon 1946], and of loads (1 − (r/R)²)² as
 //! sums of punches, in closed form.
 //!
-//! A mesh whose load is wider than a tip does not have what the inclusion does to the tip. [`InclusionField::exchange`] is the
-//! difference.
+//! A mesh whose load is wider than a tip does not have what the inclusion does to the tip: the difference of the two that
+//! [`InclusionField::less`] tells.
 //!
 //! *How we know*: tests of this module; `regions::…` of `simulate`, beside finite elements.
 //!
@@ -60,7 +60,8 @@ struct Inclusion {
 }
 
 /// A load on the surface: a sum of punches with these weights [-] and radii [m].
-struct Load([(f64, f64); PUNCHES]);
+#[derive(Debug, Clone, Copy)]
+pub struct Load([(f64, f64); PUNCHES]);
 
 impl InclusionField {
     /// Of the shapes of a `map`, in tissue of the law `around` and with the bulk and shear `moduli` of its regions [Pa] from number 0
@@ -99,28 +100,58 @@ impl InclusionField {
         self.inclusions.is_empty()
     }
 
-    /// How much more a flat tip of the radius `tip` [m] is moved at `place` [m] along the outward `normal` [-] than loads
-    /// (1 − (r/R)²)² of the radii `loads` [m] move their own means, beyond the same difference without inclusions, times Young's
-    /// modulus over the force [1/m]: less than zero over what is stiff.
-    pub fn exchange<const LOADS: usize>(
+    /// How much less than without inclusions loads at `place` [m] along the outward `normal` [-] move their own means, times Young's
+    /// modulus over the force [1/m]: more than zero over what is stiff. Inclusions that a flat tip of the radius `tip` [m] does not
+    /// feel count for none.
+    pub fn less<const LOADS: usize>(
         &self,
+        loads: &[Load; LOADS],
         tip: f64,
-        loads: [f64; LOADS],
-        place: &Vec3,
-        normal: &Vec3,
+        (place, normal): (&Vec3, &Vec3),
     ) -> [f64; LOADS] {
         let mut sums = [0.0; LOADS];
         for inclusion in &self.inclusions {
             if self.is_out_of_reach(inclusion, tip, place) {
                 continue;
             }
-            let less = |load: Load| self.less(inclusion, &load, [place, normal]);
-            let of_tip = less(Load::punch(tip));
             for (sum, load) in sums.iter_mut().zip(loads) {
-                *sum += (less(Load::bump(load)) - of_tip) / self.modulus;
+                *sum += self.less_by(inclusion, load, [place, normal]) / self.modulus;
             }
         }
         sums
+    }
+
+    /// How much less a sphere is moved, times Young's modulus over the force [1/m], under the forces at which areas of these `radii` [m]
+    /// would touch it without inclusions, where `less` is that of loads √(1 − (r/a)²) of the same radii, each so many times the one
+    /// before.
+    ///
+    /// Of all areas a the one that touches has the least energy: with the compliance C(a) of that load,
+    /// F = −4 a/(5 R C′(a)) and δ = a²/(5 R) + F C(a), which without inclusions is Hertz's contact.
+    pub fn less_under_sphere<const RADII: usize>(
+        &self,
+        radii: [f64; RADII],
+        less: [f64; RADII],
+    ) -> [f64; RADII] {
+        let flat = 1.0 - self.poissons_ratio * self.poissons_ratio;
+        let step = (radii[1] / radii[0]).ln();
+        let at: [(f64, f64); RADII] = std::array::from_fn(|n| {
+            let (low, high) = (n.saturating_sub(1), (n + 1).min(RADII - 1));
+            let slope = (less[high] - less[low]) / ((high - low) as f64 * step);
+            let area = radii[n];
+            // The force, over what it would be without inclusions; and the radius that it would have then.
+            let ratio = 1.0 / (1.0 + 5.0 * area * slope / (3.0 * flat)).max(LEAST_STIFFNESS);
+            let alone = area * ratio.cbrt();
+            let depth = area * area * (0.2 + ratio * (0.8 - 4.0 / (3.0 * flat) * area * less[n]));
+            let found = 0.75 * flat * (alone * alone - depth) / alone.powi(3);
+            (alone, found)
+        });
+        radii.map(|radius| {
+            let above = at.iter().position(|(alone, _)| *alone >= radius);
+            let above = above.unwrap_or(RADII - 1).max(1);
+            let [(low, from), (high, to)] = [at[above - 1], at[above]];
+            let part = (radius / low).ln() / (high / low).ln();
+            from + part.clamp(0.0, 1.0) * (to - from)
+        })
     }
 
     /// Whether a tip at `place` would not feel an inclusion if it was a point.
@@ -135,7 +166,7 @@ impl InclusionField {
     }
 
     /// By how much less a load moves itself at a place and normal, times the Young's modulus of what is around [1/m].
-    fn less(&self, inclusion: &Inclusion, load: &Load, [place, normal]: [&Vec3; 2]) -> f64 {
+    fn less_by(&self, inclusion: &Inclusion, load: &Load, [place, normal]: [&Vec3; 2]) -> f64 {
         let mut energies = [0.0; 2];
         for inside in &inclusion.places {
             let way = inside - place;
@@ -164,20 +195,31 @@ impl InclusionField {
 }
 
 impl Load {
-    /// That of a flat punch.
-    fn punch(radius: f64) -> Self {
+    /// That of a flat punch of this radius [m].
+    pub fn punch(radius: f64) -> Self {
         let mut punches = [(0.0, radius); PUNCHES];
         punches[0].0 = 1.0;
         Self(punches)
     }
 
-    /// (1 − (r/R)²)²: punches of the radii t R with the weights 32/π t² (1 − t²)^(3/2) dt.
-    fn bump(radius: f64) -> Self {
+    /// √(1 − (r/a)²), that of a sphere [Hertz 1881], of this radius [m]: punches of the radii t a with the weights 3 t² dt.
+    pub fn hertz(radius: f64) -> Self {
+        Self::punches_of(radius, |sine, cosine| 3.0 * sine.powi(2) * cosine)
+    }
+
+    /// (1 − (r/R)²)² of this radius [m]: punches of the radii t R with the weights 32/π t² (1 − t²)^(3/2) dt.
+    pub fn bump(radius: f64) -> Self {
+        Self::punches_of(radius, |sine, cosine| {
+            32.0 / PI * sine.powi(2) * cosine.powi(4)
+        })
+    }
+
+    /// Punches of the radii sin(θ) R with weights [1/rad].
+    fn punches_of(radius: f64, weight: impl Fn(f64, f64) -> f64) -> Self {
         Self(std::array::from_fn(|n| {
             let step = 0.5 * PI / PUNCHES as f64;
             let (sine, cosine) = (step * (n as f64 + 0.5)).sin_cos();
-            let weight = 32.0 / PI * sine.powi(2) * cosine.powi(4) * step;
-            (weight, sine * radius)
+            (weight(sine, cosine) * step, sine * radius)
         }))
     }
 
@@ -307,8 +349,12 @@ mod tests {
     fn a_deep_ball_is_felt_by_its_energy() {
         let (radius, depth, a) = (0.009, 0.04, 0.004);
         let place = 0.05 * Vec3::z();
-        let felt =
-            |times, load| ball(radius, depth, times).exchange(a, [load], &place, &Vec3::z())[0];
+        let felt = |times, load| {
+            let field = ball(radius, depth, times);
+            let loads = [Load::bump(load), Load::punch(a)];
+            let [load, tip] = field.less(&loads, a, (&place, &Vec3::z()));
+            load - tip
+        };
         let volume = 4.0 / 3.0 * PI * radius.powi(3);
         let stress: f64 = 1.5 / (PI * depth * depth);
         let mean = stress * stress * (1.0 + 0.8 * (radius / depth).powi(2));
@@ -319,8 +365,35 @@ mod tests {
         assert!(felt(0.1, 1.0) > 0.0 && felt(1.0, 1.0) == 0.0);
         assert!(felt(3.0, 1.63 * a).abs() < 0.01 * found.abs());
         let far = place + 0.045 * Vec3::x();
-        let aside = ball(0.002, 0.01, 3.0).exchange(1e-4, [1.0], &far, &Vec3::z());
+        let aside = ball(0.002, 0.01, 3.0).less(&[Load::punch(1e-4)], 1e-4, (&far, &Vec3::z()));
         assert_eq!(aside, [0.0]);
+    }
+
+    /// Closed forms: Hertz, also in tissue that is stiffer everywhere; and a way that grows with the force alone, as over what is far
+    /// away, is added. Tolerance of 1/a at radii h = ln √2 apart: its slope is that of a secant, h²/6, and between two it is on a
+    /// line, h²/8.
+    #[test]
+    fn a_sphere_meets_hertz() {
+        let field = ball(0.002, 0.03, 3.0);
+        let radii: [f64; 9] = std::array::from_fn(|n| 1e-3 * 2.0_f64.powf(0.5 * n as f64));
+        assert_eq!(
+            field.less_under_sphere(radii, [0.0; 9]).map(f64::abs),
+            [0.0; 9]
+        );
+        for found in field.less_under_sphere(radii, [7.0; 9]) {
+            assert!((found / 7.0 - 1.0).abs() < 1e-9, "{found}");
+        }
+        let (part, flat) = (0.3_f64, 1.0 - 0.499 * 0.499);
+        let less = radii.map(|radius| part * 0.6 * flat / radius);
+        let found = field.less_under_sphere(radii, less);
+        for (radius, found) in radii.iter().zip(found).skip(1).take(7) {
+            let depth = 1.0 - (1.0 - part).powf(2.0 / 3.0);
+            let expected = 0.75 * flat / radius * depth;
+            assert!(
+                (found / expected - 1.0).abs() < 0.035,
+                "{radius}: {found} {expected}"
+            );
+        }
     }
 
     /// Judge: the same tip over the middle, which has as much of the inclusion on each side as the end has on one.
@@ -334,7 +407,7 @@ mod tests {
         let field = inclusion(vessel, 10.0);
         let at = |x: f64| {
             let place = Vec3::new(x, 0.0, 0.05);
-            field.exchange(0.002, [1.0], &place, &Vec3::z())[0]
+            -field.less(&[Load::punch(0.002)], 0.002, (&place, &Vec3::z()))[0]
         };
         let (middle, end) = (at(0.0), at(0.04));
         assert!(

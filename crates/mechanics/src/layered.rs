@@ -54,6 +54,38 @@ impl LayeredHalfSpace {
     /// How much more than a half-space of the outermost law it yields to a load of this radius [m]: along its surface, and
     /// along its normal [-].
     pub fn yields(&self, shape: LoadShape, radius: f64) -> [f64; 2] {
+        let [layered, uniform] = self.compliances(shape, radius);
+        [0, 1].map(|axis| match shape {
+            LoadShape::Bump => layered[axis][(0, 0)] / uniform[axis][(0, 0)],
+            LoadShape::Punch => {
+                let least = layered[axis].try_inverse();
+                let least = least.map_or(f64::NAN, |inverse| 1.0 / inverse.sum());
+                least / uniform[axis][(0, 0)]
+            }
+        })
+    }
+
+    /// How much deeper a sphere without friction is than on a half-space of the outermost law where an area of this radius [m]
+    /// touches, and how much larger its force is [-].
+    ///
+    /// Its pressure is the sum of the loads of a punch, of which the first, which has no end at the edge, is zero.
+    pub fn under_sphere(&self, radius: f64) -> [f64; 2] {
+        // Means of (r/a)² over the loads.
+        let squares = Vector3::new(2.0 / 3.0, 2.0 / 5.0, 2.0 / 7.0);
+        let at = |compliance: &Matrix3<f64>| {
+            let inverse = compliance.try_inverse().unwrap_or_default();
+            let (of_depth, of_shape) = (inverse * Vector3::repeat(1.0), inverse * squares);
+            let depth = of_shape[0] / of_depth[0];
+            [depth, depth * of_depth.sum() - of_shape.sum()]
+        };
+        let [layered, uniform] = self.compliances(LoadShape::Punch, radius);
+        let [found, alone] = [at(&layered[1]), at(&uniform[1])];
+        [found[0] / alone[0], found[1] / alone[1]]
+    }
+
+    /// What the loads of a shape move one another by, along the surface and along its normal, and on a half-space of the
+    /// outermost law, all times the same factor [-].
+    fn compliances(&self, shape: LoadShape, radius: f64) -> [[Matrix3<f64>; 2]; 2] {
         let surface = self.layers.first().map_or(self.base, |(_, law)| *law);
         let alone = Self {
             layers: Vec::new(),
@@ -74,23 +106,20 @@ impl LayeredHalfSpace {
                 uniform[axis] += of_surface[axis] * weight;
             }
         }
-        [0, 1].map(|axis| match shape {
-            LoadShape::Bump => layered[axis][(0, 0)] / uniform[axis][(0, 0)],
-            LoadShape::Punch => {
-                // Waves above the highest are left out of what the layers change alone.
+        if shape == LoadShape::Punch {
+            // Waves above the highest are left out of what the layers change alone.
+            for axis in 0..2 {
                 let mut exact = uniform[axis];
                 let scale = alone.compliance(1.0)[axis] / radius;
                 for n in 0..3 {
                     exact[(0, n)] = scale * PI / 2.0;
                     exact[(n, 0)] = exact[(0, n)];
                 }
-                let all = layered[axis] - uniform[axis] + exact;
-                let least = all
-                    .try_inverse()
-                    .map_or(f64::NAN, |inverse| 1.0 / inverse.sum());
-                least / exact[(0, 0)]
+                layered[axis] += exact - uniform[axis];
+                uniform[axis] = exact;
             }
-        })
+        }
+        [layered, uniform]
     }
 
     /// C(k) [m³/N] at the wave number `k` [1/m]: along the surface, the mean over all directions of k, and along the normal.
@@ -304,6 +333,35 @@ mod tests {
             println!("{ratio} {of_height}: {found} {factor}");
             assert!((found / factor - 1.0).abs() < 0.005);
         }
+    }
+
+    /// Closed forms: Hertz where the layer is thick and where it is thin; far from the base, the force F of an area a is as on the
+    /// layer alone, and the depth is larger by what a point force far away is moved: C F.
+    #[test]
+    fn a_sphere_on_a_layer_meets_hertz() {
+        let (layer, base) = (law(8.0, 0.4), law(2.0, 0.4));
+        let body = |thickness: f64| LayeredHalfSpace {
+            layers: vec![(thickness, layer)],
+            base,
+        };
+        let [depth, force] = body(1e-3).under_sphere(1.0);
+        assert!(
+            (depth - 1.0).abs() < 0.02 && (force * 4.0 - 1.0).abs() < 0.02,
+            "{depth} {force}"
+        );
+        let [depth, force] = body(1e3).under_sphere(1.0);
+        assert!(
+            (depth - 1.0).abs() < 0.01 && (force - 1.0).abs() < 0.01,
+            "{depth} {force}"
+        );
+        // On a paraboloid of unit radius: F = 4/3 E/(1 − ν²) a³; a punch of the radius a yields 1/(2 a) on the layer.
+        let radius = 0.1;
+        let [depth, force] = body(1.0).under_sphere(radius);
+        let more = body(1.0).yields(LoadShape::Punch, radius)[1] - 1.0;
+        let expected = 4.0 / 3.0 * radius.powi(3) * more / (2.0 * radius);
+        let found = (depth - 1.0) * radius * radius;
+        assert!((force - 1.0).abs() < 0.01, "{force}");
+        assert!((found / expected - 1.0).abs() < 0.02, "{found} {expected}");
     }
 
     /// A load is wider than its layer or narrower: the base's compliance, and the layer's.

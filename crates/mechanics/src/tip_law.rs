@@ -90,6 +90,8 @@ pub struct TipForce {
     pub force: Vec3,
     /// Change of the force when the tip moves inward, against the axes [N/m].
     pub stiffness: Matrix3<f64>,
+    /// Change of the force with the structural compliance along the normal [N²/m].
+    pub by_compliance: Vec3,
     /// Bounds that changed them.
     pub limits: Limits,
 }
@@ -129,6 +131,16 @@ impl TipLaw {
     pub fn beside(&self, curvature: f64) -> Self {
         Self {
             tip: self.tip.beside(curvature),
+            ..self.clone()
+        }
+    }
+
+    /// The law of the same tip on a half-space that is so many times as stiff at these depths [m], which ascend.
+    pub fn times(&self, factors: impl Iterator<Item = (f64, f64)>) -> Self {
+        let radius = self.radius;
+        let of_radius = factors.map(|(depth, factor)| (depth / radius, factor));
+        Self {
+            stiffening: Arc::new(self.stiffening.times(of_radius)),
             ..self.clone()
         }
     }
@@ -243,6 +255,7 @@ impl TipLaw {
                 tip.stiffness[(row, column)] -= coupled[row] * by_sideways[column];
             }
         }
+        tip.by_compliance = Vec3::new(-coupled.x, -coupled.y, 1.0) * normal.by_compliance;
         if let Some(reached) = shear.limited {
             tip.limits.add(Limit::TipShearStiffness, reached);
         }
@@ -355,6 +368,7 @@ impl TipForce {
         Self {
             force: Vec3::new(0.0, 0.0, normal.force),
             stiffness,
+            by_compliance: Vec3::new(0.0, 0.0, normal.by_compliance),
             limits,
         }
     }

@@ -65,6 +65,7 @@ mod step;
 mod summary;
 mod swings;
 mod target;
+mod tip_force;
 mod tip_laws;
 mod tool;
 mod trocar;

@@ -5,7 +5,6 @@ use palpate_files::scene::{Enhancement, HandOver, Layer, ModelKind, Nodule, Resp
 use palpate_files::{Scene, SessionHeader};
 use palpate_geometry::{AabbTree, Surface, TriangleMesh};
 use palpate_mechanics::Material;
-use palpate_mechanics::contact::Tip;
 
 use crate::cutting::{CuttingModel, cuts};
 use crate::digest::SceneDigest;
@@ -136,12 +135,8 @@ impl Simulation {
             .map(|own| (&organ_surface, own))
             .chain(of_soft);
         let bodies: Vec<_> = bodies.map(|(of, own)| (of, own.inclusions(law))).collect();
-        // The contact of a sphere grows with depth: a table for one radius would make a deep force a third too large.
-        let flat = tools
-            .iter_mut()
-            .filter(|tool| matches!(tool.tip, Tip::Flat { .. }));
-        for tool in flat {
-            tool.inclusions = InclusionTable::new(tool.typical_radius, &bodies);
+        for tool in &mut tools {
+            tool.inclusions = InclusionTable::new(tool.tip, &bodies);
         }
         let surface_material = match &regions {
             Some(regions) => regions.at_surface().material.clone(),
@@ -187,6 +182,14 @@ impl Simulation {
             };
             warnings.extend(body.meet(scene, &tools, at_step)?);
         }
+        warnings.extend(tip_laws::stiffen(&mut tools, &touched, &mut |part| {
+            let work = Work::ForceOverDepth;
+            // It cannot be cancelled, and takes seconds.
+            let _ = watch(Progress { work, part });
+        })?);
+        if let Some(regions) = &regions {
+            tools.iter_mut().for_each(|tool| regions.lie_under(tool));
+        }
         let nonlinear = match regions {
             Some(regions) if is_nonlinear => {
                 let (shown, organ) = ((&surface, &tree), (&organ_surface, regions));
@@ -210,11 +213,6 @@ impl Simulation {
                 ));
             }
         }
-        warnings.extend(tip_laws::stiffen(&mut tools, &touched, &mut |part| {
-            let work = Work::ForceOverDepth;
-            // It cannot be cancelled, and takes seconds.
-            let _ = watch(Progress { work, part });
-        })?);
         let cutting = CuttingModel::new(scene, &surface)?;
         warnings.extend(cutting.iter().filter_map(CuttingModel::warning));
         if scene.model.gravity_m_per_s2.is_some() && nonlinear.is_none() {

@@ -3,7 +3,7 @@ use std::sync::Arc;
 use nalgebra::Matrix3;
 use palpate_files::scene::{self, ToolKind};
 use palpate_geometry::{AabbTree, PatchField, Surface, TriangleMesh, Vec3, read_mesh};
-use palpate_mechanics::contact::{Friction, Tip};
+use palpate_mechanics::contact::{Friction, Tip, hertz_force};
 use palpate_mechanics::finite_spheres::{
     Calibration, FiniteSphereModel, FiniteSphereSettings, Integration, Placement, Solver,
 };
@@ -116,6 +116,18 @@ impl Tool {
     /// Whether its tip can move along the surface.
     pub(crate) fn slides(&self) -> bool {
         self.bond == Friction::Frictionless || self.friction.is_some()
+    }
+
+    /// Radius of the area that touches [m] under so much force [N] on tissue of this law.
+    pub(crate) fn touching_radius(&self, law: &LinearElastic, force: f64) -> f64 {
+        match self.tip {
+            Tip::Flat { radius } => radius,
+            Tip::Sphere { radius } => {
+                // The inverse of Hertz's law. How deep it is in all says nothing: a thin wall bends away.
+                let depth = (force / hertz_force(law, radius, 1.0)).powf(2.0 / 3.0);
+                self.tip.contact_radius(depth)
+            }
+        }
     }
 
     /// Radius of the shaft [m]: that of the tip.

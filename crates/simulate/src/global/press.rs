@@ -201,15 +201,13 @@ impl GlobalModel {
         let compliance = load.map_or(Matrix3::zeros(), |load| {
             let slit = workspace.slit.as_ref();
             let more = slit.map_or(Matrix3::zeros(), |slit| slit.further(number));
-            let (place, radii) = (&contact.place, [tool.typical_radius, load.reach()]);
-            let at = (place.triangle, &place.point);
-            let inclusions = tool
-                .inclusions
-                .compliance(simulation.surface.mesh(), at, radii);
-            let normal = frame.column(2);
-            let inclusions = normal * normal.transpose() * inclusions;
-            let free = (load.structural_compliance() + inclusions + more) * softness;
+            let free = (load.structural_compliance() + more) * softness;
             frame.tr_mul(&(free - held.fixes(number, number, tools.len()))) * frame
+        });
+        let exchange = load.and_then(|load| {
+            let at = (contact.place.triangle, &contact.place.point);
+            let mesh = simulation.surface.mesh();
+            tool.inclusions.exchange(mesh, at, load.reach())
         });
         let state = &mut tools[number];
         let touched = state
@@ -217,7 +215,8 @@ impl GlobalModel {
             .and_then(|site| self.response.find(site.triangle));
         state.off_model = touched.is_none();
         let law = tool.law.beside(contact.place.mean_curvature());
-        let answer = law.force_in_series(&moved, &compliance);
+        let over = exchange.map(|exchange| (exchange, &simulation.material.at_rest));
+        let (answer, compliance) = tool.force_in_series(&law, (&moved, &compliance), over);
         let mut own = moved + compliance * answer.force;
         if tool.bond == Friction::Frictionless {
             own = Vec3::new(0.0, 0.0, own.z);

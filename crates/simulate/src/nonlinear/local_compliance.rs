@@ -14,7 +14,7 @@ use palpate_geometry::{AabbTree, NodeId, PatchField, Surface, TriangleId, Vec3};
 use palpate_mechanics::wall::{WallCompliance, WallOperator};
 
 use super::{Body, NonlinearOrgan};
-use crate::regions::Regions;
+use crate::regions::{Regions, TipExchange};
 use crate::tool::Tool;
 use crate::walls::through_walls;
 
@@ -78,13 +78,13 @@ impl WallField {
 }
 
 impl NonlinearOrgan {
-    /// What a tip, that of `tool` by its number, is moved by walls and inclusions along its normal, at rest, that its load is not
-    /// [m/N].
+    /// What a tip, that of `tool` by its number, is moved by walls along its normal, at rest, that its load is not [m/N]; and what by
+    /// inclusions.
     pub(super) fn local_compliance(
         &self,
         (number, tool): (usize, &Tool),
         body: &Body,
-    ) -> Matrix3<f64> {
+    ) -> (Matrix3<f64>, Option<TipExchange>) {
         let load = &body.loads[number];
         let composition = &self.composition;
         let mesh = composition.shown.mesh();
@@ -97,9 +97,10 @@ impl NonlinearOrgan {
                 weight * composition.walls.at[node.index()].beyond_half_space(radii)
             })
             .sum();
-        let at = (near.triangle, &load.place);
-        let compliance = of_walls + tool.inclusions.compliance(mesh, at, radii);
         let law = composition.pieces[body.on[number]].law();
-        load.normal * load.normal.transpose() * (compliance / law.youngs_modulus())
+        let of_walls = of_walls / law.youngs_modulus();
+        let at = (near.triangle, &load.place);
+        let exchange = tool.inclusions.exchange(mesh, at, load.radius);
+        (load.normal * load.normal.transpose() * of_walls, exchange)
     }
 }

@@ -71,11 +71,10 @@ use std::sync::Arc;
 use nalgebra::Rotation3;
 use palpate_files::Scene;
 use palpate_geometry::{AabbTree, Surface, TriangleMesh, Vec3};
-use palpate_mechanics::contact::{Tip, hertz_force};
+use palpate_mechanics::ForceHistory;
 use palpate_mechanics::nonlinear::{
     EmbeddedPoints, NonlinearModel, NonlinearState, SpreadLoad, TouchingBoundary, Workspace,
 };
-use palpate_mechanics::{ForceHistory, LinearElastic};
 
 use crate::Error;
 use crate::grip::Swept;
@@ -313,19 +312,6 @@ impl NonlinearOrgan {
             solver: self.model.workspace(tools),
             candidates: Candidates::new(self, tools),
         }
-    }
-
-    /// Radius of the load of a tool's tip [m] under so much force [N] on tissue of `law`.
-    fn reach(tool: &Tool, law: &LinearElastic, force: f64) -> f64 {
-        let touching = match tool.tip {
-            Tip::Flat { radius } => radius,
-            Tip::Sphere { radius } => {
-                // The inverse of Hertz's law. How deep it is in all says nothing: a thin wall bends away.
-                let depth = (force / hertz_force(law, radius, 1.0)).powf(2.0 / 3.0);
-                tool.tip.contact_radius(depth)
-            }
-        };
-        REACH_IN_RADII * touching
     }
 }
 

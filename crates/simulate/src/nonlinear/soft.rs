@@ -93,6 +93,7 @@ impl SoftBody {
             tool.law = TipLaw::linear(tool.tip, tool.bond, material.at_rest);
         }
         let warnings = stiffen(&mut own, &touched, watch)?;
+        own.iter_mut().for_each(|tool| self.regions.lie_under(tool));
         self.laws = own.into_iter().map(|tool| tool.law).collect();
         Ok(warnings)
     }

@@ -320,7 +320,7 @@ impl NonlinearOrgan {
             true => own.pushed.force.norm(),
             false => body.histories[number].elastic().norm(),
         };
-        let reach = Self::reach(tool, piece.law(), force);
+        let reach = super::REACH_IN_RADII * tool.touching_radius(piece.law(), force);
         let load = &mut body.loads[number];
         let boundary = self.model.boundary();
         boundary.spread(&place.point, &contact.rest_normal(), reach, load);
@@ -344,12 +344,13 @@ impl NonlinearOrgan {
             return None;
         }
         let radius = tool.typical_radius;
-        let local = self.rim(body, number, radius) + self.local_compliance((number, tool), body);
+        let (of_wall, exchange) = self.local_compliance((number, tool), body);
+        let local = self.rim(body, number, radius) + of_wall;
         let local = place.frame.tr_mul(&local) * place.frame;
         let further = frame.tr_mul(&now.yields) * frame - self.of_load(&now) + local;
-        let law = self.composition.pieces[body.on[number]].tip_law((number, tool));
-        let law = law.beside(place.mean_curvature());
-        let answer = law.force_in_series(&moved, &further);
+        let law = piece.tip_law((number, tool)).beside(place.mean_curvature());
+        let over = exchange.map(|exchange| (exchange, piece.law()));
+        let (answer, _) = tool.force_in_series(&law, (&moved, &further), over);
         own.stiffness = frame * answer.stiffness * frame.transpose();
         own.limited = answer.limits;
         let goal = -(frame * answer.force);

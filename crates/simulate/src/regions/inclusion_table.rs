@@ -1,32 +1,64 @@
 use palpate_geometry::{Surface, TriangleId, TriangleMesh, Vec3, closest_on_triangle};
-use palpate_mechanics::inclusion::InclusionField;
+use palpate_mechanics::contact::Tip;
+use palpate_mechanics::inclusion::{InclusionField, Load};
 use palpate_mechanics::on_all_cores;
 
-/// Radii of loads for which the inclusions are tabulated, and the least over that of the tip [-].
-const RADII: usize = 5;
+/// Radii for which the inclusions are tabulated, each so many times the one before: of what touches, up to that of the tool, and of
+/// loads, from this part of the least of what touches on [-].
+const TIPS: usize = 9;
+const TIP_FACTOR: f64 = std::f64::consts::SQRT_2;
+const LOADS: usize = 8;
+const LOAD_FACTOR: f64 = 2.0;
 const LEAST_LOAD: f64 = 1.7;
 
 /// Places of a triangle: its corners, then the middles of 01, 12, 20.
 const PLACES: usize = 6;
 
-/// What the inclusions under the surface that is seen add to what a tip is moved by, for loads of several radii; nothing of bodies
-/// without any.
+/// How much less tips, and loads that stand for them in a mesh, are moved where inclusions lie under the surface that is seen;
+/// nothing of bodies without any.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct InclusionTable {
-    /// Of each triangle: what is to be interpolated [1/m].
-    at: Vec<[[f64; RADII]; PLACES]>,
+    /// Radius of the least area that touches [m].
+    least: f64,
+    /// Of each triangle: what is to be interpolated.
+    at: Vec<[Felt; PLACES]>,
+}
+
+/// For each of the radii [1/m], which of a sphere are those without inclusions under the same force.
+#[derive(Debug, Clone, Copy, Default)]
+struct Felt {
+    tips: [f64; TIPS],
+    loads: [f64; LOADS],
+}
+
+/// How much more than its load a tip is moved at a place, for each radius of what touches [1/m].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TipExchange {
+    least: f64,
+    at: [f64; TIPS],
 }
 
 impl InclusionTable {
-    /// For a tip of the `radius` [m] on bodies with these inclusions, whose triangles follow one another.
-    pub(crate) fn new(radius: f64, bodies: &[(&Surface, InclusionField)]) -> Self {
+    /// For a tip on bodies with these inclusions, whose triangles follow one another.
+    pub(crate) fn new(tip: Tip, bodies: &[(&Surface, InclusionField)]) -> Self {
         if bodies.iter().all(|(_, field)| field.is_empty()) {
             return Self::default();
         }
-        let loads = std::array::from_fn(|n| LEAST_LOAD * radius * 2.0_f64.powi(n as i32));
+        let (Tip::Flat { radius } | Tip::Sphere { radius }) = tip;
+        let least = match tip {
+            Tip::Flat { .. } => radius,
+            Tip::Sphere { .. } => radius * TIP_FACTOR.powi(1 - TIPS as i32),
+        };
+        let radii: [f64; TIPS] = std::array::from_fn(|n| least * TIP_FACTOR.powi(n as i32));
+        let tips = radii.map(|touching| match tip {
+            Tip::Flat { .. } => Load::punch(radius),
+            Tip::Sphere { .. } => Load::hertz(touching),
+        });
+        let loads: [Load; LOADS] =
+            std::array::from_fn(|n| Load::bump(LEAST_LOAD * least * LOAD_FACTOR.powi(n as i32)));
         let triangles = bodies.iter();
         let triangles = triangles.map(|(surface, _)| surface.mesh().triangles().len());
-        let mut at = vec![[[0.0; RADII]; PLACES]; triangles.sum()];
+        let mut at = vec![[Felt::default(); PLACES]; triangles.sum()];
         let mut rest = at.as_mut_slice();
         for (surface, field) in bodies {
             let mesh = surface.mesh();
@@ -40,30 +72,30 @@ impl InclusionTable {
                         .map(|node| surface.vertex_normals()[node.index()]);
                     for (own, [u, v, w]) in own.iter_mut().zip(PLACES_OF) {
                         let mean = |of: &[Vec3; 3]| of[0] * u + of[1] * v + of[2] * w;
-                        *own = field.exchange(
-                            radius,
-                            loads,
-                            &mean(&corners),
-                            &mean(&normals).normalize(),
-                        );
+                        let (place, normal) = (mean(&corners), mean(&normals).normalize());
+                        let at = (&place, &normal);
+                        let tips = field.less(&tips, radius, at);
+                        own.tips = match tip {
+                            Tip::Flat { .. } => tips,
+                            Tip::Sphere { .. } => field.less_under_sphere(radii, tips),
+                        };
+                        own.loads = field.less(&loads, radius, at);
                     }
                 },
             );
             rest = others;
         }
-        Self { at }
+        Self { least, at }
     }
 
-    /// At a `place` [m] of a triangle of the shown `mesh`, of a tip and a load with these `radii` [m].
-    pub(crate) fn compliance(
+    /// At a `place` [m] of a triangle of the shown `mesh`, beside a load of the radius `load` [m]; none where nothing is felt.
+    pub(crate) fn exchange(
         &self,
         mesh: &TriangleMesh,
         (triangle, place): (TriangleId, &Vec3),
-        [tip, load]: [f64; 2],
-    ) -> f64 {
-        let Some(at) = self.at.get(triangle.index()) else {
-            return 0.0;
-        };
+        load: f64,
+    ) -> Option<TipExchange> {
+        let at = self.at.get(triangle.index())?;
         let on = closest_on_triangle(&mesh.positions(triangle), place);
         let [a, b, c] = on.barycentric;
         let corner = |l: f64| l * (2.0 * l - 1.0);
@@ -75,14 +107,47 @@ impl InclusionTable {
             4.0 * b * c,
             4.0 * c * a,
         ];
-        let position = (load / (LEAST_LOAD * tip)).log2();
-        let position = position.clamp(0.0, (RADII - 1) as f64);
-        let below = (position as usize).min(RADII - 2);
-        let within = position - below as f64;
-        let each = at.iter().zip(shape);
-        each.map(|(at, shape)| shape * ((1.0 - within) * at[below] + within * at[below + 1]))
-            .sum()
+        let (below, within) = position::<LOADS>(load / (LEAST_LOAD * self.least), LOAD_FACTOR);
+        let mut sums = [0.0; TIPS];
+        for (Felt { tips, loads }, shape) in at.iter().zip(shape) {
+            let of_load = (1.0 - within) * loads[below] + within * loads[below + 1];
+            for (sum, of_tip) in sums.iter_mut().zip(tips) {
+                *sum += shape * (of_load - of_tip);
+            }
+        }
+        Some(TipExchange {
+            least: self.least,
+            at: sums,
+        })
     }
+}
+
+impl TipExchange {
+    /// That under the force at which an area of the radius `touching` [m] would touch without inclusions, and its change with the logarithm of the force.
+    pub(crate) fn compliance(&self, touching: f64) -> [f64; 2] {
+        let (below, within) = position::<TIPS>(touching / self.least, TIP_FACTOR);
+        // Through the two with the slopes of those around them, which are continuous.
+        let slope = |n: usize| {
+            let (low, high) = (n.saturating_sub(1), (n + 1).min(TIPS - 1));
+            (self.at[high] - self.at[low]) / (high - low) as f64
+        };
+        let (from, more) = (self.at[below], self.at[below + 1] - self.at[below]);
+        let (start, end) = (slope(below), slope(below + 1));
+        let (second, third) = (3.0 * more - 2.0 * start - end, start + end - 2.0 * more);
+        let compliance = from + within * (start + within * (second + within * third));
+        let growth = start + within * (2.0 * second + within * 3.0 * third);
+        // Beyond all of them it is that of the last. And a ∝ F^(1/3).
+        let is_between = within > 0.0 && within < 1.0;
+        let growth = growth / (3.0 * TIP_FACTOR.ln());
+        [compliance, if is_between { growth } else { 0.0 }]
+    }
+}
+
+/// Between which of the radii, each so many times the one before, the one that is `times` the first is, and how far.
+fn position<const RADII: usize>(times: f64, factor: f64) -> (usize, f64) {
+    let position = times.log(factor).clamp(0.0, (RADII - 1) as f64);
+    let below = (position as usize).min(RADII - 2);
+    (below, position - below as f64)
 }
 
 /// Barycentric coordinates of the places.

@@ -6,13 +6,14 @@
 mod inclusion_table;
 mod places;
 
-pub(crate) use inclusion_table::InclusionTable;
+pub(crate) use inclusion_table::{InclusionTable, TipExchange};
 pub use places::read_inclusion;
 
 use palpate_files::Tissue;
 use palpate_files::scene::{CavityContent, Inclusion, Layer, PartContent, TissueChoice};
 use palpate_files::tissue::LawName;
 use palpate_geometry::{AabbTree, Surface, Vec3};
+use palpate_mechanics::contact::Tip;
 use palpate_mechanics::inclusion::InclusionField;
 use palpate_mechanics::layered::{LayeredHalfSpace, LoadShape};
 use palpate_mechanics::nonlinear::Moduli;
@@ -21,6 +22,7 @@ use palpate_mechanics::{LinearElastic, Material};
 
 use crate::Error;
 use crate::organ::read_tissue;
+use crate::tool::Tool;
 
 /// The nonlinear model takes a larger Poisson's ratio as this [-]: volume is kept to the percent, and a few iterations suffice.
 const LARGEST_RATIO: f64 = 0.49;
@@ -29,6 +31,12 @@ const LARGEST_RATIO: f64 = 0.49;
 const LEAST_RADIUS: f64 = 1e-4;
 const FACTOR: f64 = 1.2;
 const RADII: usize = 45;
+
+/// Areas that touch a sphere for which the layers are solved: the least over its radius, and each of the others over the one before
+/// [-].
+const LEAST_AREA: f64 = 3e-3;
+const AREA_FACTOR: f64 = 1.12;
+const AREAS: i32 = 62;
 
 /// A tissue of the organ.
 #[derive(Debug, Clone)]
@@ -60,6 +68,7 @@ pub(crate) struct Regions {
     /// Names of layers and inclusions.
     pub(crate) names: Vec<String>,
     pub(crate) map: RegionMap,
+    layered: LayeredHalfSpace,
     /// How much more than their outermost tissue the layers yield to a flat tip and to a load of each radius [-].
     punch: Vec<[f64; 2]>,
     load: Vec<[f64; 2]>,
@@ -132,6 +141,7 @@ impl Regions {
             map,
             punch: yields(LoadShape::Punch),
             load: yields(LoadShape::Bump),
+            layered,
             tissues,
             cavities,
             warnings,
@@ -209,6 +219,24 @@ impl Regions {
         let moduli: Vec<_> = moduli.collect();
         let unit = law(self.at_surface()).youngs_modulus();
         InclusionField::new(&self.map, &around, &moduli, unit)
+    }
+
+    /// Puts the layers under the tip of a tool, whose law is that on what a flat tip of its typical radius meets: the area that
+    /// touches a sphere grows, and with it what is felt of them.
+    pub(crate) fn lie_under(&self, tool: &mut Tool) {
+        let Tip::Sphere { radius } = tool.tip else {
+            return;
+        };
+        if self.layers == 0 {
+            return;
+        }
+        let touched = self.yields_to_tip(tool.typical_radius)[1];
+        tool.law = tool.law.times((0..AREAS).map(|n| {
+            let area = radius * LEAST_AREA * AREA_FACTOR.powi(n);
+            let [deeper, stronger] = self.layered.under_sphere(area);
+            let depth = deeper * area * area / radius;
+            (depth, touched * stronger / deeper.powf(1.5))
+        }));
     }
 
     /// What a tip of this radius [m] meets: the tissue at the surface, as stiff as the layers are to it.

@@ -87,6 +87,16 @@ impl Stiffening {
         }
     }
 
+    /// Of a half-space that is so many times as stiff at the depths x in radii of the tip [-], which ascend.
+    pub fn times(&self, factors: impl Iterator<Item = (f64, f64)>) -> Self {
+        let known = factors.take_while(|(x, _)| *x <= self.deepest());
+        let points = known.map(|(x, factor)| (x, x * self.ratio(x).0 * factor));
+        let (depths, forces): (Vec<_>, Vec<_>) = points.unzip();
+        Self {
+            equivalent: Some(IndentationCurve::through(&depths, &forces)),
+        }
+    }
+
     /// Depth in radii of the tip down to which it is known [-]; beyond, force goes on along its tangent.
     pub fn deepest(&self) -> f64 {
         self.equivalent
