@@ -135,12 +135,13 @@ impl TipLaw {
         }
     }
 
-    /// The law of the same tip on a half-space that is so many times as stiff at these depths [m], which ascend.
-    pub fn times(&self, factors: impl Iterator<Item = (f64, f64)>) -> Self {
+    /// The law of the same sphere on layers: areas of these radii [m], which ascend, touch so many times deeper, with so many times
+    /// the force [-].
+    pub fn on_layers(&self, areas: impl Iterator<Item = (f64, [f64; 2])>) -> Self {
         let radius = self.radius;
-        let of_radius = factors.map(|(depth, factor)| (depth / radius, factor));
+        let of_radius = areas.map(|(area, times)| ((area / radius).powi(2), times));
         Self {
-            stiffening: Arc::new(self.stiffening.times(of_radius)),
+            stiffening: Arc::new(self.stiffening.on_layers(of_radius)),
             ..self.clone()
         }
     }

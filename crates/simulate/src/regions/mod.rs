@@ -231,11 +231,10 @@ impl Regions {
             return;
         }
         let touched = self.yields_to_tip(tool.typical_radius)[1];
-        tool.law = tool.law.times((0..AREAS).map(|n| {
+        tool.law = tool.law.on_layers((0..AREAS).map(|n| {
             let area = radius * LEAST_AREA * AREA_FACTOR.powi(n);
             let [deeper, stronger] = self.layered.under_sphere(area);
-            let depth = deeper * area * area / radius;
-            (depth, touched * stronger / deeper.powf(1.5))
+            (area, [deeper, touched * stronger])
         }));
     }
 

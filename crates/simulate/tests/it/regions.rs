@@ -154,10 +154,7 @@ fn finite_elements(
     let axis = mesh.nodes_where(|place| place.x < 1e-9);
     let base = mesh.nodes_where(|place| place.y < 1e-9);
     let tip = mesh.nodes_where(|place| place.y > 0.1 - 1e-9 && place.x < touching + 1e-9);
-    let down: Vec<f64> = tip
-        .iter()
-        .map(|&node| -goes(mesh.nodes[node].x))
-        .collect();
+    let down: Vec<f64> = tip.iter().map(|&node| -goes(mesh.nodes[node].x)).collect();
     let regions: Vec<u32> = (0..mesh.len() as u32).collect();
     let model =
         FiniteElementModel::with_regions(mesh, &laws, &regions, Formulation::Displacement).unwrap();
@@ -316,20 +313,15 @@ fn spheres_press_back_through_a_response() {
     inclusions_press_back((sphere(1e-3), &[HYBRID], ASKED), &BALLS[..1]);
 }
 
-/// What touches has a radius of 2 mm, and of 4 mm, which is more than the second ball is deep: there the nonlinear model has large
-/// strain that the judge has not, and is 14 % stiffer. Its bound over small balls is that above.
+/// What touches has a radius of 2 mm, and of 4 mm, which is more than the second ball is deep.
 #[test]
 #[ignore = "slow: ten minutes"]
 fn many_spheres_press_back_as_finite_elements() {
     let models = [HYBRID, NONLINEAR];
-    for depth in [0.25e-3, 1e-3] {
-        let press = sphere(depth);
-        layers_press_back(press, &models, &LAYERS);
-        inclusions_press_back((press, &models[..1], ASKED), &BALLS);
-        inclusions_press_back((press, &models[1..], 0.065), &BALLS[..1]);
-        inclusions_press_back((press, &models[1..], ASKED), &BALLS[2..]);
+    for depth in [1e-3, 0.25e-3] {
+        inclusions_press_back((sphere(depth), &models, ASKED), &BALLS);
+        layers_press_back(sphere(depth), &models, &LAYERS);
     }
-    inclusions_press_back((sphere(0.25e-3), &models[1..], 0.065), &BALLS[1..2]);
 }
 
 /// What the hybrid model does not feel is said, and one tissue in all parts is that tissue: the same forces, to the bit.

@@ -87,11 +87,17 @@ impl Stiffening {
         }
     }
 
-    /// Of a half-space that is so many times as stiff at the depths x in radii of the tip [-], which ascend.
-    pub fn times(&self, factors: impl Iterator<Item = (f64, f64)>) -> Self {
-        let known = factors.take_while(|(x, _)| *x <= self.deepest());
-        let points = known.map(|(x, factor)| (x, x * self.ratio(x).0 * factor));
-        let (depths, forces): (Vec<_>, Vec<_>) = points.unzip();
+    /// Under a sphere on layers: each of the areas, which ascend, touches here at a depth in radii [-], on the layers so many times
+    /// deeper, with so many times the force [-]. Beside Hertz the area counts, not the depth: layers that bend under the tip go down
+    /// with it.
+    pub fn on_layers(&self, areas: impl Iterator<Item = (f64, [f64; 2])>) -> Self {
+        let points = areas.map(|(x, [deeper, stronger])| {
+            let force = self.ratio(x).0 * x.powf(1.5) * stronger;
+            let depth = deeper * x;
+            (depth, force / depth.sqrt())
+        });
+        let known = self.deepest();
+        let (depths, forces): (Vec<_>, Vec<_>) = points.take_while(|(x, _)| *x <= known).unzip();
         Self {
             equivalent: Some(IndentationCurve::through(&depths, &forces)),
         }
