@@ -28,6 +28,13 @@ use grid::Grid;
 /// Voxels that a grid may have; they take 15 bytes each.
 const MOST_VOXELS: f64 = 3e8;
 
+/// Widths of gaps that are tried where a closing encloses nothing: up to this part of the mesh, each so many times the one before, of
+/// those that are few voxels wide and of the others; voxels across the others [-].
+const WIDEST: f64 = 0.5;
+const COARSE_FACTOR: f64 = 2.0;
+const FACTOR: f64 = 1.2;
+const ACROSS: f64 = 16.0;
+
 /// The edge of a voxel over the asked distance [-]. A voxel's surface is off by half of it and by half its diagonal at
 /// most, and its vertices are then moved to the triangles.
 const SPACING: f64 = 0.75;
@@ -186,17 +193,13 @@ pub fn wrap_with_progress(
     let mut closing = Closing::new(&grid, &capped.mesh);
     at(0.1)?;
     if !closing.encloses(radius) {
-        let extent = grid.extent();
-        let mut wider = radius;
-        let mut closes = false;
-        while !closes && 2.0 * wider < 0.1 * extent {
-            wider *= 2.0;
-            closes = closing.encloses(wider);
-        }
+        drop(closing);
+        let width = 2.0 * radius;
+        let (closing, widest) = wider_closing(&capped.mesh, spacing, width);
         return Err(WrapError::Open {
-            width: 2.0 * radius,
-            closing: closes.then_some(2.0 * wider),
-            widest: 2.0 * wider,
+            width,
+            closing,
+            widest,
         });
     }
     at(0.2)?;
@@ -223,6 +226,29 @@ pub fn wrap_with_progress(
         filled,
         surface: Surface::new(fitted)?,
     })
+}
+
+/// The least of some widths of gaps [m] beyond `width` whose closing encloses something, and the widest that was tried, on voxels of
+/// `spacing` [m] or of a part of the width.
+fn wider_closing(mesh: &TriangleMesh, spacing: f64, width: f64) -> (Option<f64>, f64) {
+    let (low, high) = mesh.bounds();
+    let most = WIDEST * (high - low).max();
+    let mut tried = width;
+    loop {
+        let factor = match tried < ACROSS * spacing {
+            true => COARSE_FACTOR,
+            false => FACTOR,
+        };
+        let wider = factor * tried;
+        let grid = Grid::around(mesh, spacing.max(wider / ACROSS), 0.5 * wider);
+        if wider > most || grid.voxels() > MOST_VOXELS {
+            return (None, tried);
+        }
+        if Closing::new(&grid, mesh).encloses(0.5 * wider) {
+            return (Some(wider), wider);
+        }
+        tried = wider;
+    }
 }
 
 /// Cosine of the angle by which a triangle may turn when its corners move to the input.

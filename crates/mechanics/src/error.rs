@@ -342,7 +342,7 @@ pub enum Error {
     },
     /// A solid cannot be followed further.
     #[error(
-        "no equilibrium was found beyond {:.1} % of the displacement and the loads ({failure}); give smaller ones or a larger patch", 100.0 * part
+        "no equilibrium was found beyond {:.1} % of the displacement and the loads ({failure}); give smaller ones, or a larger patch if there is one", 100.0 * part
     )]
     NoSolid {
         /// The part that was reached [-].

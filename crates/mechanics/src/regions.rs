@@ -73,10 +73,13 @@ pub enum RegionError {
     /// The boundary of the body has no inside.
     #[error("layers and shapes need a body whose boundary is a surface: {0}")]
     NoSurface(MeshError),
-    /// The layers together are as thick as the body.
-    #[error("the layers fill the whole body; make them thinner")]
+    /// The layers together are as thick as the body, or thicker.
+    #[error("the layers are as thick as the body is deep, or thicker: make them thinner")]
     NothingBelowLayers,
 }
+
+/// By how much less deep a body may be than its layers are thick, whose surface is of triangles [-].
+const MARGIN: f64 = 0.02;
 
 /// Which of its regions each point of a body belongs to. Region 0 is what is in no other; the others are numbered from 1, in
 /// the order in which they were given.
@@ -102,8 +105,8 @@ impl RegionMap {
     /// The `places` in the body inside of `surface`, whose tree is `tree`.
     ///
     /// # Errors
-    /// When a shape does not lie inside of the body and clear of the others, or there are layers and no triangle of the
-    /// surface looks outwards.
+    /// When a shape does not lie inside of the body and clear of the others, or there are layers and they are thicker than the body,
+    /// or no triangle of the surface looks outwards.
     pub fn new(
         surface: &Surface,
         tree: &AabbTree,
@@ -192,7 +195,29 @@ impl RegionMap {
             }
             borders.push((number, points));
         }
-        Ok(())
+        match self.fits_below_itself(surface, tree) {
+            true => Ok(()),
+            false => Err(RegionError::NothingBelowLayers),
+        }
+    }
+
+    /// Whether some place of the body is as deep as the layers are, all together.
+    fn fits_below_itself(&self, surface: &Surface, tree: &AabbTree) -> bool {
+        let mut layers = self.regions.iter().filter_map(|region| match region {
+            Mapped::Layer { bottom, .. } => Some(*bottom),
+            Mapped::Shape(_) | Mapped::Enclosed(_) => None,
+        });
+        let (Some(bottom), Some((outer, _))) = (layers.next_back(), &self.outer) else {
+            return true;
+        };
+        // What lies that deep has its nearest place of the surface straight above it.
+        let deep = (1.0 - MARGIN) * bottom;
+        outer.triangle_ids().any(|triangle| {
+            let centroid = outer.positions(triangle).iter().sum::<Vec3>() / 3.0;
+            let below = centroid - outer.area_vector(triangle).normalize() * deep;
+            self.depth(&below) >= (1.0 - MARGIN) * deep
+                && surface.signed_distance(tree, &below).1 <= 0.0
+        })
     }
 
     /// Numbers of the regions whose borders are levels of [`height`](Self::height): shapes, then layers from outside.

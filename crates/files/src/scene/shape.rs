@@ -65,7 +65,7 @@ pub enum Shape {
 impl Shape {
     /// The keys of a shape, among those of a table that has one.
     pub const KEYS: [Key; 4] = [
-        Key::path("mesh", "A mesh file: STL, OBJ, PLY, OFF or glTF.")
+        Key::path("mesh", "A mesh file: STL, OBJ, PLY or glTF.")
             .optional("\"liver.stl\"", "`builtin` names a shape"),
         Key::word(
             "mesh_unit",

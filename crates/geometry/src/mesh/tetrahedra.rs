@@ -158,9 +158,12 @@ impl TetrahedronMesh {
 
     /// Total volume [m³].
     pub fn volume(&self) -> f64 {
-        (0..self.tetrahedra.len())
-            .map(|t| six_fold_volume(&self.positions(t)) / 6.0)
-            .sum()
+        (0..self.tetrahedra.len()).map(|t| self.volume_of(t)).sum()
+    }
+
+    /// The volume of a tetrahedron [m³].
+    pub fn volume_of(&self, tetrahedron: usize) -> f64 {
+        six_fold_volume(&self.positions(tetrahedron)) / 6.0
     }
 
     /// All edges once, ends and list in ascending order.

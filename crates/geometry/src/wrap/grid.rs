@@ -32,12 +32,6 @@ impl Grid {
         self.size.iter().map(|&count| count as f64).product()
     }
 
-    /// Its longest side [m].
-    pub(super) fn extent(&self) -> f64 {
-        let most = self.size.iter().copied().max();
-        self.spacing * most.unwrap_or_default() as f64
-    }
-
     /// The number of a voxel; the first index runs fastest.
     pub(super) fn number(&self, [i, j, k]: [usize; 3]) -> usize {
         i + self.size[0] * (j + self.size[1] * k)

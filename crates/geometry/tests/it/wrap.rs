@@ -103,13 +103,66 @@ fn two_halves_with_a_gap_are_one_body() {
 
 #[test]
 fn a_wide_opening_without_a_rim_is_told_with_its_width() {
-    // A sheet folded back: a cup with a wall of 2 mm, open at 16 mm, closed by itself.
-    let cup = ball(0.02);
-    let sheet = soup(&[cup], |_, corners| {
+    // A bit of a ball has no inside.
+    let sheet = soup(&[ball(0.02)], |_, corners| {
         corners.iter().all(|corner| corner.z > 0.0194)
     });
     let open = wrap(&sheet, &SETTINGS);
     assert!(matches!(open, Err(WrapError::Open { .. })), "{open:?}");
+    // A ball with a double wall, whose sheets meet at the rim of an opening of 20 mm, without a free edge.
+    let outer = 0.02;
+    let walls = double_walled_cup([outer, 0.018], PI / 6.0);
+    let Err(WrapError::Open {
+        closing: Some(width),
+        ..
+    }) = wrap(&walls, &SETTINGS)
+    else {
+        panic!("an open cup is refused with the width that closes it");
+    };
+    assert!((0.018..0.024).contains(&width), "{width}");
+    let settings = WrapSettings {
+        close_gaps: width,
+        ..SETTINGS
+    };
+    let closed = wrap(&walls, &settings).unwrap().surface.mesh().volume();
+    // The ball that closes the opening reaches into it.
+    let whole = 4.0 / 3.0 * PI * outer.powi(3);
+    let part = closed / whole;
+    assert!((0.85..1.0).contains(&part), "{part}");
+}
+
+/// Two balls of these radii [m], open down to an angle from their upper pole, where a band joins them.
+fn double_walled_cup([outer, inner]: [f64; 2], open: f64) -> TriangleMesh {
+    const AROUND: usize = 48;
+    const ALONG: usize = 32;
+    let ring = |radius: f64, angle: f64| {
+        (0..AROUND).map(move |n| {
+            let (sine, cosine) = (2.0 * PI * n as f64 / AROUND as f64).sin_cos();
+            radius * Vec3::new(angle.sin() * cosine, angle.sin() * sine, angle.cos())
+        })
+    };
+    let angle = |n: usize| open + (PI - open) * n as f64 / ALONG as f64;
+    // From the lower pole of the outer one up to the rim and down again.
+    let up = (0..ALONG).rev().flat_map(|n| ring(outer, angle(n)));
+    let down = (0..ALONG).flat_map(|n| ring(inner, angle(n)));
+    let mut vertices: Vec<Vec3> = up.chain(down).collect();
+    let poles = [outer, inner].map(|radius| {
+        vertices.push(-radius * Vec3::z());
+        NodeId(vertices.len() as u32 - 1)
+    });
+    let node = |ring: usize, n: usize| NodeId((ring * AROUND + n % AROUND) as u32);
+    let last = 2 * ALONG - 1;
+    let mut triangles = Vec::new();
+    for n in 0..AROUND {
+        triangles.push([poles[0], node(0, n + 1), node(0, n)]);
+        triangles.push([poles[1], node(last, n), node(last, n + 1)]);
+        for ring in 0..last {
+            let [a, b] = [node(ring, n), node(ring, n + 1)];
+            let [c, d] = [node(ring + 1, n), node(ring + 1, n + 1)];
+            triangles.extend([[a, b, c], [b, d, c]]);
+        }
+    }
+    TriangleMesh::new(vertices, triangles).unwrap()
 }
 
 #[test]

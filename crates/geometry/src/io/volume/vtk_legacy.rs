@@ -73,7 +73,10 @@ fn read_regions(words: &mut Words<'_>, cells: &mut CellLists) -> Result<(), Read
             "SCALARS" => (words.next("the name of an array")?, true),
             name => (name, false),
         };
-        let Some(place) = REGION_ARRAYS.iter().position(|known| *known == name) else {
+        let Some(place) = REGION_ARRAYS
+            .iter()
+            .position(|known| known.eq_ignore_ascii_case(name))
+        else {
             continue;
         };
         if is_scalars {

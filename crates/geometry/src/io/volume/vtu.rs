@@ -52,7 +52,9 @@ pub(super) fn read(text: &str) -> Result<RawVolume, ReadFault> {
                     ("Cells", Some("offsets")) => cells.ends = integers(&tag, binary)?,
                     ("Cells", Some("types")) => cells.kinds = integers(&tag, binary)?,
                     ("CellData", Some(name)) => {
-                        let place = REGION_ARRAYS.iter().position(|known| *known == name);
+                        let place = REGION_ARRAYS
+                            .iter()
+                            .position(|known| known.eq_ignore_ascii_case(name));
                         // An array that is called so and does not number anything is not of regions.
                         if let Some(place) = place.filter(|place| *place < rank)
                             && let Ok(numbers) = integers(&tag, binary)

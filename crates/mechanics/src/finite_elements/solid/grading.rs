@@ -250,7 +250,13 @@ impl<'a> MeshContext<'a> {
     /// A warning where `mesh` lacks a part of the body.
     pub(super) fn missing(&self, mesh: &TetrahedronMesh) -> Option<String> {
         match (self.body, self.lattice) {
-            (Body::Surface(surface), Some(edge)) => Fidelity::of(mesh, surface).warning(edge),
+            (Body::Surface(surface), Some(edge)) => {
+                let warning = Fidelity::of(mesh, surface).warning(edge)?;
+                Some(format!(
+                    "{warning}; the estimated error does not include what that changes: give a body with sharp edges as \
+                     tetrahedra"
+                ))
+            }
             _ => None,
         }
     }

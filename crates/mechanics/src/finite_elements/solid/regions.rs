@@ -6,6 +6,9 @@ use super::problem::{Body, SolidPlace, SolidProblem};
 use crate::Error;
 use crate::regions::{RegionError, RegionMap, RegionPlace};
 
+/// By how much the volume of a region may be off without a word [-].
+const VOLUME: f64 = 0.005;
+
 /// The regions of a problem.
 #[derive(Debug)]
 pub(super) struct SolidRegions {
@@ -79,12 +82,35 @@ impl SolidRegions {
             return Err(RegionError::NothingBelowLayers.into());
         }
         let crossing: usize = resolved.iter().map(|level| level.crossing).sum();
-        let warnings = (crossing > 0).then(|| {
-            format!(
+        let mut warnings = self.volumes_off(&mesh, &regions);
+        if crossing > 0 {
+            warnings.push(format!(
                 "{crossing} edges of the mesh cross the borders of regions, which lie up to half an edge off there"
-            )
+            ));
+        }
+        Ok((mesh.with_regions(regions)?, warnings))
+    }
+
+    /// Warnings where tetrahedra give a shape another volume than its border encloses.
+    fn volumes_off(&self, mesh: &TetrahedronMesh, regions: &[u32]) -> Vec<String> {
+        let mut volumes = vec![0.0; self.count + 1];
+        for (tetrahedron, &region) in regions.iter().enumerate() {
+            volumes[region as usize] += mesh.volume_of(tetrahedron);
+        }
+        let places = self.bounded.iter().zip(1..);
+        let off = places.filter_map(|(&region, number)| {
+            let [expected, _] = self.map.volume_and_area(number)?;
+            let off = volumes[region] / expected - 1.0;
+            let less_or_more = if off < 0.0 { "less" } else { "more" };
+            (off.abs() > VOLUME).then(|| {
+                format!(
+                    "region {region} has {:.1} % {less_or_more} volume in the mesh than its border encloses; the estimated error \
+                     does not include what that changes",
+                    100.0 * off.abs()
+                )
+            })
         });
-        Ok((mesh.with_regions(regions)?, warnings.into_iter().collect()))
+        off.collect()
     }
 }
 

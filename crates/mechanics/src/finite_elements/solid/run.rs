@@ -64,7 +64,7 @@ pub fn solve(
         }
         if !problem.tools.is_empty() {
             let forces = (0..problem.tools.len()).map(|tool| answer.force_on_tool(tool));
-            quantities.push(Quantity::new("forces on the tools", forces.collect()));
+            quantities.push(Quantity::new("force of the tools", forces.collect()));
         }
         if !answer.points.is_empty() {
             let squares = answer.points.iter().map(Vec3::norm_squared);

@@ -102,6 +102,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         true => read_dicom_folder(&arguments.file)?,
         false => DicomFolder::default(),
     };
+    if arguments.file.is_dir() && folder.series.is_empty() && folder.segmentations.is_empty() {
+        return Err(Failure::input(format!(
+            "{}: no DICOM image or segmentation in this folder; name the folder of one patient's files",
+            arguments.file.display()
+        )));
+    }
     // A folder of images is listed; only a label asks for its one segmentation.
     let map = match arguments.file.is_dir() && folder.segmentations.len() != 1 {
         true if arguments.label.is_none() => None,
