@@ -74,8 +74,11 @@ pub enum RegionError {
     #[error("layers and shapes need a body whose boundary is a surface: {0}")]
     NoSurface(MeshError),
     /// The layers together are as thick as the body, or thicker.
-    #[error("the layers are as thick as the body is deep, or thicker: make them thinner")]
-    NothingBelowLayers,
+    #[error("the layers are {} mm thick together, and no place of the body is deeper; make them thinner", 1e3 * thickness)]
+    NothingBelowLayers {
+        /// Of all layers [m].
+        thickness: f64,
+    },
 }
 
 /// By how much less deep a body may be than its layers are thick, whose surface is of triangles [-].
@@ -195,29 +198,43 @@ impl RegionMap {
             }
             borders.push((number, points));
         }
-        match self.fits_below_itself(surface, tree) {
+        self.check_layers(surface, tree)
+    }
+
+    /// Whether the body is as deep as its layers are.
+    fn check_layers(&self, surface: &Surface, tree: &AabbTree) -> Result<(), RegionError> {
+        let Some((outer, _)) = &self.outer else {
+            return Ok(());
+        };
+        // What lies that deep has its nearest place of the surface straight above it.
+        let has_place = |deep: f64| {
+            let deep = (1.0 - MARGIN) * deep;
+            outer.triangle_ids().any(|triangle| {
+                let centroid = outer.positions(triangle).iter().sum::<Vec3>() / 3.0;
+                let below = centroid - outer.area_vector(triangle).normalize() * deep;
+                self.depth(&below) >= (1.0 - MARGIN) * deep
+                    && surface.signed_distance(tree, &below).1 <= 0.0
+            })
+        };
+        for (region, own) in self.regions.iter().enumerate() {
+            if matches!(own, Mapped::Layer { top, .. } if *top > 0.0 && !has_place(*top)) {
+                return Err(RegionError::Nowhere { region });
+            }
+        }
+        let thickness = self.thickness_of_layers();
+        match has_place(thickness) {
             true => Ok(()),
-            false => Err(RegionError::NothingBelowLayers),
+            false => Err(RegionError::NothingBelowLayers { thickness }),
         }
     }
 
-    /// Whether some place of the body is as deep as the layers are, all together.
-    fn fits_below_itself(&self, surface: &Surface, tree: &AabbTree) -> bool {
-        let mut layers = self.regions.iter().filter_map(|region| match region {
+    /// Of all layers together [m].
+    pub fn thickness_of_layers(&self) -> f64 {
+        let layers = self.regions.iter().filter_map(|region| match region {
             Mapped::Layer { bottom, .. } => Some(*bottom),
             Mapped::Shape(_) | Mapped::Enclosed(_) => None,
         });
-        let (Some(bottom), Some((outer, _))) = (layers.next_back(), &self.outer) else {
-            return true;
-        };
-        // What lies that deep has its nearest place of the surface straight above it.
-        let deep = (1.0 - MARGIN) * bottom;
-        outer.triangle_ids().any(|triangle| {
-            let centroid = outer.positions(triangle).iter().sum::<Vec3>() / 3.0;
-            let below = centroid - outer.area_vector(triangle).normalize() * deep;
-            self.depth(&below) >= (1.0 - MARGIN) * deep
-                && surface.signed_distance(tree, &below).1 <= 0.0
-        })
+        layers.fold(0.0, f64::max)
     }
 
     /// Numbers of the regions whose borders are levels of [`height`](Self::height): shapes, then layers from outside.

@@ -378,7 +378,10 @@ fn parts_that_do_not_fit_are_refused() {
     ]);
     assert_eq!(overlap, RegionError::Overlap { regions: [1, 2] });
     let thick = refusal(vec![RegionPlace::Layer(0.02), RegionPlace::Layer(0.06)]);
-    assert_eq!(thick, RegionError::NothingBelowLayers);
+    let RegionError::NothingBelowLayers { thickness } = thick else {
+        panic!("{thick}")
+    };
+    assert!((thickness - 0.08).abs() < 1e-12, "{thickness}");
     let deep = refusal(vec![RegionPlace::Layer(0.06), RegionPlace::Layer(0.01)]);
     assert_eq!(deep, RegionError::Nowhere { region: 1 });
 }

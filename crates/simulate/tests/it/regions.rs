@@ -382,6 +382,11 @@ fn regions_that_cannot_be_are_refused() {
         &format!("builtin = \"cube\"\nlayer = [{{ thickness_m = 0.2, {tissue} }}]"),
         "the layers are 200 mm thick",
     );
+    // They meet in the middle.
+    refused(
+        &format!("builtin = \"cube\"\nlayer = [{{ thickness_m = 0.06, {tissue} }}]"),
+        "the layers are 60 mm thick",
+    );
     let parse = |inclusion: &str| {
         let text = format!(
             "format = 1\n[organ]\nbuiltin = \"cube\"\nbuiltin_tissue = \"pig-liver\"\n[[organ.inclusion]]\n{inclusion}\n\

@@ -79,7 +79,8 @@ impl SolidRegions {
         }
         let has_layers = self.map.bounded().any(|number| self.map.is_layer(number));
         if has_layers && self.cells.is_empty() && !is_somewhere(&0) {
-            return Err(RegionError::NothingBelowLayers.into());
+            let thickness = self.map.thickness_of_layers();
+            return Err(RegionError::NothingBelowLayers { thickness }.into());
         }
         let crossing: usize = resolved.iter().map(|level| level.crossing).sum();
         let mut warnings = self.volumes_off(&mesh, &regions);

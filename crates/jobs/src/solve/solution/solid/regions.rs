@@ -177,7 +177,7 @@ pub(super) fn refused(case: &Solid, error: &RegionError) -> Option<Error> {
             bad(&part.found_at, &part.key, found, expected)
         }),
         RegionError::NoSurface(_) => None,
-        RegionError::NothingBelowLayers => {
+        RegionError::NothingBelowLayers { .. } => {
             let is_layer = |part: &&SolidPart| matches!(part.place, PartPlace::Layer(_));
             case.parts.iter().rfind(is_layer).map(|part| {
                 let found = format!("{:?}, below which nothing is left", part.name);
