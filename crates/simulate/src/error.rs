@@ -121,7 +121,7 @@ pub enum Error {
     },
     /// An inclusion reaches out of the organ.
     #[error(
-        "the part {name:?} of the organ reaches {} mm out of the organ; make it smaller or move it in (`palpate mesh info` tells where the organ lies)",
+        "the organ's part {name:?} reaches {} mm out of the organ; make it smaller or move it in (`palpate mesh info` tells where the organ lies)",
         millimetres(*.outside)
     )]
     InclusionOutside {
@@ -144,7 +144,7 @@ pub enum Error {
     )]
     CavityPressure,
     /// Two inclusions share a place.
-    #[error("the parts {one:?} and {other:?} of the organ overlap; move them apart")]
+    #[error("the organ's parts {one:?} and {other:?} overlap; move them apart")]
     InclusionsOverlap {
         /// The name of one.
         one: String,
