@@ -20,7 +20,7 @@ pub enum Limit {
     TipShearStiffness,
     /// Tip law: depth down to which the force is known [m]; beyond, it goes on along its tangent.
     TipDepth,
-    /// Several tips: change of a force in the last sweep over them [of the largest force].
+    /// Several tips, or one over an inclusion: change of a force in the last sweep or round [of the largest force].
     Coupling,
     /// Several tips: how far one moves the organ under another [of how far it moves it under itself].
     Carried,

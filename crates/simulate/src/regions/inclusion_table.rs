@@ -123,7 +123,8 @@ impl InclusionTable {
 }
 
 impl TipExchange {
-    /// That under the force at which an area of the radius `touching` [m] would touch without inclusions, and its change with the logarithm of the force.
+    /// That under the force at which an area of the radius `touching` [m] would touch without inclusions, and its change with the
+    /// logarithm of the force.
     pub(crate) fn compliance(&self, touching: f64) -> [f64; 2] {
         let (below, within) = position::<TIPS>(touching / self.least, TIP_FACTOR);
         // Through the two with the slopes of those around them, which are continuous.

@@ -211,11 +211,7 @@ fn layers_press_back_as_finite_elements() {
     let models = [NONLINEAR, ("nonlinear", "nodes = 3000")];
     let one = (Press::Flat, &models[..], ASKED);
     presses_as(one, ("one tissue", BODY), 3e-3, |_, _| YOUNGS_MODULUS);
-    layers_press_back(
-        Press::Flat,
-        &models,
-        &[(8e-3, 4e4), (3e-3, 4e4), (3e-3, 2.5e3)],
-    );
+    layers_press_back(Press::Flat, &models, &LAYERS);
 }
 
 #[test]
@@ -227,11 +223,7 @@ fn layers_press_back_through_a_response() {
 #[ignore = "slow: two minutes"]
 fn many_layers_press_back_through_a_response() {
     let models = [HYBRID, ("hybrid", "mechanical_triangles = 3000")];
-    layers_press_back(
-        Press::Flat,
-        &models,
-        &[(8e-3, 4e4), (3e-3, 4e4), (3e-3, 2.5e3)],
-    );
+    layers_press_back(Press::Flat, &models, &LAYERS);
 }
 
 /// A wide sphere, whose surface is a paraboloid where it touches as that of the judge is.
