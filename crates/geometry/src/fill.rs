@@ -11,7 +11,8 @@
 //! `fill::real_organs_are_filled`, `fill::a_thin_rim_is_filled_where_it_is_asked_for`,
 //! `fill::a_lost_rod_is_told_with_its_end`.
 //!
-//! *Limits*: sharp edges are cut off by up to a third of an edge. What is thinner than about two
+//! *Limits*: sharp edges are cut off by up to a third of an edge; [`follow_sharp_edges`](crate::follow_sharp_edges) brings them
+//! back. What is thinner than about two
 //! edges may be lost; then the coarseness is refused, or [`Fidelity`] tells what is missing and
 //! where. [`fill_graded`] is finer where it is asked to be. Where a thin gap would leave tetrahedra that
 //! touch in an edge or a vertex only, a few are taken away and the boundary lies off the surface.

@@ -72,7 +72,7 @@ pub use neighborhood_watch::{ContactPoint, FASTEST_TURN, follow, project_contact
 pub use organ::{AnchorPlane, Organ, OrganDescription, OrganError};
 pub use patch_field::{Patch, PatchField};
 pub use proximity::{PointOnTriangle, closest_on_triangle};
-pub use refine::{Level, Resolved, refine_to, resolve_levels};
+pub use refine::{Level, Resolved, follow_sharp_edges, refine_to, resolve_levels};
 pub use simplify::{
     Simplified, SimplifyError, SimplifySettings, simplify, simplify_graded, simplify_with_progress,
 };

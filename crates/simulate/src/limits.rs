@@ -124,7 +124,8 @@ fn sentence(limit: Limit, reached: &Reached, tool: &str, when: &str) -> String {
         ),
         Limit::Coupling => format!(
             "the forces of tools that touch together, {tool:?} among them, still changed by {asked:.1e} of the largest \
-             in the last sweep over them, above {used:.1e}, {when}: the tips are on the same spot; keep them apart"
+             in the last sweep over them, above {used:.1e}, {when}: the tips are on the same spot, or deep beside each other; keep \
+             them apart"
         ),
         Limit::Pace => format!(
             "the tool {tool:?} was to move the organ by {:.1} mm in a step, and the model followed by {:.1} mm {when}: \

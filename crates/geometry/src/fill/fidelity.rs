@@ -1,8 +1,5 @@
 use crate::{AabbTree, Surface, TetrahedronMesh, Vec3};
 
-/// A volume that is off by more than this part is told [-]: a tenth of what the force of an organ may be off.
-const VOLUME: f64 = 0.005;
-
 /// How faithfully tetrahedra fill a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fidelity {
@@ -15,6 +12,9 @@ pub struct Fidelity {
 }
 
 impl Fidelity {
+    /// A volume that is off by more than this part deserves a warning [-]: a tenth of what the force of an organ may be off.
+    pub const VOLUME: f64 = 0.005;
+
     /// That of the `filling` of a `surface`.
     pub fn of(filling: &TetrahedronMesh, surface: &Surface) -> Self {
         let boundary = filling.boundary_mesh();
@@ -39,14 +39,14 @@ impl Fidelity {
             distance,
             place,
         } = self;
-        if volume.abs() <= VOLUME && *distance <= edge {
+        if volume.abs() <= Self::VOLUME && *distance <= edge {
             return None;
         }
         let off = match *volume {
-            less if less < -VOLUME => {
+            less if less < -Self::VOLUME => {
                 format!("{:.1} % of the volume is missing, and ", -100.0 * less)
             }
-            more if more > VOLUME => {
+            more if more > Self::VOLUME => {
                 format!("there is {:.1} % too much volume, and ", 100.0 * more)
             }
             _ => String::new(),

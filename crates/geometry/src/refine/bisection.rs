@@ -3,7 +3,7 @@ use std::collections::HashMap;
 use crate::mesh::tetrahedra::{between_regions, faces, longest_edge, matched};
 use crate::{NodeId, TetrahedronError, TetrahedronMesh, Vec3};
 
-type Edge = [u32; 2];
+pub(super) type Edge = [u32; 2];
 
 /// A tetrahedron that knows how it and its descendants are to be bisected.
 #[derive(Debug, Clone, Copy)]
@@ -28,8 +28,8 @@ pub(super) struct Bisection {
     pub(super) around: Vec<Vec<u32>>,
     /// The vertex in the middle of an edge that was cut. Never walked over.
     middles: HashMap<Edge, u32>,
-    /// Vertices made on the boundary since they were last asked for.
-    pub(super) new_on_boundary: Vec<u32>,
+    /// Vertices made on the boundary since they were last asked for, each with the ends of its edge.
+    pub(super) new_on_boundary: Vec<(u32, Edge)>,
     pending: Vec<u32>,
 }
 
@@ -189,7 +189,7 @@ impl Bisection {
                 (0..4).any(|k| tetrahedron.boundary[k] && ![a, b].contains(&tetrahedron.nodes[k]));
         }
         if on_boundary {
-            self.new_on_boundary.push(middle);
+            self.new_on_boundary.push((middle, [a, b]));
         }
         middle
     }

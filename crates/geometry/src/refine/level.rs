@@ -1,3 +1,4 @@
+use super::facets::common;
 use super::shell::{SearchedSurface, dihedral_quality, move_if_sound};
 use super::split::SplitNet;
 use crate::mesh::edges::{by_edge, sides};
@@ -232,18 +233,23 @@ impl<'a> Resolving<'a> {
         self.boundary.binary_search(&edge).is_ok()
     }
 
-    /// Whether a vertex may go along an edge: not off a level, and not off the boundary.
+    /// Whether a vertex may go along an edge: not off a level, the boundary or a sharp edge.
     fn may_move(&self, node: NodeId, edge: [NodeId; 2]) -> bool {
         let normals = &self.normals[node.index()];
         if self.pinned[node.index()] || (!normals.is_empty() && !self.is_on_boundary(edge)) {
             return false;
         }
         let [a, b] = edge.map(|node| self.net.vertices[node.index()]);
+        if let Some(shell) = self.shell {
+            let other = if edge[0] == node { b } else { a };
+            let [own, others] =
+                [&self.net.vertices[node.index()], &other].map(|at| shell.facets_at(at));
+            return own.len() < 2 || (own.len() == 2 && common(&own, &others) == own);
+        }
         let along = (b - a).normalize();
-        self.shell.is_some()
-            || normals
-                .iter()
-                .all(|normal| normal.dot(&along).abs() <= IN_PLANE)
+        normals
+            .iter()
+            .all(|normal| normal.dot(&along).abs() <= IN_PLANE)
     }
 
     /// Moves ends of edges, those that have the least way first. How many.
@@ -292,9 +298,10 @@ impl<'a> Resolving<'a> {
     fn crossing(&self, edge: [NodeId; 2]) -> Option<Vec3> {
         let shell = self.shell.filter(|_| self.is_on_boundary(edge));
         let [a, b] = edge.map(|node| self.net.vertices[node.index()]);
+        let onto = shell.map(|shell| shell.under_chord([&a, &b]));
         let at = |part: f64| {
             let chord = a + part * (b - a);
-            shell.map_or(chord, |shell| shell.nearest(&chord))
+            onto.as_ref().map_or(chord, |onto| onto(&chord))
         };
         let [mut low, mut high] = [0.0, 1.0];
         let [mut below, mut above] = edge.map(|node| self.heights[node.index()]);

@@ -1,4 +1,4 @@
-use super::bisection::Bisection;
+use super::bisection::{Bisection, Edge};
 use super::relax::relax;
 use super::shell::{SearchedSurface, move_if_sound};
 use crate::{Surface, TetrahedronError, TetrahedronMesh, Vec3};
@@ -65,15 +65,16 @@ pub fn refine_to(
         }
         if let Some(shell) = &shell {
             off_surface.append(&mut bisection.new_on_boundary);
-            off_surface.retain(|&node| !pull(&mut bisection, shell, node));
+            off_surface.retain(|&(node, edge)| !pull(&mut bisection, shell, node, edge));
         }
     }
     bisection.into_mesh()
 }
 
-/// Moves a vertex onto the surface. Whether it is there.
-fn pull(bisection: &mut Bisection, shell: &SearchedSurface<'_>, node: u32) -> bool {
-    let target = shell.nearest(&bisection.vertices[node as usize]);
+/// Moves a vertex that halves an edge onto the surface. Whether it is there.
+fn pull(bisection: &mut Bisection, shell: &SearchedSurface<'_>, node: u32, edge: Edge) -> bool {
+    let [a, b] = edge.map(|end| &bisection.vertices[end as usize]);
+    let target = shell.under_chord([a, b])(&bisection.vertices[node as usize]);
     let star: Vec<[u32; 4]> = bisection.around[node as usize]
         .iter()
         .map(|&t| bisection.nodes(t))

@@ -48,8 +48,9 @@ fn open(bisection: &mut Bisection, node: u32, shell: Option<&SearchedSurface<'_>
         .iter()
         .map(|&t| bisection.nodes(t))
         .collect();
+    let start = bisection.vertices[node as usize];
     open_around(&mut bisection.vertices, (node, &star), |target| {
-        shell.map_or(target, |shell| shell.nearest(&target))
+        shell.map_or(target, |shell| shell.slide(&start, &target))
     })
 }
 

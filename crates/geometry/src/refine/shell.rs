@@ -1,23 +1,59 @@
 //! Vertices of the boundary move, and no tetrahedron may suffer.
 
+use super::facets::{Facets, On};
 use crate::mesh::tetrahedra::{dihedral_angles, six_fold_volume};
 use crate::{AabbTree, Surface, Vec3};
 
-/// A surface and its tree.
+/// A chord of a sharp edge is this near to it, in lengths of the chord [-].
+const NEAR_EDGE: f64 = 0.2;
+
+/// A surface, its tree, and its facets where it has sharp edges.
 pub(super) struct SearchedSurface<'a> {
     surface: &'a Surface,
     tree: AabbTree,
+    pub(super) facets: Option<Facets<'a>>,
 }
 
 impl<'a> SearchedSurface<'a> {
     pub(super) fn new(surface: &'a Surface) -> Self {
-        let tree = AabbTree::new(surface.mesh());
-        Self { surface, tree }
+        Self {
+            surface,
+            tree: AabbTree::new(surface.mesh()),
+            facets: Facets::new(surface),
+        }
+    }
+
+    /// The facets that a point [m] lies on; none where there are no sharp edges.
+    pub(super) fn facets_at(&self, point: &Vec3) -> On {
+        let facets = self.facets.as_ref();
+        facets.map_or_else(On::new, |facets| facets.at(&self.tree, point))
     }
 
     /// The point of the surface nearest to `point` [m].
     pub(super) fn nearest(&self, point: &Vec3) -> Vec3 {
         self.tree.nearest(self.surface.mesh(), point).on.position
+    }
+
+    /// The point of the surface nearest to a point of the chord between two others [m]; on a sharp edge, where the chord is one of it.
+    pub(super) fn under_chord(&self, ends: [&Vec3; 2]) -> impl Fn(&Vec3) -> Vec3 {
+        let on = ends.map(|end| self.facets_at(end));
+        let reach = NEAR_EDGE * (ends[1] - ends[0]).norm();
+        move |point| {
+            let facets = self.facets.as_ref();
+            let edge = facets.and_then(|facets| facets.nearest_on_edge(point, [&on[0], &on[1]]));
+            let edge = edge.filter(|place| (place - point).norm() <= reach);
+            edge.unwrap_or_else(|| self.nearest(point))
+        }
+    }
+
+    /// Where a vertex at `start` comes that slides towards `target` [m]: it keeps to its facets.
+    pub(super) fn slide(&self, start: &Vec3, target: &Vec3) -> Vec3 {
+        let nearest = self.nearest(target);
+        let own = self.facets_at(start);
+        match own.is_empty() || own == self.facets_at(&nearest) {
+            true => nearest,
+            false => *start,
+        }
     }
 }
 

@@ -24,6 +24,7 @@ mod organ;
 mod readers;
 mod refine;
 mod shapes;
+mod sharp_edges;
 mod simplify;
 mod slit;
 mod tetrahedra;

@@ -1,6 +1,8 @@
 use std::sync::Arc;
 
-use palpate_geometry::{FillSettings, Level, TetrahedronMesh, fill, refine_to, resolve_levels};
+use palpate_geometry::{
+    FillSettings, Level, TetrahedronMesh, fill, follow_sharp_edges, refine_to, resolve_levels,
+};
 
 use super::problem::CondensedProblem;
 use crate::regions::RegionError;
@@ -24,7 +26,7 @@ pub(super) struct Filling {
 impl Filling {
     pub(super) fn of(problem: &CondensedProblem<'_>) -> Result<Self, Error> {
         let (surface, edge) = (problem.surface, problem.edge);
-        let mesh = fill(surface, &FillSettings::new(edge))?;
+        let mesh = follow_sharp_edges(fill(surface, &FillSettings::new(edge))?, surface)?;
         let Some(regions) = problem.regions else {
             let law = LinearElastic::new(1.0, problem.poissons_ratio)?;
             return Ok(Self {

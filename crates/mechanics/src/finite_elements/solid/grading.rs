@@ -21,7 +21,7 @@ use std::rc::Rc;
 use palpate_files::scene::Region;
 use palpate_geometry::{
     Fidelity, FillSettings, Level, Surface, TetrahedronError, TetrahedronMesh, closest_on_triangle,
-    fill, fill_graded, refine_to, resolve_levels,
+    fill, fill_graded, follow_sharp_edges, refine_to, resolve_levels,
 };
 
 use super::footprint::Footprint;
@@ -184,7 +184,7 @@ impl<'a> MeshContext<'a> {
         let patch = patch.as_ref();
         let wanted = patch.map(|at| area_within(at.radius, &at.center, surface));
         let finer = |near: f64| {
-            fill_graded(surface, &FillSettings::new(FINER * edge), |point| {
+            let filling = fill_graded(surface, &FillSettings::new(FINER * edge), |point| {
                 let longest = |size: f64, off: f64| size * near + SPREAD * off.max(0.0);
                 let at_patch = patch.iter().map(|at| {
                     let off = (point - at.center).norm() - 1.5 * at.radius;
@@ -196,7 +196,8 @@ impl<'a> MeshContext<'a> {
                     longest(own.size, off)
                 });
                 at_patch.chain(at_tools).fold(f64::INFINITY, f64::min)
-            })
+            });
+            filling.and_then(|filling| follow_sharp_edges(filling, surface))
         };
         let mut closest = context(coarse, Some(edge));
         let (mut missed, mut said) = closest.missed(wanted)?;
@@ -253,8 +254,8 @@ impl<'a> MeshContext<'a> {
             (Body::Surface(surface), Some(edge)) => {
                 let warning = Fidelity::of(mesh, surface).warning(edge)?;
                 Some(format!(
-                    "{warning}; the estimated error does not include what that changes: give a body with sharp edges as \
-                     tetrahedra"
+                    "{warning}; the estimated error does not include what that changes: give the body as tetrahedra, if it \
+                     matters"
                 ))
             }
             _ => None,
@@ -370,7 +371,7 @@ fn filling(surface: &Surface) -> Result<(TetrahedronMesh, f64), Error> {
         let settings = FillSettings::with_about(surface, about);
         match fill(surface, &settings) {
             Err(TetrahedronError::TooCoarse { .. }) if about < FINEST_FILLING => about *= 2,
-            done => return Ok((done?, settings.edge)),
+            done => return Ok((follow_sharp_edges(done?, surface)?, settings.edge)),
         }
     }
 }

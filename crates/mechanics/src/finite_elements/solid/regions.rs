@@ -1,13 +1,10 @@
 //! Which region each tetrahedron of a solid belongs to.
 
-use palpate_geometry::{AabbTree, Resolved, TetrahedronMesh};
+use palpate_geometry::{AabbTree, Fidelity, Resolved, TetrahedronMesh};
 
 use super::problem::{Body, SolidPlace, SolidProblem};
 use crate::Error;
 use crate::regions::{RegionError, RegionMap, RegionPlace};
-
-/// By how much the volume of a region may be off without a word [-].
-const VOLUME: f64 = 0.005;
 
 /// The regions of a problem.
 #[derive(Debug)]
@@ -103,7 +100,7 @@ impl SolidRegions {
             let [expected, _] = self.map.volume_and_area(number)?;
             let off = volumes[region] / expected - 1.0;
             let less_or_more = if off < 0.0 { "less" } else { "more" };
-            (off.abs() > VOLUME).then(|| {
+            (off.abs() > Fidelity::VOLUME).then(|| {
                 format!(
                     "region {region} has {:.1} % {less_or_more} volume in the mesh than its border encloses; the estimated error \
                      does not include what that changes",

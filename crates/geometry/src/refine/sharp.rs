@@ -1,0 +1,245 @@
+use super::facets::{Facets, On, common};
+use super::relax::{FLAT, SWEEPS, open_around};
+use super::shell::{SearchedSurface, dihedral_quality, move_if_sound};
+use super::split::SplitNet;
+use crate::mesh::edges::{by_edge, sides};
+use crate::{NodeId, Surface, TetrahedronError, TetrahedronMesh, Vec3};
+
+/// Angles below this are not made by moving a vertex [rad].
+const MOVED_FLOOR: f64 = 0.17;
+
+/// Angles below this are not made by cutting an edge [rad].
+const CUT_FLOOR: f64 = 0.05;
+
+/// How far an end of an edge goes to a sharp edge at most, in lengths of the edge [-], and the angles that must be left [rad]: from
+/// round to round for edges that nothing helped before.
+const ROUNDS: [(f64, f64); 3] = [(0.6, 0.17), (1.0, 0.17), (1.0, CUT_FLOOR)];
+
+/// Makes tetrahedra that fill `surface`, with their boundary vertices on it, follow its sharp edges, which a filling cuts off: corners
+/// get a vertex, and where an edge of the boundary crosses a sharp edge, an end of it moves there, or it gets a new vertex.
+/// Where a flat tetrahedron would come, the edge stays as it is. All tetrahedra are of one region after that. A surface without
+/// sharp edges changes nothing.
+///
+/// # Errors
+/// When what comes is no mesh, which does not happen to a sound one.
+pub fn follow_sharp_edges(
+    mesh: TetrahedronMesh,
+    surface: &Surface,
+) -> Result<TetrahedronMesh, TetrahedronError> {
+    let shell = SearchedSurface::new(surface);
+    let Some(facets) = &shell.facets else {
+        return Ok(mesh);
+    };
+    let mut following = Following::new(mesh, &shell, facets);
+    following.take_corners();
+    let mut edges = following.edges.clone();
+    edges.retain(|edge| following.crosses(*edge));
+    for round in ROUNDS {
+        edges = following.take(edges, round);
+        following.relax();
+    }
+    following.into_mesh()
+}
+
+struct Following<'a> {
+    shell: &'a SearchedSurface<'a>,
+    facets: &'a Facets<'a>,
+    net: SplitNet,
+    /// Edges of the boundary.
+    edges: Vec<[u32; 2]>,
+    /// The facets that each vertex lies on; none inside.
+    on: Vec<On>,
+    on_boundary: Vec<bool>,
+}
+
+/// An end of an edge that could move to a sharp edge.
+struct Move {
+    /// The way to go, as a part of the edge [-].
+    part: f64,
+    edge: [u32; 2],
+    node: u32,
+}
+
+impl<'a> Following<'a> {
+    fn new(mesh: TetrahedronMesh, shell: &'a SearchedSurface<'a>, facets: &'a Facets<'a>) -> Self {
+        let boundary = mesh.boundary();
+        let triangles: Vec<_> = boundary.iter().map(|(corners, _)| *corners).collect();
+        let mut edges: Vec<[u32; 2]> = by_edge(&sides(&triangles))
+            .map(|sides| [sides[0].low.0, sides[0].high.0])
+            .collect();
+        edges.sort_unstable();
+        let (vertices, tetrahedra) = mesh.into_parts();
+        let mut on_boundary = vec![false; vertices.len()];
+        for node in triangles.iter().flatten() {
+            on_boundary[node.index()] = true;
+        }
+        let on = vertices.iter().zip(&on_boundary);
+        let on = on.map(|(place, on_boundary)| match on_boundary {
+            true => shell.facets_at(place),
+            false => On::new(),
+        });
+        let tetrahedra = tetrahedra.iter().map(|corners| corners.map(|node| node.0));
+        Self {
+            shell,
+            facets,
+            on: on.collect(),
+            net: SplitNet::new(vertices, tetrahedra.collect()),
+            edges,
+            on_boundary,
+        }
+    }
+
+    fn into_mesh(self) -> Result<TetrahedronMesh, TetrahedronError> {
+        let tetrahedra = self.net.tetrahedra.iter();
+        let tetrahedra: Vec<_> = tetrahedra.map(|corners| corners.map(NodeId)).collect();
+        TetrahedronMesh::new(self.net.vertices, tetrahedra)
+    }
+
+    fn star(&self, node: u32) -> Vec<[u32; 4]> {
+        let around = self.net.around[node as usize].iter();
+        around.map(|&t| self.net.tetrahedra[t as usize]).collect()
+    }
+
+    /// Moves a vertex of the boundary to a place on the surface, unless a tetrahedron would be flat; whether it is there.
+    fn goes(&mut self, node: u32, target: Vec3, floor: f64) -> bool {
+        let star = self.star(node);
+        let star = star.iter().copied();
+        let moves = move_if_sound(&mut self.net.vertices, star, node, target, floor);
+        if moves {
+            self.on[node as usize] = self.shell.facets_at(&target);
+        }
+        moves
+    }
+
+    /// Gives each corner the vertex within an edge of the boundary that leaves the tetrahedra around it most open.
+    fn take_corners(&mut self) {
+        let mut reach = vec![0.0_f64; self.net.vertices.len()];
+        for [a, b] in &self.edges {
+            let [from, to] = [a, b].map(|node| self.net.vertices[*node as usize]);
+            for node in [a, b] {
+                let reach = &mut reach[*node as usize];
+                *reach = reach.max((to - from).norm());
+            }
+        }
+        for corner in &self.facets.corners {
+            let near = |node: &u32| {
+                let away = (self.net.vertices[*node as usize] - corner).norm();
+                away <= reach[*node as usize]
+            };
+            let nodes =
+                (0..self.net.vertices.len() as u32).filter(|node| self.on_boundary[*node as usize]);
+            let candidates: Vec<u32> = nodes
+                .filter(near)
+                .filter(|node| self.on[*node as usize].len() < 3)
+                .collect();
+            let open = |node: u32| {
+                let star = self.star(node);
+                let open = star.iter().map(|nodes| {
+                    dihedral_quality(&nodes.map(|other| match other == node {
+                        true => *corner,
+                        false => self.net.vertices[other as usize],
+                    }))
+                });
+                open.fold(f64::INFINITY, f64::min)
+            };
+            let best = candidates.iter().map(|node| (open(*node), *node));
+            let best = best.reduce(|best, next| if next.0 > best.0 { next } else { best });
+            if let Some((_, node)) = best {
+                self.goes(node, *corner, MOVED_FLOOR);
+            }
+        }
+    }
+
+    fn crosses(&self, edge: [u32; 2]) -> bool {
+        let [a, b] = edge.map(|node| &self.on[node as usize]);
+        common(a, b).is_empty()
+    }
+
+    /// Where an edge of the boundary could cross a sharp edge [m], the best place first.
+    fn crossings(&self, edge: [u32; 2]) -> Vec<Vec3> {
+        let [a, b] = edge.map(|node| (&self.net.vertices[node as usize], &self.on[node as usize]));
+        self.facets.crossings(a, b)
+    }
+
+    /// Moves ends of the edges that cross a sharp edge, those with the least way first, and cuts the others. Which edges still cross.
+    fn take(&mut self, mut edges: Vec<[u32; 2]>, (farthest, floor): (f64, f64)) -> Vec<[u32; 2]> {
+        let mut ways = Vec::new();
+        for &edge in &edges {
+            let [from, to] = edge.map(|node| self.net.vertices[node as usize]);
+            if let Some(target) = self.crossings(edge).first() {
+                for (node, here) in [(edge[0], from), (edge[1], to)] {
+                    let part = (target - here).norm() / (to - from).norm();
+                    if part <= farthest && self.on[node as usize].len() < 2 {
+                        ways.push(Move { part, edge, node });
+                    }
+                }
+            }
+        }
+        ways.sort_by(|one, other| {
+            let order = one.part.total_cmp(&other.part);
+            order.then(one.edge.cmp(&other.edge))
+        });
+        for Move { edge, node, .. } in ways {
+            if self.crosses(edge)
+                && let Some(target) = self.crossings(edge).first()
+            {
+                self.goes(node, *target, floor);
+            }
+        }
+        edges.retain(|edge| self.crosses(*edge));
+        edges.retain(|edge| !self.cut(*edge));
+        edges
+    }
+
+    /// Puts a vertex into an edge, unless a flat tetrahedron would come; whether it did.
+    fn cut(&mut self, edge: [u32; 2]) -> bool {
+        let middle = self.net.vertices.len() as u32;
+        let with_edge = self.net.with_edge(edge).into_iter();
+        let halves: Vec<_> = with_edge
+            .flat_map(|t| self.net.halves(t, edge, middle))
+            .collect();
+        let open = |target: &Vec3| {
+            let position = |node: u32| match node == middle {
+                true => *target,
+                false => self.net.vertices[node as usize],
+            };
+            let open = halves
+                .iter()
+                .map(|nodes| dihedral_quality(&nodes.map(position)));
+            open.fold(f64::INFINITY, f64::min)
+        };
+        let crossings = self.crossings(edge);
+        let found = crossings.iter().find(|target| open(target) >= CUT_FLOOR);
+        if let Some(target) = found {
+            self.net.split(edge, *target);
+            self.on.push(self.shell.facets_at(target));
+            self.on_boundary.push(true);
+        }
+        found.is_some()
+    }
+
+    /// Opens flat tetrahedra: vertices inside move, and those of the boundary that lie on one facet, along that.
+    fn relax(&mut self) {
+        for _ in 0..SWEEPS {
+            let flat = self.net.tetrahedra.iter().filter(|nodes| {
+                dihedral_quality(&nodes.map(|node| self.net.vertices[node as usize])) < FLAT
+            });
+            let mut nodes: Vec<u32> = flat.flatten().copied().collect();
+            nodes.sort_unstable();
+            nodes.dedup();
+            nodes.retain(|node| self.on[*node as usize].len() < 2);
+            let mut any = false;
+            for node in nodes {
+                let star = self.star(node);
+                let start = self.net.vertices[node as usize];
+                let shell = self.on_boundary[node as usize].then_some(self.shell);
+                any |= open_around(&mut self.net.vertices, (node, &star), |target| {
+                    shell.map_or(target, |shell| shell.slide(&start, &target))
+                });
+            }
+            if !any {
+                break;
+            }
+        }
+    }
+}
