@@ -3,7 +3,8 @@
 //! The rims of holes are capped by fans. On a grid somewhat finer than the asked distance, the outside is what a ball of radius r
 //! reaches from the border without touching a triangle; the inside is what no such ball covers (a morphological closing
 //! [Serra 1982]). Its surface is closed, manifold and in one piece ([`isosurface`](crate::isosurface)), and its vertices
-//! are moved to the nearest point of the triangles where one is near and no triangle is turned by it.
+//! are moved to the nearest point of the triangles where one is near and no triangle is turned by it. Where that encloses
+//! nothing, wider openings get a cap where they are narrowest (`openings`).
 //!
 //! *How we know*: `wrap::…`: balls of crossing, doubled, turned and missing triangles keep their volume and distance.
 //!
@@ -13,6 +14,7 @@
 mod closing;
 mod grid;
 mod holes;
+mod openings;
 
 use std::ops::ControlFlow;
 
@@ -20,20 +22,14 @@ use crate::check::self_intersection::self_intersecting;
 use crate::deviation::deviation_with_tree;
 use crate::{
     AabbTree, Deviation, IsosurfaceError, IsosurfaceSettings, MeshError, NodeId, SimplifyError,
-    Surface, TriangleMesh, deviation, isosurface_with_progress, repair,
+    Surface, TriangleMesh, Vec3, deviation, isosurface_with_progress, repair,
 };
 use closing::Closing;
 use grid::Grid;
+use openings::Openings;
 
 /// Voxels that a grid may have; they take 15 bytes each.
 const MOST_VOXELS: f64 = 3e8;
-
-/// Widths of gaps that are tried where a closing encloses nothing: up to this part of the mesh, each so many times the one before, of
-/// those that are few voxels wide and of the others; voxels across the others [-].
-const WIDEST: f64 = 0.5;
-const COARSE_FACTOR: f64 = 2.0;
-const FACTOR: f64 = 1.2;
-const ACROSS: f64 = 16.0;
 
 /// The edge of a voxel over the asked distance [-]. A voxel's surface is off by half of it and by half its diagonal at
 /// most, and its vertices are then moved to the triangles.
@@ -44,7 +40,8 @@ const SPACING: f64 = 0.75;
 pub struct WrapSettings {
     /// How far the envelope may be from the triangles [m].
     pub distance: f64,
-    /// Width of gaps between triangles that are closed [m]; holes with a rim are closed at any width.
+    /// Width of gaps between triangles that are closed [m]; holes with a rim are closed at any width, and where
+    /// nothing is enclosed then, openings without one behind which there is more room.
     pub close_gaps: f64,
     /// Triangles at most.
     pub triangles: usize,
@@ -73,6 +70,8 @@ pub struct Wrapped {
     pub holes: usize,
     /// Extent of the largest rim [m]; 0 without one.
     pub widest_rim: f64,
+    /// Width of the widest opening without a rim that was closed, where closing the gaps enclosed nothing [m].
+    pub opening: Option<f64>,
     /// Pieces beside the largest that were left out.
     pub other_pieces: usize,
     /// Volume of cavities that were filled [m³].
@@ -107,16 +106,12 @@ pub enum WrapError {
         /// The least distance that fits [m].
         least: f64,
     },
-    /// The triangles enclose nothing at this width.
-    #[error("the triangles enclose nothing: a ball of {width:.1e} m passes to the inside, or there is none; {}", fix_of_open(*.closing, *.widest))]
-    Open {
-        /// Width of the gaps that were closed [m].
-        width: f64,
-        /// The width of gaps that encloses something [m], where one does.
-        closing: Option<f64>,
-        /// The widest gaps that were tried [m].
-        widest: f64,
-    },
+    /// The triangles enclose nothing.
+    #[error(
+        "the triangles enclose nothing: they have no opening behind which there is more room than in it; close the body in a mesh editor \
+         first"
+    )]
+    Open,
     /// See there.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -131,20 +126,8 @@ impl WrapError {
         match self {
             Self::Mesh(error) => error.is_input(),
             Self::Surface(error) => error.is_input(),
-            Self::Distance { .. }
-            | Self::Gaps { .. }
-            | Self::TooFine { .. }
-            | Self::Open { .. } => true,
+            Self::Distance { .. } | Self::Gaps { .. } | Self::TooFine { .. } | Self::Open => true,
         }
-    }
-}
-
-fn fix_of_open(closing: Option<f64>, widest: f64) -> String {
-    match closing {
-        Some(width) => format!("close gaps of {width:.1e} m, which encloses it"),
-        None => format!(
-            "closing gaps of up to {widest:.1e} m encloses nothing either: close a larger opening in a mesh editor first"
-        ),
     }
 }
 
@@ -192,15 +175,12 @@ pub fn wrap_with_progress(
     }
     let mut closing = Closing::new(&grid, &capped.mesh);
     at(0.1)?;
+    let mut opening = None;
     if !closing.encloses(radius) {
-        drop(closing);
-        let width = 2.0 * radius;
-        let (closing, widest) = wider_closing(&capped.mesh, spacing, width);
-        return Err(WrapError::Open {
-            width,
-            closing,
-            widest,
-        });
+        let found = Openings::find(&capped.mesh, spacing).ok_or(WrapError::Open)?;
+        at(0.15)?;
+        found.shut(&mut closing, radius);
+        opening = Some(found.width);
     }
     at(0.2)?;
     let map = closing.inside(radius);
@@ -222,33 +202,11 @@ pub fn wrap_with_progress(
         of_input: deviation(&input, &fitted),
         holes: capped.holes,
         widest_rim: capped.widest_rim,
+        opening,
         other_pieces: found.other_pieces,
         filled,
         surface: Surface::new(fitted)?,
     })
-}
-
-/// The least of some widths of gaps [m] beyond `width` whose closing encloses something, and the widest that was tried, on voxels of
-/// `spacing` [m] or of a part of the width.
-fn wider_closing(mesh: &TriangleMesh, spacing: f64, width: f64) -> (Option<f64>, f64) {
-    let (low, high) = mesh.bounds();
-    let most = WIDEST * (high - low).max();
-    let mut tried = width;
-    loop {
-        let factor = match tried < ACROSS * spacing {
-            true => COARSE_FACTOR,
-            false => FACTOR,
-        };
-        let wider = factor * tried;
-        let grid = Grid::around(mesh, spacing.max(wider / ACROSS), 0.5 * wider);
-        if wider > most || grid.voxels() > MOST_VOXELS {
-            return (None, tried);
-        }
-        if Closing::new(&grid, mesh).encloses(0.5 * wider) {
-            return (Some(wider), wider);
-        }
-        tried = wider;
-    }
 }
 
 /// Cosine of the angle by which a triangle may turn when its corners move to the input.
@@ -265,9 +223,17 @@ fn fit(
     let before = envelope.clone();
     let mut fitted = envelope;
     let mut is_free = vec![true; before.vertices().len()];
-    for (number, place) in before.vertices().iter().enumerate() {
-        let nearest = tree.nearest(input, place);
-        if nearest.distance <= distance {
+    let mut normals = vec![Vec3::zeros(); before.vertices().len()];
+    for triangle in before.triangle_ids() {
+        for node in before.corners(triangle) {
+            normals[node.index()] += before.area_vector(triangle);
+        }
+    }
+    for (number, (place, normal)) in before.vertices().iter().zip(&normals).enumerate() {
+        // Seen from outside, since an inner wall may be nearer.
+        let from = place + distance * normal.try_normalize(0.0).unwrap_or_default();
+        let nearest = tree.nearest(input, &from);
+        if (nearest.on.position - place).norm() <= distance {
             fitted.move_vertex(NodeId(number as u32), nearest.on.position);
         }
     }

@@ -14,14 +14,15 @@ const SKIN: f64 = 3.0;
 
 /// The distance of each voxel from a mesh, as far out as was asked, and what balls reach from the border.
 pub(super) struct Closing<'m> {
-    grid: &'m Grid,
+    pub(super) grid: &'m Grid,
     mesh: &'m TriangleMesh,
     /// Distance from the nearest triangle [m]; infinite beyond `known`.
-    distance: Vec<f32>,
+    pub(super) distance: Vec<f32>,
     nearest: Vec<TriangleId>,
     /// How far out distances are known [m].
     known: f64,
-    outside: Vec<bool>,
+    /// What a ball reaches from the border.
+    pub(super) outside: Vec<bool>,
 }
 
 impl<'m> Closing<'m> {
@@ -66,7 +67,7 @@ impl<'m> Closing<'m> {
     }
 
     /// Carries the nearest triangles outward, from voxel to voxel, to `reach` [m].
-    fn reach_out(&mut self, reach: f64) {
+    pub(super) fn reach_out(&mut self, reach: f64) {
         if reach <= self.known {
             return;
         }

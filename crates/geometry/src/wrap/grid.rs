@@ -47,6 +47,14 @@ impl Grid {
         ]
     }
 
+    /// Whether a voxel is one of the outermost.
+    pub(super) fn is_border(&self, number: usize) -> bool {
+        let indices = self.indices(number).into_iter().zip(self.size);
+        indices
+            .into_iter()
+            .any(|(index, count)| index == 0 || index + 1 == count)
+    }
+
     /// The middle of a voxel [m].
     pub(super) fn middle(&self, indices: [usize; 3]) -> Vec3 {
         self.origin + self.spacing * Vec3::from(indices.map(|index| index as f64))

@@ -23,7 +23,8 @@ Examples:
   palpate mesh wrap scan.stl organ.ply --unit mm --distance 0.001 --close-gaps 0.004 --triangles 20000
 
 Caps holes with a boundary loop at any width. Closes gaps without one, such as gaps between pieces or narrow fissures \
-of the organ, up to --close-gaps. Removes inner walls and cavities. The result is closed, manifold, oriented outward, \
+of the organ, up to --close-gaps; if nothing is enclosed then, also wider openings, where they are narrowest, with a warning. \
+Removes inner walls and cavities. The result is closed, manifold, oriented outward, \
 connected and free of self-intersections.";
 
 #[derive(Debug, Args)]
@@ -70,6 +71,8 @@ struct Answer {
     input_to_envelope: Deviation,
     holes_capped: usize,
     widest_rim_m: f64,
+    /// Of an opening without a rim that was closed.
+    widest_opening_m: Option<f64>,
     pieces_left_out: usize,
     cavities_filled_m3: f64,
     seconds: f64,
@@ -104,6 +107,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         input_to_envelope: wrapped.of_input,
         holes_capped: wrapped.holes,
         widest_rim_m: wrapped.widest_rim,
+        widest_opening_m: wrapped.opening,
         pieces_left_out: wrapped.other_pieces,
         cavities_filled_m3: wrapped.filled,
         seconds: begin.elapsed().as_secs_f64(),
@@ -152,6 +156,13 @@ fn envelope(
         warnings.push(format!(
             "a hole that is {:.1} mm wide was capped by a fan, which knows nothing of the organ's shape there; look at it",
             1e3 * wrapped.widest_rim
+        ));
+    }
+    if let Some(width) = wrapped.opening {
+        warnings.push(format!(
+            "the body is open: an opening of {:.0} mm was closed where it is narrowest. If the wall around it is the organ, as that of a \
+             tube, ask for a smaller --distance and --close-gaps, of which the wall is several thick",
+            1e3 * width
         ));
     }
     if wrapped.other_pieces > 0 {

@@ -1,0 +1,182 @@
+//! Openings of a body that are wider than its gaps: where they are capped.
+//!
+//! The widest ball that comes from outside to a place is as wide as the narrowest part of its way. Where a wider one would have room,
+//! the place lies behind an opening. From there and from outside both sides grow into narrower and narrower places, and the
+//! cap lies where they meet: across an opening where it is narrowest, and flat where its rim is, as the watershed of the distance
+//! from the triangles [Meyer 1994].
+
+use super::closing::Closing;
+use super::grid::Grid;
+use crate::{TriangleMesh, Vec3};
+
+/// Voxels across the longest side of the mesh, at most [-].
+const ACROSS: f64 = 100.0;
+
+/// Widths that are told apart in a voxel [-].
+const LEVELS: f64 = 8.0;
+
+/// By how many voxels there is more room behind an opening than in it, at least [-]: beside an open sheet there is less.
+const ROOMIER: f64 = 3.0;
+
+/// What is behind openings has this part of the room of the roomiest, at least [-]: a narrower recess of the body stays open.
+const PART: f64 = 0.5;
+
+/// From a triangle to the middle of a voxel whose points all lie on one side of it [voxels]: half a diagonal.
+const ONE_SIDE: f32 = 0.87;
+
+/// The side of an opening on which a place lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Unknown,
+    Outside,
+    Inside,
+}
+
+/// What lies on both sides of the openings of a body.
+pub(super) struct Openings {
+    grid: Grid,
+    sides: Vec<Side>,
+    /// The width of the widest [m].
+    pub(super) width: f64,
+}
+
+impl Openings {
+    /// Those of what `mesh` encloses, on voxels of `spacing` [m] or more; none where nothing lies behind one.
+    pub(super) fn find(mesh: &TriangleMesh, spacing: f64) -> Option<Self> {
+        let (low, high) = mesh.bounds();
+        let grid = Grid::around(mesh, spacing.max((high - low).max() / ACROSS), 0.0);
+        let mut closing = Closing::new(&grid, mesh);
+        closing.reach_out(f64::INFINITY);
+        let widths = Widths::new(&closing);
+        let count = closing.distance.len();
+        let border: Vec<_> = (0..count)
+            .filter(|number| grid.is_border(*number))
+            .map(|number| (number, Side::Outside))
+            .collect();
+        let mut ways = vec![0; count];
+        widths.grow(&border, |number, width, _| ways[number] = width);
+        let room = |number: usize| widths.of[number].saturating_sub(ways[number]);
+        let roomiest = (0..count)
+            .filter(|number| ways[*number] > 0)
+            .map(room)
+            .max()?;
+        let least = (ROOMIER * LEVELS).max(PART * roomiest as f64) as usize;
+        if roomiest < least {
+            return None;
+        }
+        let behind: Vec<usize> = (0..count)
+            .filter(|number| ways[*number] > 0 && room(*number) >= least)
+            .collect();
+        let width = behind.iter().map(|number| ways[*number]).max()?;
+        let mut seeds = border;
+        seeds.extend(behind.into_iter().map(|number| (number, Side::Inside)));
+        let mut sides = vec![Side::Unknown; count];
+        widths.grow(&seeds, |number, _, side| sides[number] = side);
+        let width = 2.0 * width as f64 / LEVELS * grid.spacing;
+        Some(Self { grid, sides, width })
+    }
+
+    /// Takes from the outside of `closing` what lies on the inner side of the openings, and a layer of `radius` [m] beyond, which balls
+    /// of this radius give back.
+    pub(super) fn shut(&self, closing: &mut Closing<'_>, radius: f64) {
+        let grid = closing.grid;
+        let places = closing.outside.iter().enumerate();
+        let sides = places.map(|(number, is_outside)| match is_outside {
+            true => self.side_at(&grid.middle(grid.indices(number))),
+            false => Side::Unknown,
+        });
+        let mut sides: Vec<Side> = sides.collect();
+        let of = |sides: &[Side], wanted: fn(&Side) -> bool| -> Vec<usize> {
+            (0..sides.len())
+                .filter(|number| wanted(&sides[*number]))
+                .collect()
+        };
+        let mut front = of(&sides, |side| *side != Side::Unknown);
+        while !front.is_empty() {
+            front = closing.spread(&mut sides, front, Side::Unknown);
+        }
+        let mut front = of(&sides, |side| *side == Side::Inside);
+        for _ in 0..(radius / grid.spacing).round() as usize {
+            front = closing.spread(&mut sides, front, Side::Outside);
+        }
+        for (outside, side) in closing.outside.iter_mut().zip(sides) {
+            *outside &= side != Side::Inside;
+        }
+    }
+
+    fn side_at(&self, place: &Vec3) -> Side {
+        let indices = (place - self.grid.origin) / self.grid.spacing;
+        let mut found = [0; 3];
+        for (axis, index) in found.iter_mut().enumerate() {
+            let nearest = indices[axis].round();
+            if !(nearest >= 0.0 && nearest < self.grid.size[axis] as f64) {
+                return Side::Outside;
+            }
+            *index = nearest as usize;
+        }
+        self.sides[self.grid.number(found)]
+    }
+}
+
+impl Closing<'_> {
+    /// Gives neighbours of the voxels of a `front`, which are outside and on the side `over`, the sides of these; which they are.
+    fn spread(&self, sides: &mut [Side], front: Vec<usize>, over: Side) -> Vec<usize> {
+        let mut next_front = Vec::new();
+        for number in front {
+            for next in self.grid.neighbours(self.grid.indices(number)) {
+                if self.outside[next] && sides[next] == over {
+                    sides[next] = sides[number];
+                    next_front.push(next);
+                }
+            }
+        }
+        next_front
+    }
+}
+
+/// How wide a ball around each voxel may be [`LEVELS`]; 0 where a triangle is so near that the voxel may lie on both of its sides.
+struct Widths<'g> {
+    grid: &'g Grid,
+    of: Vec<usize>,
+}
+
+impl<'g> Widths<'g> {
+    fn new(closing: &Closing<'g>) -> Self {
+        let spacing = closing.grid.spacing as f32;
+        let of = closing
+            .distance
+            .iter()
+            .map(|distance| match *distance > ONE_SIDE * spacing {
+                true => (LEVELS as f32 * distance / spacing) as usize,
+                false => 0,
+            });
+        Self {
+            grid: closing.grid,
+            of: of.collect(),
+        }
+    }
+
+    /// Grows from `seeds`, widest ways first; `reached` hears of each voxel, how wide the way to it is, and of which seed it is.
+    fn grow(&self, seeds: &[(usize, Side)], mut reached: impl FnMut(usize, usize, Side)) {
+        let widest = self.of.iter().copied().max().unwrap_or(0);
+        let mut is_known = vec![false; self.of.len()];
+        let mut fronts: Vec<Vec<(usize, Side)>> = vec![Vec::new(); widest + 1];
+        for &(number, side) in seeds {
+            is_known[number] = true;
+            fronts[widest].push((number, side));
+        }
+        for width in (1..fronts.len()).rev() {
+            let mut next = 0;
+            while let Some(&(number, side)) = fronts[width].get(next) {
+                next += 1;
+                reached(number, width, side);
+                for other in self.grid.neighbours(self.grid.indices(number)) {
+                    if !is_known[other] && self.of[other] > 0 {
+                        is_known[other] = true;
+                        fronts[self.of[other].min(width)].push((other, side));
+                    }
+                }
+            }
+        }
+    }
+}
