@@ -21,6 +21,7 @@ use std::collections::BinaryHeap;
 
 use self::net::Net;
 use crate::mesh::tetrahedra::six_fold_volume;
+use crate::remembered::Remembered;
 use crate::{Surface, TetrahedronError, TetrahedronMesh, Vec3};
 
 /// Volume over that of a regular tetrahedron with the same mean square edge [-]: none below this is made, unless one
@@ -35,6 +36,9 @@ const OFF_SURFACE: f64 = 5.0;
 
 /// How often the vertices of the boundary go to their planes, before and after the collapses.
 const SNAPS: usize = 3;
+
+/// The queue is cleared of edges that are no more what they were when it is so many times as long as after the last time [-].
+const STALE: usize = 2;
 
 /// How often the boundary moves outward; each time it comes a hundred times nearer to the volume.
 const INFLATIONS: usize = 4;
@@ -55,7 +59,8 @@ pub fn coarsen(
     for _ in 0..SNAPS {
         net.snap();
     }
-    net.collapse_until(nodes, &detail);
+    let detail = Remembered::new(detail);
+    net.collapse_until(nodes, &|place| detail.at(place));
     for _ in 0..SNAPS {
         net.snap();
     }
@@ -99,12 +104,16 @@ impl Net {
                     .map(|other| self.entry([vertex, other], detail)),
             );
         }
+        let mut most = STALE * queue.len();
         while self.left.nodes() > nodes {
+            if queue.len() > most {
+                queue.retain(|Reverse((_, edge, versions))| self.versions_of(*edge) == *versions);
+                most = STALE * queue.len();
+            }
             let Some(Reverse((cost, edge, versions))) = queue.pop() else {
                 return;
             };
-            if edge.map(|end| self.versions[end as usize]) != versions || !self.keeps_topology(edge)
-            {
+            if self.versions_of(edge) != versions || !self.keeps_topology(edge) {
                 continue;
             }
             let mut places = self.places(edge).into_iter();
@@ -132,8 +141,11 @@ impl Net {
 
     fn entry(&self, edge: [u32; 2], detail: &dyn Fn(&Vec3) -> f64) -> Entry {
         let cost = self.cost(edge, &self.places(edge)[0], detail);
-        let versions = edge.map(|end| self.versions[end as usize]);
-        Reverse((ordered::Length(cost), edge, versions))
+        Reverse((ordered::Length(cost), edge, self.versions_of(edge)))
+    }
+
+    fn versions_of(&self, edge: [u32; 2]) -> [u32; 2] {
+        edge.map(|end| self.versions[end as usize])
     }
 
     /// What counts against a collapse of `edge` to `place` [m²].

@@ -35,6 +35,7 @@ mod orient;
 mod patch_field;
 mod proximity;
 mod refine;
+mod remembered;
 mod simplify;
 mod slit;
 mod surface;

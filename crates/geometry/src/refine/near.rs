@@ -1,6 +1,7 @@
 use super::bisection::{Bisection, Edge};
 use super::relax::relax;
 use super::shell::{SearchedSurface, move_if_sound};
+use crate::remembered::Remembered;
 use crate::{Surface, TetrahedronError, TetrahedronMesh, Vec3};
 
 /// Angles below this are not made by moving a vertex [rad].
@@ -24,10 +25,12 @@ pub fn refine_to(
     surface: Option<&Surface>,
     longest_edge: impl Fn(&Vec3) -> f64,
 ) -> Result<TetrahedronMesh, TetrahedronError> {
+    let longest_edge = Remembered::new(longest_edge);
     let too_long = |longest: f64, positions: &[Vec3; 4]| {
         let [a, b, c, d] = positions;
         let centroid = 0.25 * (a + b + c + d);
-        longest > longest_edge(&centroid) || positions.iter().any(|p| longest > longest_edge(p))
+        longest > longest_edge.at(&centroid)
+            || positions.iter().any(|p| longest > longest_edge.at(p))
     };
     let shell = surface.map(SearchedSurface::new);
     let mut bisection = Bisection::new(mesh);
