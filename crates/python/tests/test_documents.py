@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import jsonschema
 import pytest
+import typed_dicts
+from palpate import Scene, documents
 
 if TYPE_CHECKING:
     from conftest import Command
@@ -19,7 +21,7 @@ else:
     tomllib = pytest.importorskip("tomli")
 
 ASSETS = Path(__file__).resolve().parents[3] / "assets"
-KINDS = ["scene", "tissue", "protocol", "indentation", "hemisphere", "tube", "uniaxial", "solid"]
+KINDS = typed_dicts.KINDS
 ORGAN = '[organ]\nbuiltin = "liver"\nbuiltin_tissue = "pig-liver"\n'
 
 
@@ -69,3 +71,20 @@ def test_a_schema_and_the_reader_agree_on_a_single_key(
     scene = tmp_path / "scene.toml"
     scene.write_text(text, encoding="utf-8")
     assert (command("validate", scene).returncode == 0) is is_right
+
+
+def test_typed_dictionaries_are_those_of_the_schemas(command: Command) -> None:
+    """Anew after a key was added: ``python tests/typed_dicts.py PALPATE > python/palpate/documents.py``."""
+    written = Path(documents.__file__).read_text(encoding="utf-8")
+    assert typed_dicts.module([schema_of(command, kind) for kind in KINDS]) == written
+
+
+def test_a_typed_scene_is_a_scene() -> None:
+    """Judge of the errors: mypy, which refuses an ignored one that is none."""
+    organ: documents.SceneOrgan = {"builtin": "liver", "builtin_tissue": "pig-liver"}
+    scene: documents.Scene = {"organ": organ, "model": {"kind": "nonlinear"}}
+    assert Scene(scene).to_dict()["model"]["kind"] == "nonlinear"
+    scene["model"] = {"kind": "nonlinaer"}  # type: ignore[typeddict-item]
+    scene["model"] = {"particels": 3}  # type: ignore[typeddict-unknown-key]
+    with pytest.raises(ValueError, match="particels"):
+        Scene(scene)

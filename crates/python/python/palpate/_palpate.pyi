@@ -10,6 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from pandas import DataFrame
 from typing_extensions import Self
 
+from palpate import documents
+
 __all__ = [
     "Camera",
     "Mesh",
@@ -203,7 +205,7 @@ class Tissue:
 
 @final
 class Scene:
-    def __new__(cls, content: dict[str, Any], seed: int = 0) -> Self: ...
+    def __new__(cls, content: documents.Scene | dict[str, Any], seed: int = 0) -> Self: ...
     @classmethod
     def builtin(cls, name: str, seed: int = 0) -> Scene: ...
     @classmethod
