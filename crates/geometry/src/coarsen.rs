@@ -18,6 +18,7 @@ mod planes;
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::ops::ControlFlow;
 
 use self::net::Net;
 use crate::mesh::tetrahedra::six_fold_volume;
@@ -40,6 +41,9 @@ const SNAPS: usize = 3;
 /// The queue is cleared of edges that are no more what they were when it is so many times as long as after the last time [-].
 const STALE: usize = 2;
 
+/// Nodes that go from one word about the progress to the next.
+const TOLD: usize = 1_000;
+
 /// How often the boundary moves outward; each time it comes a hundred times nearer to the volume.
 const INFLATIONS: usize = 4;
 
@@ -55,12 +59,31 @@ pub fn coarsen(
     nodes: usize,
     detail: impl Fn(&Vec3) -> f64,
 ) -> Result<TetrahedronMesh, TetrahedronError> {
+    coarsen_with_progress(mesh, surface, nodes, detail, &mut |_| {
+        ControlFlow::Continue(())
+    })
+}
+
+/// The same. `progress` hears the part of the nodes to go that are gone [-], and may cancel.
+///
+/// # Errors
+/// As [`coarsen`], and when the work is cancelled.
+pub fn coarsen_with_progress(
+    mesh: &TetrahedronMesh,
+    surface: &Surface,
+    nodes: usize,
+    detail: impl Fn(&Vec3) -> f64,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<TetrahedronMesh, TetrahedronError> {
     let mut net = Net::new(mesh, surface);
     for _ in 0..SNAPS {
         net.snap();
     }
     let detail = Remembered::new(detail);
-    net.collapse_until(nodes, &|place| detail.at(place));
+    let collapsed = net.collapse_until(nodes, &|place| detail.at(place), progress);
+    if collapsed.is_break() {
+        return Err(TetrahedronError::Cancelled);
+    }
     for _ in 0..SNAPS {
         net.snap();
     }
@@ -94,7 +117,12 @@ mod ordered {
 }
 
 impl Net {
-    fn collapse_until(&mut self, nodes: usize, detail: &dyn Fn(&Vec3) -> f64) {
+    fn collapse_until(
+        &mut self,
+        nodes: usize,
+        detail: &dyn Fn(&Vec3) -> f64,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
         let mut queue = BinaryHeap::new();
         for vertex in 0..self.vertices.len() as u32 {
             let neighbours = self.neighbours(vertex).into_iter();
@@ -105,13 +133,19 @@ impl Net {
             );
         }
         let mut most = STALE * queue.len();
+        let begun = self.left.nodes();
+        let mut told = begun;
         while self.left.nodes() > nodes {
             if queue.len() > most {
                 queue.retain(|Reverse((_, edge, versions))| self.versions_of(*edge) == *versions);
                 most = STALE * queue.len();
             }
+            if told - self.left.nodes() >= TOLD {
+                told = self.left.nodes();
+                progress((begun - told) as f64 / (begun - nodes) as f64)?;
+            }
             let Some(Reverse((cost, edge, versions))) = queue.pop() else {
-                return;
+                break;
             };
             if self.versions_of(edge) != versions || !self.keeps_topology(edge) {
                 continue;
@@ -137,6 +171,7 @@ impl Net {
                 queue.extend(neighbours.map(|other| self.entry([vertex, other], detail)));
             }
         }
+        ControlFlow::Continue(())
     }
 
     fn entry(&self, edge: [u32; 2], detail: &dyn Fn(&Vec3) -> f64) -> Entry {

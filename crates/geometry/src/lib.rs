@@ -45,7 +45,7 @@ mod wrap;
 pub use aabb_tree::{AabbTree, Hit, Nearest, ray_meets_triangle};
 pub use check::problem::{MeshProblem, ProblemKind};
 pub use check::{MeshReport, inspect};
-pub use coarsen::coarsen;
+pub use coarsen::{coarsen, coarsen_with_progress};
 pub use cut::error::CutError;
 pub use cut::net::{Origin, Side};
 pub use cut::{CutMethod, CutProgress, CutSurface};

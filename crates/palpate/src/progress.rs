@@ -2,12 +2,13 @@
 //!
 //! Nothing is drawn when standard error is no terminal, or when a machine reads the answer.
 
+use std::fmt;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 use std::time::{Duration, Instant};
 
-use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use palpate_files::printable;
 use palpate_jobs::Watch;
 
@@ -125,9 +126,15 @@ impl Progress {
     /// A bar over the parts of one long work, with the time that is left.
     pub(crate) fn of_parts(reader: Reader) -> Self {
         let bar = Self::new(reader, Some(PARTS));
-        let template = "{spinner} {bar:30} {percent:>3} % {msg}, {eta} left";
+        let template = "{spinner} {bar:30} {percent:>3} % {msg}{left}";
         if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.bar.set_style(style);
+            let left = |state: &ProgressState, text: &mut dyn fmt::Write| {
+                // Nothing is known before a part is done.
+                if state.pos() > 0 {
+                    let _ = write!(text, ", {:#} left", HumanDuration(state.eta()));
+                }
+            };
+            bar.bar.set_style(style.with_key("left", left));
         }
         bar
     }

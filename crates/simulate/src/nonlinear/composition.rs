@@ -1,5 +1,7 @@
 //! What an organ and the bodies that bend beside it are made of, whatever becomes of their elements.
 
+use std::ops::ControlFlow;
+
 use palpate_files::Scene;
 use palpate_files::scene::Region;
 use palpate_geometry::{
@@ -73,8 +75,9 @@ impl Filled {
         nodes: usize,
         regions: &Regions,
         finer: impl Fn(&Vec3) -> f64,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
-        let (mesh, warnings) = tetrahedra(surface, nodes, regions, finer)?;
+        let (mesh, warnings) = tetrahedra(surface, nodes, regions, finer, progress)?;
         let mut elements = regions.of_elements(&mesh);
         elements.warnings.extend(warnings);
         Ok(Self { mesh, elements })
@@ -95,6 +98,7 @@ impl Composition {
         (shown, tree): (&Surface, &AabbTree),
         (surface, regions): (&Surface, Regions),
         beside: Beside<'_>,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<(Self, Vec<String>), Error> {
         let Beside {
             tools,
@@ -108,12 +112,21 @@ impl Composition {
                 true => NODES,
                 false => NODES_HOLLOW,
             });
-        let organ = Filled::new(surface, nodes, &regions, grading(surface, nodes))?;
+        let bodies = 1.0 + soft.len() as f64;
+        let mut of_organ = |part| progress(part / bodies);
+        let finer = grading(surface, nodes);
+        let organ = Filled::new(surface, nodes, &regions, finer, &mut of_organ)?;
         let mut filled = vec![organ];
         let mut series = regions.series();
-        for body in soft {
-            let Filled { mesh, elements } =
-                Filled::new(&body.surface, body.nodes, &body.regions, |_| 1.0)?;
+        for (number, body) in soft.iter().enumerate() {
+            let mut of_body = |part| progress((1.0 + number as f64 + part) / bodies);
+            let Filled { mesh, elements } = Filled::new(
+                &body.surface,
+                body.nodes,
+                &body.regions,
+                |_| 1.0,
+                &mut of_body,
+            )?;
             let elements = elements.numbered_from(series.len());
             filled.push(Filled { elements, mesh });
             series.extend(body.regions.series());

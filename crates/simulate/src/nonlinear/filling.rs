@@ -1,7 +1,10 @@
 //! The tetrahedra of a body: a filling that has all of its walls, made coarser.
 
+use std::ops::ControlFlow;
+
 use palpate_geometry::{
-    FillSettings, Surface, TetrahedronError, TetrahedronMesh, Vec3, coarsen, fill, refine_to,
+    FillSettings, Surface, TetrahedronError, TetrahedronMesh, Vec3, coarsen_with_progress, fill,
+    refine_to,
 };
 
 use crate::Error;
@@ -20,6 +23,9 @@ const OF_EDGE: f64 = 0.6;
 /// one element is not graded, nor are neighbours, whose short edges at a rim fold where a stiffer organ presses them.
 const THIN: f64 = 3.0;
 const MOST_GRADED: f64 = 3.0;
+
+/// Part of the work before edges collapse [-].
+const FILLED: f64 = 0.3;
 
 /// Fillings to try.
 const FILLINGS: usize = 5;
@@ -69,12 +75,14 @@ pub(super) fn grading(surface: &Surface, nodes: usize) -> impl Fn(&Vec3) -> f64 
 }
 
 /// About so many nodes in the body within `surface`: a filling that has all of its walls, made coarser; its edges are shorter
-/// at inclusions, and by the factor `finer` [-]. Its regions are cavities, and there are warnings.
+/// at inclusions, and by the factor `finer` [-]. Its regions are cavities, and there are warnings. `progress` hears the part that is
+/// done [-], and may cancel.
 pub(super) fn tetrahedra(
     surface: &Surface,
     nodes: usize,
     regions: &Regions,
     finer: impl Fn(&Vec3) -> f64,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<(TetrahedronMesh, Vec<String>), Error> {
     let edge = FillSettings::with_about(surface, nodes).edge;
     let longest = |place: &Vec3| regions.longest_edge(place).min(edge);
@@ -84,6 +92,11 @@ pub(super) fn tetrahedra(
             .and_then(|coarse| refine_to(&coarse, Some(surface), |place| OF_EDGE * longest(place)));
     }
     let detail = |place: &Vec3| finer(place) * edge / longest(place);
-    let mesh = filling.and_then(|fine| coarsen(&fine, surface, nodes, detail));
+    let mut progress = |part| progress(FILLED + (1.0 - FILLED) * part);
+    let mesh = filling
+        .and_then(|fine| coarsen_with_progress(&fine, surface, nodes, detail, &mut progress));
+    if let Err(TetrahedronError::Cancelled) = mesh {
+        return Err(palpate_mechanics::Error::BrokenOff.into());
+    }
     regions.with_cavities(mesh.map_err(palpate_mechanics::Error::from)?, surface)
 }

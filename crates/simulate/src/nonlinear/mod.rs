@@ -254,7 +254,11 @@ impl NonlinearOrgan {
         watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<(Self, Vec<String>), Error> {
         tell(watch, Progress::begin(Work::Tetrahedra))?;
-        let (composition, warnings) = Composition::new(scene, shown, own, beside)?;
+        let mut filled = |part| {
+            let (work, part) = (Work::Tetrahedra, FILLED * part);
+            watch(Progress { work, part })
+        };
+        let (composition, warnings) = Composition::new(scene, shown, own, beside, &mut filled)?;
         let (work, part) = (Work::Factors, FILLED);
         tell(watch, Progress { work, part })?;
         let composition = Arc::new(composition);

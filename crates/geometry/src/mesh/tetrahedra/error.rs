@@ -97,6 +97,9 @@ pub enum TetrahedronError {
         /// The longest edge of those that were still to be bisected [m].
         edge_m: f64,
     },
+    /// The caller cancelled the work.
+    #[error("cancelled before the tetrahedra were done")]
+    Cancelled,
     /// The lattice is too coarse for the body.
     #[error(
         "an edge of {edge_m:e} m is too coarse: {lost_percent:.1} % of the volume is lost; give one of at most a third of the thinnest part"
@@ -125,6 +128,7 @@ impl TetrahedronError {
             | Self::TooMany { .. }
             | Self::NotRefined { .. }
             | Self::TooCoarse { .. } => true,
+            Self::Cancelled => false,
         }
     }
 }
