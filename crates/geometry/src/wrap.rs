@@ -108,8 +108,8 @@ pub enum WrapError {
     },
     /// The triangles enclose nothing.
     #[error(
-        "the triangles enclose nothing: they have no opening behind which there is more room than in it; close the body in a mesh editor \
-         first"
+        "the triangles enclose nothing, not even behind an opening that is narrower than the room behind it; close the body in a \
+         mesh editor first"
     )]
     Open,
     /// See there.
