@@ -21,8 +21,8 @@ use std::collections::BinaryHeap;
 use std::ops::ControlFlow;
 
 use self::net::Net;
+use crate::memoized::Memoized;
 use crate::mesh::tetrahedra::six_fold_volume;
-use crate::remembered::Remembered;
 use crate::{Surface, TetrahedronError, TetrahedronMesh, Vec3};
 
 /// Volume over that of a regular tetrahedron with the same mean square edge [-]: none below this is made, unless one
@@ -38,11 +38,11 @@ const OFF_SURFACE: f64 = 5.0;
 /// How often the vertices of the boundary go to their planes, before and after the collapses.
 const SNAPS: usize = 3;
 
-/// The queue is cleared of edges that are no more what they were when it is so many times as long as after the last time [-].
+/// Stale entries are removed from the queue when it is so many times as long as after the last removal [-].
 const STALE: usize = 2;
 
-/// Nodes that go from one word about the progress to the next.
-const TOLD: usize = 1_000;
+/// Nodes that are removed between two reports of progress.
+const REPORTED: usize = 1_000;
 
 /// How often the boundary moves outward; each time it comes a hundred times nearer to the volume.
 const INFLATIONS: usize = 4;
@@ -79,7 +79,7 @@ pub fn coarsen_with_progress(
     for _ in 0..SNAPS {
         net.snap();
     }
-    let detail = Remembered::new(detail);
+    let detail = Memoized::new(detail);
     let collapsed = net.collapse_until(nodes, &|place| detail.at(place), progress);
     if collapsed.is_break() {
         return Err(TetrahedronError::Cancelled);
@@ -134,15 +134,15 @@ impl Net {
         }
         let mut most = STALE * queue.len();
         let begun = self.left.nodes();
-        let mut told = begun;
+        let mut reported = begun;
         while self.left.nodes() > nodes {
             if queue.len() > most {
                 queue.retain(|Reverse((_, edge, versions))| self.versions_of(*edge) == *versions);
                 most = STALE * queue.len();
             }
-            if told - self.left.nodes() >= TOLD {
-                told = self.left.nodes();
-                progress((begun - told) as f64 / (begun - nodes) as f64)?;
+            if reported - self.left.nodes() >= REPORTED {
+                reported = self.left.nodes();
+                progress((begun - reported) as f64 / (begun - nodes) as f64)?;
             }
             let Some(Reverse((cost, edge, versions))) = queue.pop() else {
                 break;

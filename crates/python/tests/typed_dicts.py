@@ -57,7 +57,6 @@ class Writer:
 
     def kind(self, schema: dict[str, Any]) -> None:
         self.definitions = schema["$defs"]
-        self.names: dict[str, str] = {}
         word = schema["title"].removeprefix("palpate ")
         self.table(schema, camel(word), schema["description"])
 

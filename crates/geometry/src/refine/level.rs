@@ -1,14 +1,8 @@
 use super::facets::common;
-use super::shell::{SearchedSurface, dihedral_quality, move_if_sound};
+use super::shell::{CUT_FLOOR, MOVED_FLOOR, SearchedSurface, move_if_sound};
 use super::split::SplitNet;
 use crate::mesh::edges::{by_edge, sides};
 use crate::{NodeId, Surface, TetrahedronError, TetrahedronMesh, Vec3};
-
-/// Angles below this are not made by moving a vertex [rad].
-const MOVED_FLOOR: f64 = 0.17;
-
-/// Angles below this are not made by cutting an edge [rad].
-const CUT_FLOOR: f64 = 0.05;
 
 /// A vertex this near to a level is on it, in extents of the mesh [-].
 const ON: f64 = 1e-12;
@@ -338,27 +332,11 @@ impl<'a> Resolving<'a> {
         let [from, to] = edge.map(|node| self.net.vertices[node.index()]);
         let [below, above] = edge.map(|node| self.heights[node.index()]);
         let chord = from + (to - from) * (below / (below - above));
-        let ends = [a.0, b.0];
-        let middle = self.net.vertices.len() as u32;
-        let with_edge = self.net.with_edge(ends);
-        let halves = with_edge.iter();
-        let halves: Vec<_> = halves
-            .flat_map(|&t| self.net.halves(t, ends, middle))
-            .collect();
         // On the surface if that can be, else on the chord.
-        let targets = [self.crossing(edge), Some(chord)];
-        let sound = targets.into_iter().flatten().find(|target| {
-            let position = |node: u32| match node == middle {
-                true => *target,
-                false => self.net.vertices[node as usize],
-            };
-            let mut halves = halves.iter();
-            halves.all(|corners| dihedral_quality(&corners.map(position)) >= CUT_FLOOR)
-        });
-        let Some(position) = sound else {
+        let targets = [self.crossing(edge), Some(chord)].into_iter().flatten();
+        let Some(parents) = self.net.split_if_sound([a.0, b.0], targets, CUT_FLOOR) else {
             return Vec::new();
         };
-        let parents = self.net.split(ends, position);
         self.heights.push(0.0);
         self.pinned.push(false);
         self.regions.extend(

@@ -1,7 +1,7 @@
 use super::bisection::{Bisection, Edge};
 use super::relax::relax;
 use super::shell::{SearchedSurface, move_if_sound};
-use crate::remembered::Remembered;
+use crate::memoized::Memoized;
 use crate::{Surface, TetrahedronError, TetrahedronMesh, Vec3};
 
 /// Angles below this are not made by moving a vertex [rad].
@@ -25,7 +25,7 @@ pub fn refine_to(
     surface: Option<&Surface>,
     longest_edge: impl Fn(&Vec3) -> f64,
 ) -> Result<TetrahedronMesh, TetrahedronError> {
-    let longest_edge = Remembered::new(longest_edge);
+    let longest_edge = Memoized::new(longest_edge);
     let too_long = |longest: f64, positions: &[Vec3; 4]| {
         let [a, b, c, d] = positions;
         let centroid = 0.25 * (a + b + c + d);

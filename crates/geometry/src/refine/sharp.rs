@@ -1,24 +1,18 @@
 use super::facets::{Facets, On, common};
 use super::relax::{FLAT, SWEEPS, open_around};
-use super::shell::{SearchedSurface, dihedral_quality, move_if_sound};
+use super::shell::{CUT_FLOOR, MOVED_FLOOR, SearchedSurface, dihedral_quality, move_if_sound};
 use super::split::SplitNet;
 use crate::mesh::edges::{by_edge, sides};
 use crate::{NodeId, Surface, TetrahedronError, TetrahedronMesh, Vec3};
 
-/// Angles below this are not made by moving a vertex [rad].
-const MOVED_FLOOR: f64 = 0.17;
-
-/// Angles below this are not made by cutting an edge [rad].
-const CUT_FLOOR: f64 = 0.05;
-
 /// How far an end of an edge goes to a sharp edge at most, in lengths of the edge [-], and the angles that must be left [rad]: from
 /// round to round for edges that nothing helped before.
-const ROUNDS: [(f64, f64); 3] = [(0.6, 0.17), (1.0, 0.17), (1.0, CUT_FLOOR)];
+const ROUNDS: [(f64, f64); 3] = [(0.6, MOVED_FLOOR), (1.0, MOVED_FLOOR), (1.0, CUT_FLOOR)];
 
 /// Makes tetrahedra that fill `surface`, with their boundary vertices on it, follow its sharp edges, which a filling cuts off: corners
 /// get a vertex, and where an edge of the boundary crosses a sharp edge, an end of it moves there, or it gets a new vertex.
-/// Where a flat tetrahedron would come, the edge stays as it is. All tetrahedra are of one region after that. A surface without
-/// sharp edges changes nothing.
+/// Where a flat tetrahedron would come, the edge stays as it is. The regions of tetrahedra are left out. Where the surface has no sharp
+/// edges, the mesh stays as it is.
 ///
 /// # Errors
 /// When what comes is no mesh, which does not happen to a sound one.
@@ -31,11 +25,11 @@ pub fn follow_sharp_edges(
         return Ok(mesh);
     };
     let mut following = Following::new(mesh, &shell, facets);
-    following.take_corners();
+    following.snap_corners();
     let mut edges = following.edges.clone();
     edges.retain(|edge| following.crosses(*edge));
     for round in ROUNDS {
-        edges = following.take(edges, round);
+        edges = following.resolve(edges, round);
         following.relax();
     }
     following.into_mesh()
@@ -95,14 +89,9 @@ impl<'a> Following<'a> {
         TetrahedronMesh::new(self.net.vertices, tetrahedra)
     }
 
-    fn star(&self, node: u32) -> Vec<[u32; 4]> {
-        let around = self.net.around[node as usize].iter();
-        around.map(|&t| self.net.tetrahedra[t as usize]).collect()
-    }
-
     /// Moves a vertex of the boundary to a place on the surface, unless a tetrahedron would be flat; whether it is there.
-    fn goes(&mut self, node: u32, target: Vec3, floor: f64) -> bool {
-        let star = self.star(node);
+    fn moves_to(&mut self, node: u32, target: Vec3, floor: f64) -> bool {
+        let star = self.net.star(node);
         let star = star.iter().copied();
         let moves = move_if_sound(&mut self.net.vertices, star, node, target, floor);
         if moves {
@@ -112,7 +101,7 @@ impl<'a> Following<'a> {
     }
 
     /// Gives each corner the vertex within an edge of the boundary that leaves the tetrahedra around it most open.
-    fn take_corners(&mut self) {
+    fn snap_corners(&mut self) {
         let mut reach = vec![0.0_f64; self.net.vertices.len()];
         for [a, b] in &self.edges {
             let [from, to] = [a, b].map(|node| self.net.vertices[*node as usize]);
@@ -133,7 +122,7 @@ impl<'a> Following<'a> {
                 .filter(|node| self.on[*node as usize].len() < 3)
                 .collect();
             let open = |node: u32| {
-                let star = self.star(node);
+                let star = self.net.star(node);
                 let open = star.iter().map(|nodes| {
                     dihedral_quality(&nodes.map(|other| match other == node {
                         true => *corner,
@@ -145,7 +134,7 @@ impl<'a> Following<'a> {
             let best = candidates.iter().map(|node| (open(*node), *node));
             let best = best.reduce(|best, next| if next.0 > best.0 { next } else { best });
             if let Some((_, node)) = best {
-                self.goes(node, *corner, MOVED_FLOOR);
+                self.moves_to(node, *corner, MOVED_FLOOR);
             }
         }
     }
@@ -162,7 +151,11 @@ impl<'a> Following<'a> {
     }
 
     /// Moves ends of the edges that cross a sharp edge, those with the least way first, and cuts the others. Which edges still cross.
-    fn take(&mut self, mut edges: Vec<[u32; 2]>, (farthest, floor): (f64, f64)) -> Vec<[u32; 2]> {
+    fn resolve(
+        &mut self,
+        mut edges: Vec<[u32; 2]>,
+        (farthest, floor): (f64, f64),
+    ) -> Vec<[u32; 2]> {
         let mut ways = Vec::new();
         for &edge in &edges {
             let [from, to] = edge.map(|node| self.net.vertices[node as usize]);
@@ -183,7 +176,7 @@ impl<'a> Following<'a> {
             if self.crosses(edge)
                 && let Some(target) = self.crossings(edge).first()
             {
-                self.goes(node, *target, floor);
+                self.moves_to(node, *target, floor);
             }
         }
         edges.retain(|edge| self.crosses(*edge));
@@ -193,29 +186,16 @@ impl<'a> Following<'a> {
 
     /// Puts a vertex into an edge, unless a flat tetrahedron would come; whether it did.
     fn cut(&mut self, edge: [u32; 2]) -> bool {
-        let middle = self.net.vertices.len() as u32;
-        let with_edge = self.net.with_edge(edge).into_iter();
-        let halves: Vec<_> = with_edge
-            .flat_map(|t| self.net.halves(t, edge, middle))
-            .collect();
-        let open = |target: &Vec3| {
-            let position = |node: u32| match node == middle {
-                true => *target,
-                false => self.net.vertices[node as usize],
-            };
-            let open = halves
-                .iter()
-                .map(|nodes| dihedral_quality(&nodes.map(position)));
-            open.fold(f64::INFINITY, f64::min)
-        };
         let crossings = self.crossings(edge);
-        let found = crossings.iter().find(|target| open(target) >= CUT_FLOOR);
-        if let Some(target) = found {
-            self.net.split(edge, *target);
-            self.on.push(self.shell.facets_at(target));
+        let is_cut = self
+            .net
+            .split_if_sound(edge, crossings, CUT_FLOOR)
+            .is_some();
+        if is_cut && let Some(place) = self.net.vertices.last() {
+            self.on.push(self.shell.facets_at(place));
             self.on_boundary.push(true);
         }
-        found.is_some()
+        is_cut
     }
 
     /// Opens flat tetrahedra: vertices inside move, and those of the boundary that lie on one facet, along that.
@@ -230,7 +210,7 @@ impl<'a> Following<'a> {
             nodes.retain(|node| self.on[*node as usize].len() < 2);
             let mut any = false;
             for node in nodes {
-                let star = self.star(node);
+                let star = self.net.star(node);
                 let start = self.net.vertices[node as usize];
                 let shell = self.on_boundary[node as usize].then_some(self.shell);
                 any |= open_around(&mut self.net.vertices, (node, &star), |target| {

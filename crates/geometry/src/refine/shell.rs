@@ -4,6 +4,12 @@ use super::facets::{Facets, On};
 use crate::mesh::tetrahedra::{dihedral_angles, six_fold_volume};
 use crate::{AabbTree, Surface, Vec3};
 
+/// Angles below this are not made by moving a vertex to a level or a sharp edge [rad].
+pub(super) const MOVED_FLOOR: f64 = 0.17;
+
+/// Angles below this are not made by splitting an edge [rad].
+pub(super) const CUT_FLOOR: f64 = 0.05;
+
 /// A chord of a sharp edge is this near to it, in lengths of the chord [-].
 const NEAR_EDGE: f64 = 0.2;
 

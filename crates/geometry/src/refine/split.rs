@@ -1,3 +1,4 @@
+use super::shell::dihedral_quality;
 use crate::Vec3;
 
 /// Tetrahedra whose edges are split.
@@ -30,6 +31,36 @@ impl SplitNet {
         around
             .filter(|&t| self.tetrahedra[t as usize].contains(&b))
             .collect()
+    }
+
+    /// The tetrahedra around a vertex.
+    pub(crate) fn star(&self, node: u32) -> Vec<[u32; 4]> {
+        let around = self.around[node as usize].iter();
+        around.map(|&t| self.tetrahedra[t as usize]).collect()
+    }
+
+    /// Splits an edge at the first of some `targets` [m] where no tetrahedron is less open than `floor` [rad]. Which tetrahedra had the
+    /// edge, as [`Self::split`]; none where no target is sound.
+    pub(crate) fn split_if_sound(
+        &mut self,
+        edge: [u32; 2],
+        targets: impl IntoIterator<Item = Vec3>,
+        floor: f64,
+    ) -> Option<Vec<u32>> {
+        let middle = self.vertices.len() as u32;
+        let with_edge = self.with_edge(edge).into_iter();
+        let halves: Vec<_> = with_edge
+            .flat_map(|t| self.halves(t, edge, middle))
+            .collect();
+        let sound = targets.into_iter().find(|target| {
+            let position = |node: u32| match node == middle {
+                true => *target,
+                false => self.vertices[node as usize],
+            };
+            let mut halves = halves.iter();
+            halves.all(|corners| dihedral_quality(&corners.map(position)) >= floor)
+        });
+        sound.map(|place| self.split(edge, place))
     }
 
     /// What becomes of a tetrahedron when an edge of it gets the vertex `middle`: the part at the edge's beginning, and that at its end.

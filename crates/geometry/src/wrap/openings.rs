@@ -24,6 +24,9 @@ const PART: f64 = 0.5;
 /// From a triangle to the middle of a voxel whose points all lie on one side of it [voxels]: half a diagonal.
 const ONE_SIDE: f32 = 0.87;
 
+/// How often the sides are smoothed: over some four voxels.
+const SMOOTHINGS: usize = 16;
+
 /// The side of an opening on which a place lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Side {
@@ -35,7 +38,8 @@ enum Side {
 /// What lies on both sides of the openings of a body.
 pub(super) struct Openings {
     grid: Grid,
-    sides: Vec<Side>,
+    /// 1 outside, −1 inside and between them across a cap; none where a triangle is near [-].
+    sides: Vec<Option<f32>>,
     /// The width of the widest [m].
     pub(super) width: f64,
 }
@@ -73,6 +77,7 @@ impl Openings {
         let mut sides = vec![Side::Unknown; count];
         widths.grow(&seeds, |number, _, side| sides[number] = side);
         let width = 2.0 * width as f64 / LEVELS * grid.spacing;
+        let sides = smoothed(&grid, &sides);
         Some(Self { grid, sides, width })
     }
 
@@ -104,18 +109,56 @@ impl Openings {
         }
     }
 
+    /// The side of a place [m], interpolated between the middles of voxels: no two around it lie on different sides of a triangle.
     fn side_at(&self, place: &Vec3) -> Side {
         let indices = (place - self.grid.origin) / self.grid.spacing;
-        let mut found = [0; 3];
-        for (axis, index) in found.iter_mut().enumerate() {
-            let nearest = indices[axis].round();
-            if !(nearest >= 0.0 && nearest < self.grid.size[axis] as f64) {
-                return Side::Outside;
+        let low = indices.map(f64::floor);
+        let (mut sum, mut is_known) = (0.0, false);
+        for corner in 0..8 {
+            let step = [0, 1, 2].map(|axis| f64::from(corner >> axis & 1));
+            let mut at = [0; 3];
+            let mut weight = 1.0;
+            for axis in 0..3 {
+                let index = low[axis] + step[axis];
+                if !(index >= 0.0 && index < self.grid.size[axis] as f64) {
+                    return Side::Outside;
+                }
+                at[axis] = index as usize;
+                weight *= 1.0 - (indices[axis] - index).abs();
             }
-            *index = nearest as usize;
+            if let Some(side) = self.sides[self.grid.number(at)] {
+                sum += weight * f64::from(side);
+                is_known |= weight > 0.0;
+            }
         }
-        self.sides[self.grid.number(found)]
+        match is_known {
+            false => Side::Unknown,
+            true if sum < 0.0 => Side::Inside,
+            true => Side::Outside,
+        }
     }
+}
+
+/// Sides as numbers that even out across a cap, whose steps from voxel to voxel vanish; means of neighbours, none through triangles.
+fn smoothed(grid: &Grid, sides: &[Side]) -> Vec<Option<f32>> {
+    let as_number = |side: &Side| match side {
+        Side::Unknown => None,
+        Side::Outside => Some(1.0),
+        Side::Inside => Some(-1.0),
+    };
+    let mut smooth: Vec<Option<f32>> = sides.iter().map(as_number).collect();
+    for _ in 0..SMOOTHINGS {
+        let mean = |number: usize| {
+            let own = smooth[number]?;
+            let around = grid.neighbours(grid.indices(number));
+            let (sum, count) = around
+                .filter_map(|other| smooth[other])
+                .fold((own, 1.0), |(sum, count), side| (sum + side, count + 1.0));
+            Some(sum / count)
+        };
+        smooth = (0..smooth.len()).map(mean).collect();
+    }
+    smooth
 }
 
 impl Closing<'_> {

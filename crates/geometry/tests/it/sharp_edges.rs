@@ -50,8 +50,9 @@ fn cylinder() -> Surface {
 }
 
 /// Judge: the volume of the polyhedron, wherever the lattice lies: convex and concave edges, and a corner where both meet. The
-/// filling lacks 2 to 5 %. Exactly reached where all edges could be followed, in two of five; a nick is left where that would have made a
-/// flat tetrahedron, of less than the cube of an edge. No angle is below that of the cuts.
+/// filling lacks 1 to 5 %. Exactly reached where all edges could be followed, in two of five; a nick is left where that would
+/// have made a flat tetrahedron, of less than the cube of an edge, and of a twentieth of what the filling lacks. No angle is below that
+/// of the cuts.
 #[test]
 fn polyhedra_are_filled_exactly() {
     let mut random = Random(11);
@@ -82,14 +83,11 @@ fn polyhedra_are_filled_exactly() {
             report(&filling)
         );
         assert_sound(&mesh);
-        assert!(before < -0.015 && after.abs() < 1e-3);
+        assert!(after.abs() < f64::min(1e-3, -0.05 * before));
         assert!(mesh.quality().least_dihedral > 0.05);
         exactly += usize::from(after.abs() < 1e-12);
     }
-    assert!(
-        exactly > 0 && 4 * exactly >= bodies - 4,
-        "{exactly} of {bodies}"
-    );
+    assert!(4 * exactly >= bodies - 4, "{exactly} of {bodies}");
 }
 
 /// Judge: the volume, which is approached with the square of the edge where edges are curved; twice as near as the filling at

@@ -24,8 +24,8 @@ const OF_EDGE: f64 = 0.6;
 const THIN: f64 = 3.0;
 const MOST_GRADED: f64 = 3.0;
 
-/// Part of the work before edges collapse [-].
-const FILLED: f64 = 0.3;
+/// Part of the work that is done before edges collapse [-].
+const BEFORE_COLLAPSES: f64 = 0.3;
 
 /// Fillings to try.
 const FILLINGS: usize = 5;
@@ -92,7 +92,7 @@ pub(super) fn tetrahedra(
             .and_then(|coarse| refine_to(&coarse, Some(surface), |place| OF_EDGE * longest(place)));
     }
     let detail = |place: &Vec3| finer(place) * edge / longest(place);
-    let mut progress = |part| progress(FILLED + (1.0 - FILLED) * part);
+    let mut progress = |part| progress(BEFORE_COLLAPSES + (1.0 - BEFORE_COLLAPSES) * part);
     let mesh = filling
         .and_then(|fine| coarsen_with_progress(&fine, surface, nodes, detail, &mut progress));
     if let Err(TetrahedronError::Cancelled) = mesh {

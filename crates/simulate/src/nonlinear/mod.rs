@@ -254,11 +254,11 @@ impl NonlinearOrgan {
         watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<(Self, Vec<String>), Error> {
         tell(watch, Progress::begin(Work::Tetrahedra))?;
-        let mut filled = |part| {
+        let mut report = |part| {
             let (work, part) = (Work::Tetrahedra, FILLED * part);
             watch(Progress { work, part })
         };
-        let (composition, warnings) = Composition::new(scene, shown, own, beside, &mut filled)?;
+        let (composition, warnings) = Composition::new(scene, shown, own, beside, &mut report)?;
         let (work, part) = (Work::Factors, FILLED);
         tell(watch, Progress { work, part })?;
         let composition = Arc::new(composition);
