@@ -18,7 +18,6 @@
 
 pub mod analyze;
 pub mod characterize;
-mod cores;
 pub mod design;
 pub mod documents;
 mod error;
@@ -35,7 +34,6 @@ pub mod solve;
 pub mod validate;
 mod watch;
 
-pub use cores::on_all_cores;
 #[doc(hidden)]
 pub use error::carried;
 pub use error::{Error, exit_status};

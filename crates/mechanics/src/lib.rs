@@ -30,7 +30,6 @@
 
 pub mod boundary_elements;
 pub mod contact;
-mod cores;
 pub mod enhance;
 mod error;
 pub mod finite_elements;
@@ -47,7 +46,6 @@ pub mod surface_response;
 mod tip_law;
 pub mod wall;
 
-pub use cores::{on_all_cores, threads_were_refused};
 pub use error::Error;
 pub use indentation_curve::IndentationCurve;
 pub use limits::{Limit, Limits, Reached};

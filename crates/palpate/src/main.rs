@@ -30,7 +30,7 @@ fn main() -> ExitCode {
         Err(answer) if !answer.use_stderr() => output::text(answer.render()),
         Err(mistake) => Err(Failure::of_command_line(&mistake)),
     };
-    if palpate_mechanics::threads_were_refused() {
+    if palpate_geometry::threads_were_refused() {
         output::warnings(&[
             "the system gave fewer threads than there are cores; the results are the same, and took longer"
                 .to_owned(),

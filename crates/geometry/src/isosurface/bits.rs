@@ -12,6 +12,15 @@ impl Bits {
         }
     }
 
+    /// True where these are not, for so many numbers.
+    pub(super) fn others(self, count: usize) -> Self {
+        let mut words: Vec<u64> = self.words.into_iter().map(|word| !word).collect();
+        if let (Some(last), 1..) = (words.last_mut(), count % 64) {
+            *last &= (1 << (count % 64)) - 1;
+        }
+        Self { words }
+    }
+
     pub(super) fn contains(&self, at: usize) -> bool {
         self.words[at / 64] >> (at % 64) & 1 == 1
     }

@@ -1,12 +1,10 @@
-use std::collections::VecDeque;
-
 use super::bits::Bits;
 use crate::LabelMap;
+use crate::flood::{Sharing, flood};
 
 /// The voxels of one label with a margin of one voxel of nothing on every side.
 ///
-/// A voxel takes two bits and, while pieces are looked for, those at the front of the search some bytes: 0.1 GB for the
-/// largest map, whose labels themselves take 0.8 GB.
+/// A voxel takes two bits: 0.1 GB for the largest map, whose labels themselves take 0.8 GB.
 pub(super) struct Block {
     pub(super) size: [usize; 3],
     /// The first index runs fastest.
@@ -77,7 +75,7 @@ impl Block {
         let mut pieces = 0;
         for start in 0..self.voxels() {
             if self.is_inside(start) && !seen.contains(start) {
-                let voxels = self.flood(start, true, &mut seen, 1);
+                let voxels = self.flood(start, true, &mut seen, Sharing::Sides);
                 pieces += 1;
                 if voxels > largest.0 {
                     largest = (voxels, start);
@@ -86,7 +84,7 @@ impl Block {
         }
         if pieces > 1 {
             let mut piece = self.none();
-            self.flood(largest.1, true, &mut piece, 1);
+            self.flood(largest.1, true, &mut piece, Sharing::Sides);
             self.inside = piece;
         }
         pieces - 1
@@ -97,12 +95,10 @@ impl Block {
         let before = self.count();
         let mut outside = self.none();
         // What touches along an edge hangs together outside, since it does not inside.
-        let around = self.flood(0, false, &mut outside, 2);
+        let around = self.flood(0, false, &mut outside, Sharing::Edges);
         let filled = self.voxels() - around - before;
         if filled > 0 {
-            for at in (0..self.voxels()).filter(|&at| !outside.contains(at)) {
-                self.inside.insert(at);
-            }
+            self.inside = outside.others(self.voxels());
         }
         filled
     }
@@ -115,43 +111,10 @@ impl Block {
         Bits::none(self.voxels())
     }
 
-    /// Marks the voxels that hang together with `start`, over steps along at most `axes` axes at a time, as seen.
-    /// Returns how many there are.
-    fn flood(&self, start: usize, inside: bool, seen: &mut Bits, axes: usize) -> usize {
-        let steps = steps(axes);
-        // First in, first out: the front of a search through a block is a surface.
-        let mut front = VecDeque::from([start]);
-        seen.insert(start);
-        let mut found = 1;
-        while let Some(at) = front.pop_front() {
-            self.for_each_neighbor(at, &steps, |neighbor| {
-                if self.is_inside(neighbor) == inside && seen.insert(neighbor) {
-                    front.push_back(neighbor);
-                    found += 1;
-                }
-            });
-        }
-        found
+    /// Marks the voxels that hang together with `start` as seen. Returns how many there are.
+    fn flood(&self, start: usize, inside: bool, seen: &mut Bits, sharing: Sharing) -> usize {
+        flood(self.size, start, sharing, |at| {
+            self.is_inside(at) == inside && seen.insert(at)
+        })
     }
-
-    fn for_each_neighbor(&self, at: usize, steps: &[[i64; 3]], mut visit: impl FnMut(usize)) {
-        let [nx, ny, nz] = self.size.map(|n| n as i64);
-        let at = at as i64;
-        let [x, y, z] = [at % nx, at / nx % ny, at / nx / ny];
-        for [dx, dy, dz] in steps {
-            let [i, j, k] = [x + dx, y + dy, z + dz];
-            let there = (0..nx).contains(&i) && (0..ny).contains(&j) && (0..nz).contains(&k);
-            if there {
-                visit(((k * ny + j) * nx + i) as usize);
-            }
-        }
-    }
-}
-
-/// The steps to neighbours along at most `axes` axes at a time.
-fn steps(axes: usize) -> Vec<[i64; 3]> {
-    let all = (0..27).map(|step| [step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1]);
-    let along = |step: &[i64; 3]| step.iter().filter(|&&d| d != 0).count();
-    all.filter(|step| (1..=axes).contains(&along(step)))
-        .collect()
 }

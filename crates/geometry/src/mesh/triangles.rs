@@ -63,6 +63,37 @@ impl TriangleMesh {
         })
     }
 
+    /// Some of the triangles of a mesh with these vertices, which has no others than they need, in their order, and
+    /// which vertices these were.
+    ///
+    /// # Panics
+    /// Without a triangle, or when a corner is none of the vertices.
+    pub(crate) fn part_of(vertices: &[Vec3], triangles: &[[NodeId; 3]]) -> (Self, Vec<NodeId>) {
+        let mut numbers = vec![None; vertices.len()];
+        for node in triangles.iter().flatten() {
+            numbers[node.index()] = Some(NodeId(0));
+        }
+        let mut originals = Vec::new();
+        for (node, number) in (0..).map(NodeId).zip(&mut numbers) {
+            if let Some(number) = number {
+                *number = NodeId(originals.len() as u32);
+                originals.push(node);
+            }
+        }
+        let renamed = |node: NodeId| numbers[node.index()].expect("a corner is used");
+        let part = Self {
+            vertices: originals
+                .iter()
+                .map(|node| vertices[node.index()])
+                .collect(),
+            triangles: triangles
+                .iter()
+                .map(|corners| corners.map(renamed))
+                .collect(),
+        };
+        (part, originals)
+    }
+
     /// Positions of the vertices [m].
     pub fn vertices(&self) -> &[Vec3] {
         &self.vertices

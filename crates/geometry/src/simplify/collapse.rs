@@ -36,23 +36,21 @@ pub(super) fn collapse(
     sizes: Option<&[f64]>,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> ControlFlow<(), Vec<bool>> {
-    let target = settings.triangles;
     let mut run = Run::new(net, settings);
     if let Some(sizes) = sizes {
         run.weights = sizes.iter().map(|size| size.powi(-4)).collect();
     }
-    let first = run.net.live();
-    let mut told = |live: usize| progress((first - live) as f64 / (first - target) as f64);
-    run.queue_all();
-    loop {
-        let before = run.net.live();
-        run.work(target, &mut told)?;
-        if run.net.live() <= target || run.net.live() == before {
-            return ControlFlow::Continue(run.on_crease);
-        }
-        // A collapse makes others possible that were refused before.
-        run.queue_changed();
-    }
+    run.all(settings.triangles, progress)?;
+    ControlFlow::Continue(run.on_crease)
+}
+
+/// The same for a part of a mesh, of which no vertex leaves the space between two corners [m]; nothing passes through
+/// something, whatever is left.
+pub(super) fn collapse_within(net: &mut Net, settings: &SimplifySettings, space: [Vec3; 2]) {
+    let mut run = Run::new(net, settings);
+    run.space = Some(space);
+    // Nobody cancels it.
+    let _ = run.all(settings.triangles, &mut |_| ControlFlow::Continue(()));
 }
 
 struct Run<'a> {
@@ -74,18 +72,19 @@ struct Run<'a> {
     has_border: bool,
     queue: BinaryHeap<Reverse<Candidate>>,
     evenness: f64,
+    /// What vertices that move stay in: between two corners [m].
+    space: Option<[Vec3; 2]>,
 }
 
-/// An edge that may be collapsed to `position` [m].
+/// An edge that may be collapsed. Millions wait at once, so it is small.
 #[derive(Debug, Clone, Copy)]
 struct Candidate {
     /// Squared distance over an area, and what unevenness adds [m⁴].
     cost: f64,
-    /// Which of the demands it meets, as far as is known.
-    rank: usize,
     edge: [u32; 2],
-    position: Vec3,
     age: u32,
+    /// Which of the demands it meets, as far as is known.
+    rank: u8,
 }
 
 impl<'a> Run<'a> {
@@ -103,6 +102,7 @@ impl<'a> Run<'a> {
             has_border: net.on_border.contains(&true),
             queue: BinaryHeap::new(),
             evenness: settings.evenness,
+            space: None,
             net,
         };
         run.add_faces();
@@ -154,6 +154,26 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// Collapses until `target` triangles are left or nothing can go.
+    fn all(
+        &mut self,
+        target: usize,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let first = self.net.live();
+        let mut told = |live: usize| progress((first - live) as f64 / (first - target) as f64);
+        self.queue_all();
+        loop {
+            let before = self.net.live();
+            self.work(target, &mut told)?;
+            if self.net.live() <= target || self.net.live() == before {
+                return ControlFlow::Continue(());
+            }
+            // A collapse makes others possible that were refused before.
+            self.queue_changed();
+        }
+    }
+
     fn queue_all(&mut self) {
         let edges = self.net.edges();
         let all = edges.into_iter().map(|edge| Reverse(self.candidate(edge)));
@@ -182,6 +202,21 @@ impl<'a> Run<'a> {
     }
 
     fn candidate(&self, edge: [u32; 2]) -> Candidate {
+        Candidate {
+            cost: self.best(edge).0,
+            edge,
+            age: self.age(edge),
+            rank: 0,
+        }
+    }
+
+    fn age(&self, edge: [u32; 2]) -> u32 {
+        let [a, b] = edge.map(|v| self.ages[v as usize]);
+        a + b
+    }
+
+    /// The least cost of collapsing an edge [m⁴], and the position [m] that has it.
+    fn best(&self, edge: [u32; 2]) -> (f64, Vec3) {
         let [a, b] = edge.map(|v| v as usize);
         let [start, end] = [a, b].map(|v| self.net.positions[v] - self.origin);
         let quadric = self.quadrics[a].plus(&self.quadrics[b]);
@@ -201,13 +236,9 @@ impl<'a> Run<'a> {
             (true, true) => cheapest(start, cheapest(end, least)),
         };
         let uneven = (self.areas[a] + self.areas[b]) * (end - start).norm_squared();
-        Candidate {
-            cost: (quadric.at(&at) + self.evenness * uneven) * self.weights[a].max(self.weights[b]),
-            rank: 0,
-            edge,
-            position: at + self.origin,
-            age: self.ages[a] + self.ages[b],
-        }
+        let weight = self.weights[a].max(self.weights[b]);
+        let cost = (quadric.at(&at) + self.evenness * uneven) * weight;
+        (cost, at + self.origin)
     }
 
     fn work(
@@ -224,15 +255,15 @@ impl<'a> Run<'a> {
             }
             looked_at += 1;
             let [a, b] = candidate.edge;
-            let current = candidate.age == self.ages[a as usize] + self.ages[b as usize];
-            if !current || !self.net.can_collapse(a, b) {
+            if candidate.age != self.age(candidate.edge) || !self.net.can_collapse(a, b) {
                 continue;
             }
-            let (demands, dearer) = DEMANDS[candidate.rank];
+            let position = self.best(candidate.edge).1;
+            let (demands, dearer) = self.demands()[usize::from(candidate.rank)];
             let too_many = self.net.live() == target + 1 && self.takes_one_too_many(&candidate);
-            if !too_many && self.is_admitted(&candidate, demands) {
-                self.collapse(&candidate);
-            } else if candidate.rank + 1 < DEMANDS.len() {
+            if !too_many && self.is_admitted(candidate.edge, &position, demands) {
+                self.collapse(candidate.edge, position);
+            } else if usize::from(candidate.rank) + 1 < self.demands().len() {
                 self.queue.push(Reverse(Candidate {
                     cost: dearer * candidate.cost,
                     rank: candidate.rank + 1,
@@ -246,11 +277,26 @@ impl<'a> Run<'a> {
     /// Where one triangle shall go, two would: while there are borders, one of theirs can go alone.
     fn takes_one_too_many(&self, candidate: &Candidate) -> bool {
         let [a, b] = candidate.edge;
-        candidate.rank + 1 < DEMANDS.len() && self.net.at_edge(a, b).count() == 2 && self.has_border
+        usize::from(candidate.rank) + 1 < self.demands().len()
+            && self.net.at_edge(a, b).count() == 2
+            && self.has_border
     }
 
-    fn is_admitted(&mut self, candidate: &Candidate, demands: Demands) -> bool {
-        let [a, b] = candidate.edge;
+    /// In a part of a mesh nothing passes through something.
+    fn demands(&self) -> &'static [(Demands, f64)] {
+        match self.space {
+            Some(_) => &DEMANDS[..DEMANDS.len() - 1],
+            None => &DEMANDS,
+        }
+    }
+
+    fn is_admitted(&mut self, edge: [u32; 2], position: &Vec3, demands: Demands) -> bool {
+        if let Some([low, high]) = &self.space
+            && !(0..3).all(|k| low[k] < position[k] && position[k] < high[k])
+        {
+            return false;
+        }
+        let [a, b] = edge;
         let ours = self.net.around(a).iter();
         let theirs = self.net.around(b).iter();
         let theirs = theirs.filter(|&&t| !self.net.corners(t).contains(&a));
@@ -259,29 +305,21 @@ impl<'a> Run<'a> {
             let corners = self.net.corners(t);
             !(corners.contains(&a) && corners.contains(&b))
         });
-        let new: Vec<Fresh> = left.map(|&t| self.moved(t, candidate)).collect();
+        let new: Vec<Fresh> = left.map(|&t| self.moved(t, edge, position)).collect();
         // The last piece of something that branches must not vanish.
         !new.is_empty() && self.guard.admits(self.net, &old, &new, demands)
     }
 
     /// A triangle at one end of the edge after the collapse.
-    fn moved(&self, triangle: u32, candidate: &Candidate) -> Fresh {
+    fn moved(&self, triangle: u32, edge: [u32; 2], position: &Vec3) -> Fresh {
         let nodes = self.net.corners(triangle);
         let before = self.net.placed(triangle);
-        let is_end = nodes.map(|v| candidate.edge.contains(&v));
+        let is_end = nodes.map(|v| edge.contains(&v));
         let pick = |k: usize| {
-            if is_end[k] {
-                candidate.position
-            } else {
-                before[k]
-            }
+            if is_end[k] { *position } else { before[k] }
         };
         let name = |k: usize| {
-            if is_end[k] {
-                candidate.edge[0]
-            } else {
-                nodes[k]
-            }
+            if is_end[k] { edge[0] } else { nodes[k] }
         };
         Fresh {
             nodes: [0, 1, 2].map(name),
@@ -290,10 +328,10 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn collapse(&mut self, candidate: &Candidate) {
-        let [kept, gone] = candidate.edge;
-        let [a, b] = candidate.edge.map(|v| v as usize);
-        self.net.collapse(kept, gone, candidate.position);
+    fn collapse(&mut self, edge: [u32; 2], position: Vec3) {
+        let [kept, gone] = edge;
+        let [a, b] = edge.map(|v| v as usize);
+        self.net.collapse(kept, gone, position);
         self.quadrics[a] = self.quadrics[a].plus(&self.quadrics[b]);
         self.areas[a] += self.areas[b];
         self.weights[a] = self.weights[a].max(self.weights[b]);

@@ -57,23 +57,16 @@ impl Net {
     }
 
     /// What is left, in the order of the original.
-    ///
-    /// # Panics
-    /// Never: at least one triangle is left, and positions stay finite.
     pub(super) fn mesh(&self) -> TriangleMesh {
-        let mut numbers = vec![NodeId(u32::MAX); self.positions.len()];
-        let mut vertices = Vec::new();
-        for (vertex, around) in self.around.iter().enumerate() {
-            if !around.is_empty() {
-                numbers[vertex] = NodeId(vertices.len() as u32);
-                vertices.push(self.positions[vertex]);
-            }
+        let left = self.triangles().map(|t| self.corners(t).map(NodeId));
+        TriangleMesh::part_of(&self.positions, &left.collect::<Vec<_>>()).0
+    }
+
+    /// Nothing changes at the corners of this triangle.
+    pub(super) fn hold(&mut self, triangle: u32) {
+        for v in self.corners(triangle) {
+            self.held[v as usize] = true;
         }
-        let left = self.triangles.iter().filter(|&&corners| corners != GONE);
-        let triangles = left
-            .map(|corners| corners.map(|v| numbers[v as usize]))
-            .collect();
-        TriangleMesh::new(vertices, triangles).expect("a part of a mesh is one")
     }
 
     /// Whether a vertex must stay: on a border, or where the surface branches.

@@ -1,8 +1,10 @@
 use std::collections::{BTreeMap, VecDeque};
+use std::mem;
 
 use nalgebra::Matrix3;
 
 use super::grid::Grid;
+use crate::flood::{Sharing, flood};
 use crate::{LabelMap, TriangleId, TriangleMesh, closest_on_triangle};
 
 /// Voxels around a triangle in which its distance is computed; half the diagonal of a voxel and more, so that no path
@@ -92,19 +94,11 @@ impl<'m> Closing<'m> {
     pub(super) fn encloses(&mut self, radius: f64) -> bool {
         let skin = radius + SKIN * self.grid.spacing;
         self.reach_out(skin);
-        let is_free = |number: usize| f64::from(self.distance[number]) > radius;
         let mut outside = vec![false; self.distance.len()];
         // The first voxel is in the margin.
-        outside[0] = true;
-        let mut open = vec![0];
-        while let Some(number) = open.pop() {
-            for next in self.grid.neighbours(self.grid.indices(number)) {
-                if !outside[next] && is_free(next) {
-                    outside[next] = true;
-                    open.push(next);
-                }
-            }
-        }
+        flood(self.grid.size, 0, Sharing::Sides, |number| {
+            f64::from(self.distance[number]) > radius && !mem::replace(&mut outside[number], true)
+        });
         let encloses = (0..outside.len())
             .any(|number| !outside[number] && f64::from(self.distance[number]) >= skin);
         self.outside = outside;
@@ -139,22 +133,39 @@ fn squared_distances(grid: &Grid, set: &[bool]) -> Vec<f32> {
         .map(|&is_set| if is_set { 0.0 } else { f32::INFINITY })
         .collect();
     let strides = [1, grid.size[0], grid.size[0] * grid.size[1]];
-    for (axis, stride) in strides.into_iter().enumerate() {
-        let length = grid.size[axis];
-        let mut line = vec![0.0f32; length];
-        let mut parabolas = Parabolas::default();
-        for first in 0..all.len() {
-            // The lines along an axis begin where its index is 0.
-            if grid.indices(first)[axis] != 0 {
-                continue;
-            }
-            for (k, value) in line.iter_mut().enumerate() {
-                *value = all[first + k * stride];
-            }
-            parabolas.envelope(&line, |k, value| all[first + k * stride] = value);
+    for (length, stride) in grid.size.into_iter().zip(strides) {
+        for lines in all.chunks_exact_mut(length * stride) {
+            along_lines(lines, length, stride);
         }
     }
     all
+}
+
+/// Lines that lie beside one another are read and written together, as memory gives them.
+const TOGETHER: usize = 32;
+
+/// Lower envelopes along the lines of `length` numbers, each `stride` from the next, that fill `all`.
+fn along_lines(all: &mut [f32], length: usize, stride: usize) {
+    let mut lines = vec![0.0; length * TOGETHER.min(stride)];
+    let mut parabolas = Parabolas::default();
+    for first in (0..stride).step_by(TOGETHER) {
+        let count = TOGETHER.min(stride - first);
+        for k in 0..length {
+            let numbers = &all[first + k * stride..][..count];
+            for (line, &number) in numbers.iter().enumerate() {
+                lines[line * length + k] = number;
+            }
+        }
+        for line in lines.chunks_exact_mut(length).take(count) {
+            parabolas.lower(line);
+        }
+        for k in 0..length {
+            let numbers = &mut all[first + k * stride..][..count];
+            for (line, number) in numbers.iter_mut().enumerate() {
+                *number = lines[line * length + k];
+            }
+        }
+    }
 }
 
 /// The lower envelope of parabolas over one line.
@@ -163,18 +174,26 @@ struct Parabolas {
     places: Vec<usize>,
     /// Where each begins to be the lowest.
     begins: Vec<f64>,
+    heights: Vec<f64>,
 }
 
 impl Parabolas {
-    /// Gives the least of `line[i] + (k − i)²` over i at every k.
-    fn envelope(&mut self, line: &[f32], mut put: impl FnMut(usize, f32)) {
+    /// The least of `line[i] + (k − i)²` over i takes the place of each `line[k]`.
+    fn lower(&mut self, line: &mut [f32]) {
+        // What is nearest to itself.
+        if line.iter().all(|&height| height == 0.0) {
+            return;
+        }
         self.places.clear();
         self.begins.clear();
-        for (q, &height) in line.iter().enumerate() {
+        self.heights.clear();
+        self.heights
+            .extend(line.iter().map(|&height| f64::from(height)));
+        for (q, &height) in self.heights.iter().enumerate() {
             if !height.is_finite() {
                 continue;
             }
-            let lift = |i: usize| f64::from(line[i]) + (i * i) as f64;
+            let lift = |i: usize| self.heights[i] + (i * i) as f64;
             let mut begin = f64::NEG_INFINITY;
             while let Some(&last) = self.places.last() {
                 begin = (lift(q) - lift(last)) / (2.0 * (q - last) as f64);
@@ -192,17 +211,18 @@ impl Parabolas {
             return;
         }
         let mut which = 0;
-        for k in 0..line.len() {
-            while self
-                .begins
-                .get(which + 1)
-                .is_some_and(|&begin| begin <= k as f64)
-            {
+        for (k, least) in line.iter_mut().enumerate() {
+            let begins = |which: usize| {
+                self.begins
+                    .get(which)
+                    .is_some_and(|&begin| begin <= k as f64)
+            };
+            while begins(which + 1) {
                 which += 1;
             }
             let place = self.places[which];
             let away = k as f64 - place as f64;
-            put(k, (f64::from(line[place]) + away * away) as f32);
+            *least = (self.heights[place] + away * away) as f32;
         }
     }
 }

@@ -5,12 +5,13 @@ use palpate_characterize::inverse::Organ;
 use palpate_characterize::lumped::fit_approach;
 use palpate_characterize::{CharacterizeSettings, characterize_organ, specimens};
 use palpate_files::scene::Shape;
+use palpate_geometry::collect_on_all_cores;
 use palpate_simulate::read_organ;
 
 use super::answer::Specimen;
 use super::finished::{Finished, Studied};
 use super::folder::StudyFolder;
-use crate::{Error, ReadRecording, Watch, on_all_cores};
+use crate::{Error, ReadRecording, Watch};
 
 /// Every specimen of `recordings`, as many at once as there are cores, in their order. What `folder` keeps
 /// already is taken from there, and what is finished goes there at once.
@@ -53,7 +54,7 @@ pub(crate) fn of(
         watch.at(done as f64 / groups.len() as f64);
         finished
     };
-    on_all_cores(&groups, work).into_iter().collect()
+    collect_on_all_cores(&groups, work).into_iter().collect()
 }
 
 /// What is known of the recordings before their laws are sought.

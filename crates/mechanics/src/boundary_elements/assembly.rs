@@ -1,13 +1,12 @@
 use faer::{Mat, MatRef};
 use nalgebra::Matrix3;
-use palpate_geometry::Surface;
+use palpate_geometry::{Surface, on_all_cores};
 
 use super::integrals::{Place, Source};
 use super::kelvin::Kelvin;
 use super::panel::Panel;
 use super::precision::Precision;
 use super::rotations::TractionColumns;
-use crate::cores::on_all_cores;
 use crate::{Error, LinearElastic};
 
 /// All influences of panels on panels: 3 n × 3 n, row 3 i + a for component a at the centroid of panel i.

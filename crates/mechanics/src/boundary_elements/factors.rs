@@ -7,9 +7,9 @@ use faer::linalg::triangular_solve::{
     solve_unit_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
 use faer::{Accum, MatMut, MatRef, Par};
+use palpate_geometry::on_all_cores;
 
 use super::precision::Precision;
-use crate::cores::on_all_cores;
 
 /// Columns that are eliminated at once.
 const PANEL: usize = 192;

@@ -1,12 +1,11 @@
 use std::ops::ControlFlow;
 
-use palpate_geometry::{Surface, TriangleId};
+use palpate_geometry::{Surface, TriangleId, cores, on_all_cores};
 
 use super::assembly::Influences;
 use super::factors::Factors;
 use super::precision::Precision;
 use super::rotations::TractionColumns;
-use crate::cores::{cores, on_all_cores};
 use crate::surface_response::{ResponseParts, Sampling, SurfaceResponse, TouchableTriangle, zeros};
 use crate::{Error, LinearElastic};
 

@@ -19,12 +19,11 @@
 //! `thin_lobes::…`. With weights of the area alone forces differ by two thousandths.
 
 use nalgebra::Matrix3;
-use palpate_geometry::TriangleId;
+use palpate_geometry::{TriangleId, cores, on_all_cores};
 
 use super::assembly::Influences;
 use super::precision::Precision;
 use crate::Vec3;
-use crate::cores::{cores, on_all_cores};
 
 /// Columns of ½ 1 + T, in which those of fixed panels stand for something else.
 pub(super) struct TractionColumns<'a, T> {

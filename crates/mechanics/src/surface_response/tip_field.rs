@@ -32,12 +32,11 @@
 use std::f64::consts::PI;
 
 use nalgebra::Matrix3;
-use palpate_geometry::{NodeId, Surface, TriangleId};
+use palpate_geometry::{NodeId, Surface, TriangleId, on_all_cores};
 
 use super::parts::Sampling;
 use super::response::{SurfaceResponse, TouchId};
 use crate::boundary_elements::{Panel, Place, Precision, Source};
-use crate::cores::on_all_cores;
 use crate::{Error, Vec3};
 
 /// Radius of the spread load in radii of the tip, and in lengths √(2 A) of the triangles there, whichever

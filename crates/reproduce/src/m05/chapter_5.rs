@@ -3,6 +3,7 @@ use palpate_characterize::clean::{CleanSettings, clean};
 use palpate_characterize::fit::Random;
 use palpate_characterize::{CleanRecording, analyze};
 use palpate_files::protocol::Stimulus;
+use palpate_geometry::collect_on_all_cores;
 use palpate_measure::VirtualSpecimen;
 
 use super::organ::{STEADY, beating, specimen};
@@ -13,7 +14,6 @@ use crate::m06::Printed;
 use crate::published::{animals, cell};
 use crate::row::Rows;
 use crate::virtual_rig::RAMP;
-use palpate_jobs::on_all_cores;
 use palpate_jobs::plot::{Series, Style};
 
 /// How often each depth is pressed in each animal.
@@ -64,7 +64,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             })
         });
         let jobs: Vec<_> = jobs.collect();
-        for pressed in on_all_cores(&jobs, |_, job| pressed(job)) {
+        for pressed in collect_on_all_cores(&jobs, |_, job| pressed(job)) {
             found.extend(pressed?);
         }
     }

@@ -1,7 +1,8 @@
-use palpate_geometry::{Surface, TriangleId, TriangleMesh, Vec3, closest_on_triangle};
+use palpate_geometry::{
+    Surface, TriangleId, TriangleMesh, Vec3, closest_on_triangle, on_all_cores,
+};
 use palpate_mechanics::contact::Tip;
 use palpate_mechanics::inclusion::{InclusionField, Load};
-use palpate_mechanics::on_all_cores;
 
 /// Radii for which the inclusions are tabulated, each so many times the one before: of what touches, up to that of the tool, and of
 /// loads, from this part of the least of what touches on [-].

@@ -1,6 +1,6 @@
 use std::ops::ControlFlow;
 
-use palpate_geometry::{AabbTree, Surface, TriangleId};
+use palpate_geometry::{AabbTree, Surface, TriangleId, cores, on_all_cores};
 
 use super::super::mesh::ElementMesh;
 use super::super::model::{
@@ -11,7 +11,6 @@ use super::super::supports::Supports;
 use super::filling::Filling;
 use super::projection::{Boundary, Projection};
 use crate::boundary_elements::{Precision, Progress, ResponseMemory, Stage, held_triangles};
-use crate::cores::{cores, on_all_cores};
 use crate::linear::sparse::Factors;
 use crate::regions::RegionMap;
 use crate::surface_response::{ResponseParts, Sampling, SurfaceResponse, TouchableTriangle};

@@ -11,9 +11,9 @@
 use std::f64::consts::PI;
 
 use nalgebra::Matrix5;
+use palpate_geometry::on_all_cores;
 
 use super::shell::{FourierShell, difference};
-use crate::cores::on_all_cores;
 
 /// Radii of the tables, in thicknesses. As these tables are scaled, those of thinner walls are the last.
 const RADII: [f64; 9] = [1.0, 1.5, 2.25, 3.4, 5.0, 7.5, 11.0, 17.0, 30.0];

@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::{self, Builder};
 
 /// How many threads can run at once.
-pub(crate) fn cores() -> usize {
+pub fn cores() -> usize {
     thread::available_parallelism().map_or(1, NonZero::get)
 }
 
@@ -31,6 +31,25 @@ where
     Items: Iterator + Send,
 {
     with_threads(cores(), items, work);
+}
+
+/// What `work` makes of each of `items`, in their order, on all cores.
+///
+/// # Panics
+/// When `work` does.
+pub fn collect_on_all_cores<T: Sync, R: Send>(
+    items: &[T],
+    work: impl Fn(usize, &T) -> R + Sync,
+) -> Vec<R> {
+    let done = Mutex::new(Vec::with_capacity(items.len()));
+    on_all_cores(items.iter().enumerate(), |(place, item)| {
+        let made = work(place, item);
+        let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
+        done.push((place, made));
+    });
+    let mut done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
+    done.sort_by_key(|(place, _)| *place);
+    done.into_iter().map(|(_, made)| made).collect()
 }
 
 fn with_threads<Items>(threads: usize, items: Items, work: impl Fn(Items::Item) + Sync)
