@@ -4,16 +4,17 @@
 //! reaches from the border without touching a triangle; the inside is what no such ball covers (a morphological closing
 //! [Serra 1982]). Its surface is closed, manifold and in one piece ([`isosurface`](crate::isosurface)), and its vertices
 //! are moved to the nearest point of the triangles where one is near and no triangle is turned by it. Where that encloses
-//! nothing, wider openings get a cap where they are narrowest (`openings`).
+//! nothing, wider openings get a cap where they are narrowest (`openings`). Closed surfaces inside are given beside it (`inner`).
 //!
 //! *How we know*: `wrap::…`: balls of crossing, doubled, turned and missing triangles keep their volume and distance.
 //!
-//! *Limits*: a closing fills what is narrower than twice r, also a fissure of the organ. Cavities are filled. Sharp edges
+//! *Limits*: a closing fills what is narrower than twice r, also a fissure of the organ. Sharp edges
 //! are rounded by about the asked distance.
 
 mod closing;
 mod grid;
 mod holes;
+mod inner;
 mod openings;
 
 use std::ops::ControlFlow;
@@ -43,8 +44,10 @@ pub struct WrapSettings {
     /// Width of gaps between triangles that are closed [m]; holes with a rim are closed at any width, and where
     /// nothing is enclosed then, openings without one behind which there is more room.
     pub close_gaps: f64,
-    /// Triangles at most.
+    /// Triangles at most, of each surface.
     pub triangles: usize,
+    /// Whether closed surfaces inside are given too.
+    pub keep_inner: bool,
 }
 
 impl Default for WrapSettings {
@@ -53,6 +56,7 @@ impl Default for WrapSettings {
             distance: 0.5e-3,
             close_gaps: 2e-3,
             triangles: 100_000,
+            keep_inner: false,
         }
     }
 }
@@ -76,6 +80,9 @@ pub struct Wrapped {
     pub other_pieces: usize,
     /// Volume of cavities that were filled [m³].
     pub filled: f64,
+    /// Closed surfaces inside, the largest first, if they were asked for: of cavities, vessels and parts, and inner walls. One may
+    /// lie within another.
+    pub inner: Vec<Surface>,
 }
 
 /// Why there is no envelope.
@@ -183,6 +190,14 @@ pub fn wrap_with_progress(
         opening = Some(found.width);
     }
     at(0.2)?;
+    let tree = AabbTree::new(&capped.mesh);
+    let inner = match settings.keep_inner {
+        true => {
+            closing.inner_surfaces(radius, (&capped.mesh, &tree), distance, settings.triangles)?
+        }
+        false => Vec::new(),
+    };
+    at(0.25)?;
     let map = closing.inside(radius);
     at(0.3)?;
     let found = isosurface_with_progress(
@@ -195,8 +210,12 @@ pub fn wrap_with_progress(
         &mut |part| progress(0.3 + 0.6 * part),
     )?;
     let filled = found.filled_voxels as f64 * map.voxel_volume();
-    let tree = AabbTree::new(&capped.mesh);
-    let fitted = fit(found.simplified.mesh, &capped.mesh, &tree, distance);
+    let fitted = fit(
+        found.simplified.mesh,
+        (&capped.mesh, &tree),
+        distance,
+        distance,
+    );
     Ok(Wrapped {
         to_input: deviation_with_tree(&fitted, &capped.mesh, &tree),
         of_input: deviation(&input, &fitted),
@@ -205,6 +224,7 @@ pub fn wrap_with_progress(
         opening,
         other_pieces: found.other_pieces,
         filled,
+        inner,
         surface: Surface::new(fitted)?,
     })
 }
@@ -213,12 +233,12 @@ pub fn wrap_with_progress(
 const LEAST_TURN: f64 = 0.5;
 
 /// `envelope` with its vertices on the nearest triangles of `input`, where one is within `distance` [m] and no triangle
-/// turns over or crosses another by it.
+/// turns over or crosses another by it. They are searched from a place that lies outside of the vertex by `from` [m].
 fn fit(
     envelope: TriangleMesh,
-    input: &TriangleMesh,
-    tree: &AabbTree,
+    (input, tree): (&TriangleMesh, &AabbTree),
     distance: f64,
+    from: f64,
 ) -> TriangleMesh {
     let before = envelope.clone();
     let mut fitted = envelope;
@@ -230,8 +250,8 @@ fn fit(
         }
     }
     for (number, (place, normal)) in before.vertices().iter().zip(&normals).enumerate() {
-        // Seen from outside, since an inner wall may be nearer.
-        let from = place + distance * normal.try_normalize(0.0).unwrap_or_default();
+        // Seen from the side of the surface, since another wall may be nearer.
+        let from = place + from * normal.try_normalize(0.0).unwrap_or_default();
         let nearest = tree.nearest(input, &from);
         if (nearest.on.position - place).norm() <= distance {
             fitted.move_vertex(NodeId(number as u32), nearest.on.position);

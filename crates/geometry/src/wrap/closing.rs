@@ -12,7 +12,10 @@ use crate::{LabelMap, TriangleId, TriangleMesh, closest_on_triangle};
 const SEED: f64 = 1.5;
 /// Voxels within an envelope by which its deepest place lies below the closing's radius, at least: less is the skin of
 /// a body that is open.
-const SKIN: f64 = 3.0;
+pub(super) const SKIN: f64 = 3.0;
+
+/// From a triangle to the middle of a voxel whose points all lie on one side of it [voxels]: half a diagonal.
+pub(super) const ONE_SIDE: f32 = 0.87;
 
 /// The distance of each voxel from a mesh, as far out as was asked, and what balls reach from the border.
 pub(super) struct Closing<'m> {
@@ -107,21 +110,25 @@ impl<'m> Closing<'m> {
 
     /// What no ball of `radius` [m] covers, as label 1.
     pub(super) fn inside(self, radius: f64) -> LabelMap {
-        let grid = self.grid;
-        let squared = squared_distances(grid, &self.outside);
-        // The nearest voxel of the outside is half a voxel beyond the ball on the mean.
-        let limit = (radius / grid.spacing + 0.5).powi(2) as f32;
-        LabelMap {
-            size: grid.size,
-            labels: squared
-                .into_iter()
-                .map(|own| u16::from(own > limit))
-                .collect(),
-            steps: Matrix3::from_diagonal_element(grid.spacing),
-            origin: grid.origin,
-            names: BTreeMap::new(),
-            warnings: Vec::new(),
-        }
+        let Self { grid, outside, .. } = self;
+        within(grid, &outside, radius, false)
+    }
+}
+
+/// The voxels within `radius` [m] of those that are `set`, or the others, as label 1. The nearest voxel that is set is half a voxel
+/// beyond the radius on the mean.
+pub(super) fn within(grid: &Grid, set: &[bool], radius: f64, is_within: bool) -> LabelMap {
+    let limit = (radius / grid.spacing + 0.5).powi(2) as f32;
+    LabelMap {
+        size: grid.size,
+        labels: squared_distances(grid, set)
+            .into_iter()
+            .map(|squared| u16::from((squared <= limit) == is_within))
+            .collect(),
+        steps: Matrix3::from_diagonal_element(grid.spacing),
+        origin: grid.origin,
+        names: BTreeMap::new(),
+        warnings: Vec::new(),
     }
 }
 

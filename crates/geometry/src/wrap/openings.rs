@@ -5,7 +5,7 @@
 //! cap lies where they meet: across an opening where it is narrowest, and flat where its rim is, as the watershed of the distance
 //! from the triangles [Meyer 1994].
 
-use super::closing::Closing;
+use super::closing::{Closing, ONE_SIDE};
 use super::grid::Grid;
 use crate::{TriangleMesh, Vec3};
 
@@ -20,9 +20,6 @@ const ROOMIER: f64 = 3.0;
 
 /// What is behind openings has this part of the room of the roomiest, at least [-]: a narrower recess of the body stays open.
 const PART: f64 = 0.5;
-
-/// From a triangle to the middle of a voxel whose points all lie on one side of it [voxels]: half a diagonal.
-const ONE_SIDE: f32 = 0.87;
 
 /// How often the sides are smoothed: over some four voxels.
 const SMOOTHINGS: usize = 16;

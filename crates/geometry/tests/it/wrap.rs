@@ -13,6 +13,7 @@ const SETTINGS: WrapSettings = WrapSettings {
     distance: 0.5e-3,
     close_gaps: 2e-3,
     triangles: 40_000,
+    keep_inner: false,
 };
 
 /// Triangles of several meshes, each with vertices of its own; those that `keep` refuses are left out.
@@ -68,6 +69,42 @@ fn a_ball_with_double_walls_and_missing_triangles_is_a_ball() {
     );
     // What lies inside is far from the envelope.
     assert!(wrapped.of_input.max > 0.004, "{:?}", wrapped.of_input);
+}
+
+/// A ball with an inner wall that has holes; in this wall lie a ball and a smaller one within that. Judge: their volumes.
+#[test]
+fn surfaces_inside_are_kept() {
+    let outer = ball(0.02);
+    let count = outer.triangles().len();
+    let wall = moved(&outer, Vec3::zeros(), 0.75);
+    let wall = soup(&[wall], |number, _| number % (count / 7) > 2);
+    let part = moved(&outer, Vec3::new(0.0, 0.003, 0.0), 0.5);
+    let within = moved(&outer, Vec3::new(0.0, 0.004, 0.001), 0.2);
+    let input = soup(&[outer, wall, part, within], |_, _| true);
+    let settings = WrapSettings {
+        keep_inner: true,
+        ..SETTINGS
+    };
+    let wrapped = wrap(&input, &settings).unwrap();
+    let volume = 4.0 / 3.0 * PI * 0.02f64.powi(3);
+    check(&wrapped, volume, SETTINGS.distance);
+    let found = wrapped.inner.iter().map(|inner| inner.mesh().volume());
+    let parts: Vec<f64> = found.map(|found| found / volume).collect();
+    println!("{parts:?}");
+    assert_eq!(parts.len(), 3, "{parts:?}");
+    // As of the envelope, half the asked distance is 4 to 19 % of these volumes.
+    for (part, scale) in parts.iter().zip([0.75, 0.5, 0.2]) {
+        let ratio = part / f64::powi(scale, 3);
+        assert!((ratio - 1.0).abs() < 0.01, "{scale}: {ratio}");
+    }
+    for inner in &wrapped.inner {
+        assert_eq!(inspect(inner.mesh()).self_intersections, 0);
+    }
+    // What reaches out of the envelope, or nearly, is none of them.
+    let across = moved(&ball(0.02), Vec3::new(0.0, 0.025, 0.0), 1.0);
+    let near = moved(&ball(0.02), Vec3::new(0.0, 0.0, 0.0005), 0.95);
+    let input = soup(&[ball(0.02), across, near], |_, _| true);
+    assert_eq!(wrap(&input, &settings).unwrap().inner, []);
 }
 
 #[test]

@@ -24,6 +24,7 @@ fn place() -> RegionPlace {
 
 fn cavity(place: RegionPlace, content: CavityContent) -> SolidRegion {
     SolidRegion {
+        name: "part".to_owned(),
         place: SolidPlace::Bounded(place),
         content: RegionContent::Cavity(content),
     }
@@ -157,6 +158,7 @@ fn a_fluid_is_very_soft_tissue_that_keeps_its_volume() {
         problem.law = finite(1e3);
         problem.patch.as_mut().unwrap().displacement *= 40.0;
         problem.regions = vec![SolidRegion {
+            name: "part".to_owned(),
             place: SolidPlace::Bounded(under.clone()),
             content,
         }];
@@ -203,6 +205,7 @@ fn a_cavity_that_is_not_enclosed_is_refused() {
         body: Body::Volume(block.with_regions(numbers).unwrap()),
         anchor: plane(1e-6 * Vec3::z(), Vec3::z()),
         regions: vec![SolidRegion {
+            name: "part".to_owned(),
             place: SolidPlace::Cells(1),
             content: RegionContent::Cavity(CavityContent::Pressure(1.0)),
         }],

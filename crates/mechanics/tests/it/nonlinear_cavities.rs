@@ -154,6 +154,7 @@ fn judge(content: CavityContent, ratio: f64, force: f64) -> SolidAnswer {
         .flat_map(|y| points.map(|z| Vec3::new(0.5, *y, z)));
     let problem = SolidProblem {
         regions: vec![SolidRegion {
+            name: "part".to_owned(),
             place: SolidPlace::Bounded(RegionPlace::Shape(ball(Vec3::zeros(), LARGE))),
             content: RegionContent::Cavity(content),
         }],

@@ -83,6 +83,7 @@ fn equal_pressures_inside_and_outside_move_nothing() {
         problem.points.clear();
         problem.loads.on_surface = vec![pressure(None, outside)];
         problem.regions = vec![SolidRegion {
+            name: "part".to_owned(),
             place: SolidPlace::Bounded(place.clone()),
             content: RegionContent::Cavity(CavityContent::Pressure(inside)),
         }];

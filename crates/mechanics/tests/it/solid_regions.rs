@@ -26,6 +26,7 @@ pub(crate) fn linear(modulus: f64, ratio: f64) -> Arc<dyn Law> {
 
 fn region(place: RegionPlace, law: Arc<dyn Law>) -> SolidRegion {
     SolidRegion {
+        name: "part".to_owned(),
         place: SolidPlace::Bounded(place),
         content: RegionContent::Tissue {
             law,
@@ -209,6 +210,7 @@ impl Layered {
         SolidProblem {
             body: Body::Volume(mesh),
             regions: vec![SolidRegion {
+                name: "part".to_owned(),
                 place: SolidPlace::Cells(1),
                 content: RegionContent::Tissue {
                     law: linear(contrast * BASE, RATIO),
@@ -277,6 +279,7 @@ fn cells_have_the_tissue_of_their_region() {
     let block = block.clone().with_regions(numbers.collect()).unwrap();
     let problem = SolidProblem {
         regions: vec![SolidRegion {
+            name: "part".to_owned(),
             place: SolidPlace::Cells(1),
             content: RegionContent::Tissue {
                 law: linear(1e5, 0.0),

@@ -205,6 +205,40 @@ fn an_open_box_is_wrapped() {
     assert!((volume / 0.04_f64.powi(3) - 1.0).abs() < 0.02, "{volume}");
     assert!(can_be_simulated("closed.ply"));
 
+    // A cube of half the edge within it, in a file of its own that is not replaced unasked.
+    let mut double = fs::read_to_string(folder.path().join("open.obj")).unwrap();
+    for corner in 0..8 {
+        let [x, y, z] =
+            [corner & 1, corner >> 1 & 1, corner >> 2].map(|k| 0.01 + 0.02 * f64::from(k));
+        double += &format!("v {x} {y} {z}\n");
+    }
+    for quad in [
+        "9 11 12 10",
+        "13 14 16 15",
+        "9 10 14 13",
+        "10 12 16 14",
+        "12 11 15 16",
+        "11 9 13 15",
+    ] {
+        double += &format!("f {quad}\n");
+    }
+    fs::write(folder.path().join("double.obj"), double).unwrap();
+    let inner = "mesh wrap double.obj solid.ply --unit m --distance 0.001 --keep-inner --json";
+    let inner: Vec<&str> = inner.split(' ').collect();
+    let answer = json(&run(&inner));
+    let volume = answer["inner_surfaces"][0]["volume_m3"].as_f64().unwrap();
+    assert!((volume / 0.02_f64.powi(3) - 1.0).abs() < 0.04, "{volume}");
+    assert_eq!(answer["inner_surfaces"].as_array().unwrap().len(), 1);
+    assert!(can_be_simulated("solid-inner-1.ply"));
+    fs::remove_file(folder.path().join("solid.ply")).unwrap();
+    let refused = run(&inner);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(
+        stderr(&refused).contains("solid-inner-1.ply"),
+        "{}",
+        stderr(&refused)
+    );
+
     let refused = run(&[
         "mesh",
         "wrap",

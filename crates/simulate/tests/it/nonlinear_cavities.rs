@@ -66,6 +66,7 @@ fn judge(content: CavityContent, depth: f64) -> (f64, CavityAnswer) {
             friction: Friction::Bonded,
         }),
         regions: vec![SolidRegion {
+            name: "part".to_owned(),
             place: SolidPlace::Bounded(RegionPlace::Shape(ball)),
             content: RegionContent::Cavity(content),
         }],

@@ -54,6 +54,8 @@ pub struct Weight {
 /// A part of the body that is not of its tissue.
 #[derive(Debug, Clone)]
 pub struct SolidRegion {
+    /// As warnings call it.
+    pub name: String,
     /// Where it is.
     pub place: SolidPlace,
     /// What it is full of.

@@ -11,8 +11,8 @@ use crate::regions::{RegionError, RegionMap, RegionPlace};
 pub(super) struct SolidRegions {
     /// Those with borders.
     pub(super) map: RegionMap,
-    /// How many there are.
-    count: usize,
+    /// What they are called; the first has the number 1.
+    names: Vec<String>,
     /// Number among the regions of the problem, from 1, of each region of the map from its number 1 on.
     bounded: Vec<usize>,
     /// The same for each number of a cell; empty where cells have none.
@@ -46,7 +46,11 @@ impl SolidRegions {
         };
         Ok(Self {
             map,
-            count: problem.regions.len(),
+            names: problem
+                .regions
+                .iter()
+                .map(|region| region.name.clone())
+                .collect(),
             bounded,
             cells,
         })
@@ -70,7 +74,7 @@ impl SolidRegions {
             } as u32);
         }
         let is_somewhere = |number: &usize| regions.contains(&(*number as u32));
-        if let Some(number) = (1..=self.count).find(|number| !is_somewhere(number)) {
+        if let Some(number) = (1..=self.names.len()).find(|number| !is_somewhere(number)) {
             let region = number - 1;
             return Err(RegionError::Nowhere { region }.into());
         }
@@ -91,7 +95,7 @@ impl SolidRegions {
 
     /// Warnings where tetrahedra give a shape another volume than its border encloses.
     fn volumes_off(&self, mesh: &TetrahedronMesh, regions: &[u32]) -> Vec<String> {
-        let mut volumes = vec![0.0; self.count + 1];
+        let mut volumes = vec![0.0; self.names.len() + 1];
         for (tetrahedron, &region) in regions.iter().enumerate() {
             volumes[region as usize] += mesh.volume_of(tetrahedron);
         }
@@ -102,8 +106,9 @@ impl SolidRegions {
             let less_or_more = if off < 0.0 { "less" } else { "more" };
             (off.abs() > Fidelity::VOLUME).then(|| {
                 format!(
-                    "region {region} has {:.1} % {less_or_more} volume in the mesh than its border encloses; the estimated error \
-                     does not include what that changes",
+                    "the region `{}` has {:.1} % {less_or_more} volume in the mesh than its border encloses; the estimated \
+                     error does not include what that changes",
+                    self.names[region - 1],
                     100.0 * off.abs()
                 )
             })

@@ -11,7 +11,7 @@ use palpate_geometry::{
 };
 use serde::Serialize;
 
-use super::written::{Output, Written};
+use super::written::{Output, Written, beside};
 use crate::failure::Failure;
 use crate::progress::{Progress, Reader};
 use palpate_jobs::{Watch, label};
@@ -209,13 +209,6 @@ fn chosen<'l>(
         _claims: Claim::of_files(surfaces.iter().map(|(_, path)| path), overwrite)?,
         surfaces,
     })
-}
-
-/// `out` with `name` at the end of its stem.
-fn beside(out: &Path, name: &str) -> PathBuf {
-    let stem = out.file_stem().unwrap_or_default().to_string_lossy();
-    let extension = out.extension().unwrap_or_default().to_string_lossy();
-    out.with_file_name(format!("{stem}-{name}.{extension}"))
 }
 
 fn surface(

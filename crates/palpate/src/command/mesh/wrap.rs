@@ -10,7 +10,7 @@ use palpate_geometry::{Deviation, LengthUnit, WrapSettings, Wrapped, wrap_with_p
 use palpate_jobs::{Error, Watch};
 use serde::Serialize;
 
-use super::written::{Output, Written};
+use super::written::{Output, Written, beside};
 use crate::command::overwrite::OverwriteOption;
 use crate::failure::Failure;
 use crate::progress::{Progress, Reader};
@@ -20,12 +20,14 @@ use crate::{interrupt, output};
 const EXAMPLES: &str = "\
 Examples:
   palpate mesh wrap atlas-kidney.glb kidney.ply
+  palpate mesh wrap atlas-kidney.glb kidney.ply --keep-inner
   palpate mesh wrap scan.stl organ.ply --unit mm --distance 0.001 --close-gaps 0.004 --triangles 20000
 
 Caps holes with a boundary loop at any width. Closes gaps without one, such as gaps between pieces or narrow fissures \
 of the organ, up to --close-gaps; if nothing is enclosed then, also wider openings, where they are narrowest, with a warning. \
-Removes inner walls and cavities. The result is closed, manifold, oriented outward, \
-connected and free of self-intersections.";
+Removes inner walls and cavities, unless --keep-inner writes them to files of their own, for the regions of a scene or a \
+problem (`surface = \"kidney-inner-1.ply\"`). Every surface is closed, manifold, oriented outward, connected and free of \
+self-intersections.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -45,7 +47,11 @@ pub(crate) struct Arguments {
     /// Width of gaps to close [m].
     #[arg(long, value_name = "M", default_value_t = WrapSettings::default().close_gaps)]
     close_gaps: f64,
-    /// Maximum number of triangles.
+    /// Also write the closed surfaces inside, such as vessels, cavities, parts and inner walls, to OUT-inner-1, OUT-inner-2,
+    /// ..., the largest first. Leaves out those nearer to the envelope than about three times --distance.
+    #[arg(long)]
+    keep_inner: bool,
+    /// Maximum number of triangles, of each surface.
     #[arg(long, value_name = "N", default_value_t = WrapSettings::default().triangles)]
     triangles: usize,
     /// The unit of the file: m, cm, mm or um.
@@ -74,6 +80,7 @@ struct Answer {
     /// Of an opening without a rim that was closed.
     widest_opening_m: Option<f64>,
     pieces_left_out: usize,
+    inner_surfaces: Vec<Written>,
     cavities_filled_m3: f64,
     seconds: f64,
     warnings: Vec<String>,
@@ -84,7 +91,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let path = arguments.out.as_ref().or(arguments.named.as_ref());
     let path = path.ok_or_else(|| Failure::input("name the file to write"))?;
     let out = Output::new(path, LengthUnit::Metre)?;
-    let _claims = arguments.overwrite.claim([path])?;
+    let inner_path = |number: usize| beside(path, &format!("inner-{number}"));
+    let first = arguments.keep_inner.then(|| inner_path(1));
+    let _claims = arguments
+        .overwrite
+        .claim([path.clone()].into_iter().chain(first))?;
     interrupt::ends_between_files("interrupted; nothing was written");
     let progress = Progress::of_job(Reader::of_json(arguments.json));
     let begin = Instant::now();
@@ -92,6 +103,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         distance: arguments.distance,
         close_gaps: arguments.close_gaps,
         triangles: arguments.triangles,
+        keep_inner: arguments.keep_inner,
     };
     let input = (arguments.file.as_path(), arguments.unit.as_deref());
     let Envelope {
@@ -99,9 +111,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         triangles_before,
         warnings,
     } = envelope(input, &settings, &progress)?;
+    let more = (2..=wrapped.inner.len()).map(inner_path);
+    let _more_claims = arguments.overwrite.claim(more)?;
+    let mut inner_surfaces = Vec::new();
+    for (number, surface) in (1..).zip(&wrapped.inner) {
+        let out = Output::new(&inner_path(number), LengthUnit::Metre)?;
+        inner_surfaces.push(out.write(surface.mesh())?);
+    }
     let answer = Answer {
         palpate: output::VERSION,
         written: out.write(wrapped.surface.mesh())?,
+        inner_surfaces,
         triangles_before,
         envelope_to_input: wrapped.to_input,
         input_to_envelope: wrapped.of_input,
@@ -194,13 +214,22 @@ impl Answer {
             0 => "none".to_owned(),
             count => format!("{count}, the widest over {:.2} mm", 1e3 * self.widest_rim_m),
         };
+        let inner = self.inner_surfaces.iter().map(|surface| {
+            format!(
+                "\nsurface inside, {:.4e} m³, {} triangles: {}",
+                surface.volume_m3,
+                surface.triangles,
+                surface.file.display()
+            )
+        });
+        let inner: String = inner.collect();
         format!(
             "{} triangles became {}, written to {} in metres\n\
              from the envelope to the triangles  {}\n\
              from the triangles to the envelope  {} (more where they lie inside)\n\
              holes with a rim that were capped   {holes}\n\
              volume                              {:.4e} m³\n\
-             took                                {:.1} s",
+             took                                {:.1} s{inner}",
             self.triangles_before,
             self.written.triangles,
             self.written.file.display(),

@@ -54,6 +54,13 @@ impl Output {
     }
 }
 
+/// `out` with `name` at the end of its stem.
+pub(super) fn beside(out: &Path, name: &str) -> PathBuf {
+    let stem = out.file_stem().unwrap_or_default().to_string_lossy();
+    let extension = out.extension().unwrap_or_default().to_string_lossy();
+    out.with_file_name(format!("{stem}-{name}.{extension}"))
+}
+
 /// What a repair did, as sentences.
 pub(super) fn told(repairs: &Repairs) -> Vec<String> {
     let counts = [

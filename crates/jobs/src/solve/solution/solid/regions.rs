@@ -57,7 +57,11 @@ pub(super) fn solved(
             }
             SolidContent::Cavity(content) => RegionContent::Cavity(*content),
         };
-        regions.push(SolidRegion { place, content });
+        regions.push(SolidRegion {
+            name: part.name.clone(),
+            place,
+            content,
+        });
     }
     if of_file.len() > 1 && taken.is_empty() {
         warnings.push(format!(
