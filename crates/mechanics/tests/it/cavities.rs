@@ -13,7 +13,7 @@ use palpate_mechanics::regions::RegionPlace;
 use palpate_mechanics::{Error, Law, NeoHookean, Vec3};
 
 use crate::solid::{at, cube, plane};
-use crate::solid_regions::{ball, linear, pulled};
+use crate::solid_regions::{around, assert_goodiers, ball, linear, pulled};
 
 const RADIUS: f64 = 0.08;
 
@@ -105,6 +105,23 @@ fn a_fluid_in_a_pulled_body_has_eshelbys_pressure() {
     assert!((found.pressure / -1e-3 - 1.0).abs() < 0.02);
     // What the small block of the pressure leaves.
     assert!((found.volume / found.volume_at_rest - 1.0).abs() < 1e-9);
+}
+
+/// Judge: Goodier's hole in a body under the tension σ along one axis [Goodier 1933]: its strains are 27/14 and −3/14 of σ/E without
+/// Poisson's ratio, of which the first is the concentration of stress at its equator. Tolerance 2 %, as above.
+#[test]
+fn an_empty_cavity_in_a_pulled_body_is_goodiers() {
+    let mut problem = pulled(linear(1.0, 0.0), place());
+    problem.regions = vec![cavity(place(), CavityContent::Pressure(0.0))];
+    problem.points = around();
+    let answer = at(&problem, 0);
+    let [along, across] = [27.0 / 14.0, -3.0 / 14.0].map(|part| 1e-3 * part);
+    let found = answer.cavities[0];
+    let grown = found.volume / found.volume_at_rest - 1.0;
+    println!("grown by {grown} of {}", along + 2.0 * across);
+    assert!((grown / (along + 2.0 * across) - 1.0).abs() < 0.02);
+    let part = found.volume_at_rest / (4.0 / 3.0 * PI * RADIUS.powi(3));
+    assert_goodiers(&answer.points, [along, across], 1e-3, part);
 }
 
 /// Judge: the same ball under a constant pressure, which is solved without an unknown of the fluid. The fluid then keeps its
