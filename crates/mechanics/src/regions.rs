@@ -3,11 +3,15 @@
 //! Depth is the distance to the outer surface: the triangles from which one of seven directions, within 35 degrees of the
 //! normal, leads away from the body. So the wall of a tube is layered from outside, not from its lumen.
 
+mod borders;
+
 use std::f64::consts::PI;
 use std::sync::Arc;
 
 use palpate_files::scene::InclusionShape;
-use palpate_geometry::{AabbTree, MeshError, Resolved, Surface, TriangleMesh, Vec3};
+use palpate_geometry::{AabbTree, MeshError, Surface, TriangleMesh, Vec3};
+
+pub use borders::Bordered;
 
 /// Directions in which a triangle of the outer surface may look away: off its normal [-], and how many of these besides the normal.
 const OFF_NORMAL: f64 = 0.7;
@@ -89,6 +93,8 @@ const MARGIN: f64 = 0.02;
 #[derive(Debug, Clone, Default)]
 pub struct RegionMap {
     regions: Vec<Mapped>,
+    /// How far each lies from the surface and from other shapes [m]; infinite for a layer.
+    clearances: Vec<f64>,
     /// Triangles from which depths are measured, where there are layers.
     outer: Option<(TriangleMesh, AabbTree)>,
 }
@@ -132,8 +138,12 @@ impl RegionMap {
             true => Some(outer(surface.mesh(), tree).map_err(RegionError::NoSurface)?),
             false => None,
         };
-        let map = Self { regions, outer };
-        map.check(surface, tree)?;
+        let mut map = Self {
+            regions,
+            clearances: Vec::new(),
+            outer,
+        };
+        map.clearances = map.check(surface, tree)?;
         Ok(map)
     }
 
@@ -171,7 +181,9 @@ impl RegionMap {
         }
     }
 
-    fn check(&self, surface: &Surface, tree: &AabbTree) -> Result<(), RegionError> {
+    /// Whether the regions are in the body and apart; how far [m].
+    fn check(&self, surface: &Surface, tree: &AabbTree) -> Result<Vec<f64>, RegionError> {
+        let mut clearances = vec![f64::INFINITY; self.regions.len()];
         let mut borders: Vec<(usize, Vec<Vec3>)> = Vec::new();
         for (region, number) in self.regions.iter().zip(1..) {
             let points = match region {
@@ -181,24 +193,32 @@ impl RegionMap {
             };
             let outside = points.iter();
             let outside = outside.map(|point| surface.signed_distance(tree, point).1);
-            let outside = outside.fold(0.0, f64::max);
+            let outside = outside.fold(f64::NEG_INFINITY, f64::max);
+            let region = number - 1;
             if outside > 0.0 {
-                let region = number - 1;
                 return Err(RegionError::Outside { region, outside });
             }
-            let reaches = |into: usize, points: &[Vec3]| {
-                points.iter().any(|point| self.height(into, point) < 0.0)
+            clearances[region] = -outside;
+            let least = |over: usize, points: &[Vec3]| {
+                let heights = points.iter().map(|point| self.height(over, point));
+                heights.fold(f64::INFINITY, f64::min)
             };
             for (other, of_other) in &borders {
-                if reaches(number, of_other) || reaches(*other, &points) {
+                let apart = least(number, of_other).min(least(*other, &points));
+                let other = other - 1;
+                if apart < 0.0 {
                     return Err(RegionError::Overlap {
-                        regions: [other - 1, number - 1],
+                        regions: [other, region],
                     });
+                }
+                for each in [other, region] {
+                    clearances[each] = clearances[each].min(apart);
                 }
             }
             borders.push((number, points));
         }
-        self.check_layers(surface, tree)
+        self.check_layers(surface, tree)?;
+        Ok(clearances)
     }
 
     /// Whether the body is as deep as its layers are.
@@ -312,21 +332,6 @@ impl RegionMap {
         outer.map_or(f64::INFINITY, |(mesh, tree)| {
             tree.nearest(mesh, place).distance
         })
-    }
-
-    /// The borders that tetrahedra are not to cross, as heights over them [m], in the order of [`bounded`](Self::bounded).
-    pub fn heights(&self) -> Vec<impl Fn(&Vec3) -> f64 + use<'_>> {
-        let numbers = self.bounded();
-        numbers
-            .map(|number| move |place: &Vec3| self.height(number, place))
-            .collect()
-    }
-
-    /// The region of a tetrahedron, by the sides of the [`heights`](Self::heights) on which it lies.
-    pub fn number_of(&self, tetrahedron: usize, resolved: &[Resolved]) -> usize {
-        let mut below = self.bounded().zip(resolved);
-        let found = below.find(|(_, level)| level.below[tetrahedron]);
-        found.map_or(0, |(number, _)| number)
     }
 
     /// The region of what lies below the borders that `is_below` says.

@@ -17,6 +17,7 @@ const IN_PLANE: f64 = 0.1;
 const MOST_STEPS: usize = 60;
 
 /// A surface that tetrahedra are not to cross, given by how far a point lies above it.
+#[derive(Clone, Copy)]
 pub struct Level<'a> {
     /// Height of a point over it [m]: zero on it, of one sign on each side, continuous.
     pub height: &'a dyn Fn(&Vec3) -> f64,

@@ -13,6 +13,9 @@ use crate::Vec3;
 /// Part of the slope at the beginning of a step that may be left at its end before the step is shortened [-].
 const SLOPE_LEFT: f64 = 0.3;
 
+/// A residual that releases so many times less energy than the first is rounding, in numbers of single precision [-].
+const RESOLVED: f64 = 1e14;
+
 /// Conjugate gradients go on, up to [`MOST_TIMES`] as many, until they have reduced the residual's energy so many times [-].
 /// Thin walls need it: the residual that is left makes the organ too stiff within a step, and the force under a tip
 /// oscillates with a growing amplitude.
@@ -326,7 +329,7 @@ impl Workspace {
             if iteration == 0 {
                 first = now;
             }
-            if now <= 0.0 || !now.is_finite() {
+            if now <= 0.0 || !now.is_finite() || first > RESOLVED * now {
                 break;
             }
             let kept = if iteration == 0 { 0.0 } else { now / released };

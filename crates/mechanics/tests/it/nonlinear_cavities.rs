@@ -6,7 +6,7 @@ use std::sync::Arc;
 use assert_no_alloc::assert_no_alloc;
 use nalgebra::Matrix3;
 use palpate_files::scene::CavityContent;
-use palpate_geometry::{HollowMesh, Level, TetrahedronMesh, refine_to, resolve_levels};
+use palpate_geometry::{AabbTree, HollowMesh, TetrahedronMesh, refine_to};
 use palpate_mechanics::finite_elements::solid::{
     Body, LoadPlace, Loads, RegionContent, SolidAnswer, SolidPlace, SolidProblem, SolidRegion,
     SurfaceLoad,
@@ -15,7 +15,7 @@ use palpate_mechanics::nonlinear::{
     BodyCavity, Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace, SpreadLoad,
     Workspace, advance,
 };
-use palpate_mechanics::regions::RegionPlace;
+use palpate_mechanics::regions::{RegionMap, RegionPlace};
 use palpate_mechanics::{NeoHookean, Vec3};
 
 use crate::solid::{at, plane};
@@ -29,13 +29,15 @@ fn mesh(cells: usize, radius: f64) -> HollowMesh {
     let height = move |place: &Vec3| place.norm() - radius;
     let longest = |place: &Vec3| 0.8 * radius + height(place).max(0.0);
     let mesh = refine_to(&block, None, longest).unwrap();
-    let level = Level {
-        height: &height,
-        boundary_only: false,
-    };
-    let (mesh, resolved) = resolve_levels(mesh, None, &[level]).unwrap();
-    let regions = resolved[0].below.iter().map(|below| u32::from(*below));
-    let mesh = mesh.with_regions(regions.collect()).unwrap();
+    let surface = block.boundary_surface().unwrap();
+    let tree = AabbTree::new(surface.mesh());
+    let place = RegionPlace::Shape(ball(Vec3::zeros(), radius));
+    let map = RegionMap::new(&surface, &tree, [place]).unwrap();
+    let found = map.bordered(&mesh, None, &[], &[1]).unwrap();
+    let regions = (0..found.mesh.tetrahedra().len())
+        .map(|tetrahedron| u32::from(found.border_around(tetrahedron).is_some()));
+    let regions = regions.collect();
+    let mesh = found.mesh.with_regions(regions).unwrap();
     mesh.without(&[1]).unwrap()
 }
 

@@ -6,7 +6,7 @@ use super::method::Method;
 
 /// Change with the equations, so that what was stored before is solved anew.
 const BOUNDARY_ELEMENTS: &str = "boundary elements 2";
-const FINITE_ELEMENTS: &str = "condensed finite elements 2";
+const FINITE_ELEMENTS: &str = "condensed finite elements 3";
 
 /// What a response is made from.
 pub(super) struct Ingredients<'a> {

@@ -1,8 +1,6 @@
 use std::sync::Arc;
 
-use palpate_geometry::{
-    FillSettings, Level, TetrahedronMesh, fill, follow_sharp_edges, refine_to, resolve_levels,
-};
+use palpate_geometry::{FillSettings, TetrahedronMesh, fill, follow_sharp_edges, refine_to};
 
 use super::problem::CondensedProblem;
 use crate::regions::RegionError;
@@ -41,24 +39,18 @@ impl Filling {
             let at_shapes = map.longest_edge_at_shapes(point, IN_SHAPE, AT_SHAPES);
             longest.min(in_layer).min(at_shapes)
         })?;
-        let heights = map.heights();
-        let levels: Vec<_> = heights
-            .iter()
-            .map(|height| Level {
-                height,
-                boundary_only: false,
-            })
-            .collect();
-        let (mesh, resolved) = resolve_levels(mesh, Some(surface), &levels)?;
-        let numbers: Vec<u32> = (0..mesh.tetrahedra().len())
-            .map(|tetrahedron| map.number_of(tetrahedron, &resolved) as u32)
+        let bounded: Vec<_> = map.bounded().collect();
+        let found = map.bordered(&mesh, Some(surface), &[], &bounded)?;
+        let numbers: Vec<u32> = (0..found.mesh.tetrahedra().len())
+            .map(|tetrahedron| found.border_around(tetrahedron))
+            .map(|border| border.map_or(0, |border| bounded[border] as u32))
             .collect();
         if let Some(region) = (1..regions.laws.len()).find(|n| !numbers.contains(&(*n as u32))) {
             return Err(RegionError::Nowhere { region: region - 1 }.into());
         }
         let laws = regions.laws.iter();
         Ok(Self {
-            mesh: mesh.with_regions(numbers)?,
+            mesh: found.mesh.with_regions(numbers)?,
             laws: laws.map(|law| Arc::new(*law) as Arc<dyn Law>).collect(),
         })
     }

@@ -21,7 +21,7 @@ use std::rc::Rc;
 use palpate_files::scene::Region;
 use palpate_geometry::{
     Fidelity, FillSettings, Level, Surface, TetrahedronError, TetrahedronMesh, closest_on_triangle,
-    fill, fill_graded, follow_sharp_edges, refine_to, resolve_levels,
+    fill, fill_graded, follow_sharp_edges, refine_to,
 };
 
 use super::footprint::Footprint;
@@ -316,7 +316,6 @@ impl<'a> MeshContext<'a> {
             .iter()
             .filter_map(Footprint::height)
             .collect();
-        let heights = self.regions.map.heights();
         let mut levels = Vec::new();
         levels.extend(circle.iter().map(|height| Level {
             height,
@@ -326,17 +325,13 @@ impl<'a> MeshContext<'a> {
             height,
             boundary_only: true,
         }));
-        levels.extend(heights.iter().map(|height| Level {
-            height,
-            boundary_only: false,
-        }));
-        let (mesh, resolved) = resolve_levels(mesh, surface, &levels)?;
-        let (circle, others) = resolved.split_at(usize::from(circle.is_some()));
-        let borders = &others[edges.len()..];
-        let (mesh, warnings) = self.regions.put(mesh, borders)?;
+        let found = self.regions.bordered(&mesh, surface, &levels)?;
+        let circle = &found.levels[..usize::from(circle.is_some())];
+        let crossing = circle.iter().map(|level| level.crossing).sum();
+        let (mesh, warnings) = self.regions.put(found)?;
         Ok(Graded {
             mesh,
-            crossing: circle.iter().map(|level| level.crossing).sum(),
+            crossing,
             warnings,
         })
     }

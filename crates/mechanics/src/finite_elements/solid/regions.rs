@@ -1,10 +1,10 @@
 //! Which region each tetrahedron of a solid belongs to.
 
-use palpate_geometry::{AabbTree, Fidelity, Resolved, TetrahedronMesh};
+use palpate_geometry::{AabbTree, Fidelity, Level, Surface, TetrahedronError, TetrahedronMesh};
 
 use super::problem::{Body, SolidPlace, SolidProblem};
 use crate::Error;
-use crate::regions::{RegionError, RegionMap, RegionPlace};
+use crate::regions::{Bordered, RegionError, RegionMap, RegionPlace};
 
 /// The regions of a problem.
 #[derive(Debug)]
@@ -56,23 +56,31 @@ impl SolidRegions {
         })
     }
 
-    /// The mesh with its regions, as numbers among those of the problem from 1, of the sides on which its tetrahedra lie
-    /// (`resolved`, one for each of [`RegionMap::heights`]); and warnings.
-    pub(super) fn put(
+    /// The `mesh` of the body within `surface`, with vertices on `levels` and on the borders of all regions that have some.
+    pub(super) fn bordered(
         &self,
-        mesh: TetrahedronMesh,
-        resolved: &[Resolved],
-    ) -> Result<(TetrahedronMesh, Vec<String>), Error> {
-        let mut regions = Vec::with_capacity(mesh.tetrahedra().len());
-        for tetrahedron in 0..mesh.tetrahedra().len() {
-            regions.push(match self.map.number_of(tetrahedron, resolved) {
-                0 => {
-                    let cell = mesh.region(tetrahedron) as usize;
+        mesh: &TetrahedronMesh,
+        surface: Option<&Surface>,
+        levels: &[Level<'_>],
+    ) -> Result<Bordered, TetrahedronError> {
+        let bounded: Vec<_> = self.map.bounded().collect();
+        self.map.bordered(mesh, surface, levels, &bounded)
+    }
+
+    /// The mesh with its regions, as numbers among those of the problem from 1; and warnings.
+    pub(super) fn put(&self, found: Bordered) -> Result<(TetrahedronMesh, Vec<String>), Error> {
+        let bounded: Vec<_> = self.map.bounded().collect();
+        let regions = (0..found.mesh.tetrahedra().len()).map(|tetrahedron| {
+            let number = match found.border_around(tetrahedron) {
+                None => {
+                    let cell = found.mesh.region(tetrahedron) as usize;
                     self.cells.get(cell).copied().unwrap_or(0)
                 }
-                number => self.bounded[number - 1],
-            } as u32);
-        }
+                Some(border) => self.bounded[bounded[border] - 1],
+            };
+            number as u32
+        });
+        let regions: Vec<_> = regions.collect();
         let is_somewhere = |number: &usize| regions.contains(&(*number as u32));
         if let Some(number) = (1..=self.names.len()).find(|number| !is_somewhere(number)) {
             let region = number - 1;
@@ -83,7 +91,8 @@ impl SolidRegions {
             let thickness = self.map.thickness_of_layers();
             return Err(RegionError::NothingBelowLayers { thickness }.into());
         }
-        let crossing: usize = resolved.iter().map(|level| level.crossing).sum();
+        let crossing: usize = found.borders.iter().map(|level| level.crossing).sum();
+        let mesh = found.mesh;
         let mut warnings = self.volumes_off(&mesh, &regions);
         if crossing > 0 {
             warnings.push(format!(
