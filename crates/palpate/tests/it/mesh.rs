@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use palpate_geometry::{AabbTree, Surface, read_mesh};
+
 use crate::{json, palpate_in, stderr, stdout};
 
 /// A label map of 20 x 20 x 20 voxels of 2 mm: a ball of 12 mm radius is label 5, a corner voxel label 7.
@@ -93,6 +95,60 @@ fn a_label_becomes_an_organ_that_can_be_touched() {
     let words = stderr(&absent);
     assert!(
         words.contains("nearest is liver") && words.contains('7'),
+        "{words}"
+    );
+    assert!(!folder.path().join("x.ply").exists());
+}
+
+/// A ball of an organ of 24 mm, and one of 10 mm in it that reaches its border. Judge: distances of its vertices, of
+/// which `solve` refuses any that are outside.
+#[test]
+fn a_label_at_the_border_gets_tissue_around_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut bytes =
+        b"NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: 30 30 30\n\
+        space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\nencoding: raw\n\
+        Segment0_LabelValue:=5\nSegment0_Name:=liver\nSegment1_LabelValue:=6\nSegment1_Name:=tumor\n\n"
+            .to_vec();
+    for at in 0..27_000 {
+        let place = [at % 30, at / 30 % 30, at / 900].map(|index| f64::from(index) - 14.5);
+        let from = |x: f64| {
+            let [a, b, c] = [place[0] - x, place[1], place[2]];
+            (a * a + b * b + c * c).sqrt()
+        };
+        bytes.push(match (from(0.0) < 12.0, from(8.0) < 5.0) {
+            (_, true) => 6,
+            (true, false) => 5,
+            (false, false) => 0,
+        });
+    }
+    fs::write(folder.path().join("labels.nrrd"), bytes).unwrap();
+    let run = |line: &str| palpate_in(folder.path(), &line.split(' ').collect::<Vec<_>>());
+    let made = json(&run(
+        "mesh isosurface labels.nrrd --label liver --inside tumor --out liver.ply --triangles 2000 --json",
+    ));
+    let words = made["warnings"].to_string();
+    assert!(words.contains("reaches the border of 5 (liver)"), "{words}");
+    let surface = |name: &str| {
+        let mesh = read_mesh(&folder.path().join(name), None).unwrap().mesh;
+        Surface::new(mesh).unwrap()
+    };
+    let (organ, tumor) = (surface("liver.ply"), surface("liver-tumor.ply"));
+    let tree = AabbTree::new(organ.mesh());
+    let vertices = tumor.mesh().vertices().iter();
+    let outside = vertices.map(|place| organ.signed_distance(&tree, place).1);
+    let outside = outside.fold(f64::NEG_INFINITY, f64::max);
+    // Both surfaces may be off by half a voxel of 1 mm.
+    assert!(outside < 0.0, "{outside}");
+    let ball = 4.0 / 3.0 * std::f64::consts::PI * 5e-3_f64.powi(3);
+    assert!(tumor.mesh().volume() > 0.7 * ball);
+
+    write_ball(&folder.path().join("corner.nrrd"));
+    let outside = run("mesh isosurface corner.nrrd --label liver --inside 7 --out x.ply");
+    assert_eq!(outside.status.code(), Some(2));
+    let words = stderr(&outside);
+    assert!(
+        words.contains("no voxel of 7 has only 5 (liver) around it"),
         "{words}"
     );
     assert!(!folder.path().join("x.ply").exists());

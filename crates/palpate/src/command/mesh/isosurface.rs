@@ -48,7 +48,8 @@ pub(crate) struct Arguments {
     #[arg(long, requires = "out")]
     label: Option<String>,
     /// A label that lies inside of the organ, by name or number; may be repeated. The organ's surface
-    /// encloses it, and its own surface is written next to OUT, as OUT-LABEL.
+    /// encloses it, and its own surface is written next to OUT, as OUT-LABEL. Where it reaches the border of the organ, one voxel of
+    /// the organ is put between.
     #[arg(long, value_name = "LABEL", requires = "label")]
     inside: Vec<String>,
     /// The file to write (.stl, .obj, .ply, .vtp); with --label all a folder, for .ply files.
@@ -122,6 +123,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let overwrite = Overwrite::of_option(arguments.overwrite);
         let chosen = chosen(&labels, wanted, &arguments.inside, out, overwrite)?;
         let count = chosen.surfaces.len() as f64;
+        let apart = match chosen.inside.is_empty() {
+            true => None,
+            false => Some(apart(map, &chosen, &mut warnings)?),
+        };
         for (number, (label, out)) in chosen.surfaces.iter().enumerate() {
             progress.say(format!("the surface of {}", label::in_words(label)));
             let at = |part| Watch::at(&progress, (number as f64 + part) / count);
@@ -130,7 +135,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
                     let whole = map.with_inside(label.number, &chosen.inside);
                     surface(&whole, label, out, arguments, &at)?
                 }
-                false => surface(map, label, out, arguments, &at)?,
+                false => surface(apart.as_ref().unwrap_or(map), label, out, arguments, &at)?,
             };
             warnings.extend(label::warnings(label, &made.0));
             surfaces.push(made.1);
@@ -209,6 +214,32 @@ fn chosen<'l>(
         _claims: Claim::of_files(surfaces.iter().map(|(_, path)| path), overwrite)?,
         surfaces,
     })
+}
+
+/// The map whose labels inside have tissue of the organ around them; warnings where they had none.
+fn apart(
+    map: &LabelMap,
+    chosen: &Chosen<'_>,
+    warnings: &mut Vec<String>,
+) -> Result<LabelMap, Failure> {
+    let (organ, _) = &chosen.surfaces[0];
+    let (apart, moved) = map.apart(organ.number, &chosen.inside);
+    let organ = label::in_words(organ);
+    for ((inner, _), voxels) in chosen.surfaces[1..].iter().zip(moved) {
+        let (inner, all) = (label::in_words(inner), inner.voxels);
+        if voxels == all {
+            return Err(Failure::input(format!(
+                "no voxel of {inner} has only {organ} around it; leave it out, or take smaller voxels"
+            )));
+        }
+        if voxels > 0 {
+            warnings.push(format!(
+                "{inner} reaches the border of {organ} or another label inside: {voxels} of its {all} voxels were given to {organ}, so \
+                 that a voxel of tissue lies between"
+            ));
+        }
+    }
+    Ok(apart)
 }
 
 fn surface(
