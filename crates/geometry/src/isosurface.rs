@@ -163,6 +163,15 @@ pub fn isosurface_with_progress(
     })
 }
 
+/// Voxels of the largest piece of `label`, and of the others.
+pub(crate) fn voxels_in_pieces(map: &LabelMap, label: u16) -> [usize; 2] {
+    Block::of(map, label).map_or([0; 2], |mut block| {
+        let all = block.count();
+        block.keep_largest();
+        [block.count(), all - block.count()]
+    })
+}
+
 /// The labels that there are, for a sentence.
 fn present(map: &LabelMap) -> String {
     let labels = map.labels().into_iter().map(|label| match label.name {

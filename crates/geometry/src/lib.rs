@@ -83,7 +83,7 @@ pub use simplify::{
 pub use slit::{SlitPoint, SlitTetrahedra};
 pub use surface::{SHARP_EDGE, Surface};
 pub use weld::{Repairs, repair, weld_exactly};
-pub use wrap::{WrapError, WrapSettings, Wrapped, wrap, wrap_with_progress};
+pub use wrap::{Gaps, WrapError, WrapSettings, Wrapped, wrap, wrap_with_progress};
 
 /// A point or a vector in space [m, unless said otherwise].
 pub type Vec3 = nalgebra::Vector3<f64>;

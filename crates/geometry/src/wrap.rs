@@ -8,7 +8,7 @@
 //!
 //! *How we know*: `wrap::…`: balls of crossing, doubled, turned and missing triangles keep their volume and distance.
 //!
-//! *Limits*: a closing fills what is narrower than twice r, also a fissure of the organ. Sharp edges
+//! *Limits*: a closing fills what is narrower than twice r, also a fissure of the organ; where it is not needed, r is a voxel. Sharp edges
 //! are rounded by about the asked distance.
 
 mod closing;
@@ -36,14 +36,32 @@ const MOST_VOXELS: f64 = 3e8;
 /// most, and its vertices are then moved to the triangles.
 const SPACING: f64 = 0.75;
 
+/// Which gaps between triangles are closed. Holes with a rim are closed at any width, and where nothing is enclosed then,
+/// openings without one behind which there is more room.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Gaps {
+    /// All up to this width [m].
+    Close(f64),
+    /// The same, but none where the body is whole without, so that fissures of the organ stay.
+    CloseIfNeeded(f64),
+}
+
+impl Gaps {
+    /// The width [m].
+    pub fn width(self) -> f64 {
+        match self {
+            Self::Close(width) | Self::CloseIfNeeded(width) => width,
+        }
+    }
+}
+
 /// How [`wrap`] works.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WrapSettings {
     /// How far the envelope may be from the triangles [m].
     pub distance: f64,
-    /// Width of gaps between triangles that are closed [m]; holes with a rim are closed at any width, and where
-    /// nothing is enclosed then, openings without one behind which there is more room.
-    pub close_gaps: f64,
+    /// Which gaps are closed.
+    pub gaps: Gaps,
     /// Triangles at most, of each surface.
     pub triangles: usize,
     /// Whether closed surfaces inside are given too.
@@ -54,7 +72,7 @@ impl Default for WrapSettings {
     fn default() -> Self {
         Self {
             distance: 0.5e-3,
-            close_gaps: 2e-3,
+            gaps: Gaps::CloseIfNeeded(2e-3),
             triangles: 100_000,
             keep_inner: false,
         }
@@ -74,6 +92,8 @@ pub struct Wrapped {
     pub holes: usize,
     /// Extent of the largest rim [m]; 0 without one.
     pub widest_rim: f64,
+    /// Width up to which gaps were closed [m].
+    pub gaps: f64,
     /// Width of the widest opening without a rim that was closed, where closing the gaps enclosed nothing [m].
     pub opening: Option<f64>,
     /// Pieces beside the largest that were left out.
@@ -159,7 +179,7 @@ pub fn wrap_with_progress(
     if !(distance > 0.0 && distance.is_finite()) {
         return Err(WrapError::Distance { distance });
     }
-    let width = settings.close_gaps;
+    let width = settings.gaps.width();
     if !(width >= 0.0 && width.is_finite()) {
         return Err(WrapError::Gaps { width });
     }
@@ -171,7 +191,7 @@ pub fn wrap_with_progress(
     let (input, _) = repair(mesh)?;
     let capped = holes::cap(&input)?;
     let spacing = SPACING * distance;
-    let radius = (0.5 * settings.close_gaps).max(spacing);
+    let mut radius = (0.5 * width).max(spacing);
     let grid = Grid::around(&capped.mesh, spacing, radius);
     if grid.voxels() > MOST_VOXELS {
         return Err(WrapError::TooFine {
@@ -188,6 +208,10 @@ pub fn wrap_with_progress(
         at(0.15)?;
         found.shut(&mut closing, radius);
         opening = Some(found.width);
+    } else if matches!(settings.gaps, Gaps::CloseIfNeeded(_))
+        && closing.encloses_the_same(spacing, radius)
+    {
+        radius = spacing;
     }
     at(0.2)?;
     let tree = AabbTree::new(&capped.mesh);
@@ -221,6 +245,7 @@ pub fn wrap_with_progress(
         of_input: deviation(&input, &fitted),
         holes: capped.holes,
         widest_rim: capped.widest_rim,
+        gaps: 2.0 * radius,
         opening,
         other_pieces: found.other_pieces,
         filled,

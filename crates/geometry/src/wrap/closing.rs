@@ -5,6 +5,7 @@ use nalgebra::Matrix3;
 
 use super::grid::Grid;
 use crate::flood::{Sharing, flood};
+use crate::isosurface::voxels_in_pieces;
 use crate::{LabelMap, TriangleId, TriangleMesh, closest_on_triangle};
 
 /// Voxels around a triangle in which its distance is computed; half the diagonal of a voxel and more, so that no path
@@ -13,6 +14,9 @@ const SEED: f64 = 1.5;
 /// Voxels within an envelope by which its deepest place lies below the closing's radius, at least: less is the skin of
 /// a body that is open.
 pub(super) const SKIN: f64 = 3.0;
+
+/// A part of a body that may be lost where gaps stay open [-]: half of what its volume may be off.
+const LITTLE: f64 = 0.005;
 
 /// From a triangle to the middle of a voxel whose points all lie on one side of it [voxels]: half a diagonal.
 pub(super) const ONE_SIDE: f32 = 0.87;
@@ -106,6 +110,25 @@ impl<'m> Closing<'m> {
             .any(|number| !outside[number] && f64::from(self.distance[number]) >= skin);
         self.outside = outside;
         encloses
+    }
+
+    /// Whether balls of a `narrow` radius [m] enclose the same body as those of a `wide` one, which found what is outside: they reach no
+    /// place where a wide one has room, and leave the body in one piece, but for a little. They then say what is outside.
+    pub(super) fn encloses_the_same(&mut self, narrow: f64, wide: f64) -> bool {
+        let outside = mem::take(&mut self.outside);
+        if self.encloses(narrow) {
+            let places = outside.iter().zip(&self.outside).zip(&self.distance);
+            let reached = places.filter(|((before, now), distance)| {
+                !**before && **now && f64::from(**distance) > wide
+            });
+            let [body, pieces] =
+                voxels_in_pieces(&within(self.grid, &self.outside, narrow, false), 1);
+            if (reached.count() + pieces) as f64 <= LITTLE * body as f64 {
+                return true;
+            }
+        }
+        self.outside = outside;
+        false
     }
 
     /// What no ball of `radius` [m] covers, as label 1.

@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use palpate_geometry::{
-    NodeId, Surface, TriangleMesh, Vec3, WrapError, WrapSettings, Wrapped, inspect, read_mesh, wrap,
+    Gaps, NodeId, Surface, TriangleMesh, Vec3, WrapError, WrapSettings, Wrapped, inspect,
+    read_mesh, wrap,
 };
 
 use crate::data;
@@ -11,7 +12,7 @@ use crate::shapes::ball;
 
 const SETTINGS: WrapSettings = WrapSettings {
     distance: 0.5e-3,
-    close_gaps: 2e-3,
+    gaps: Gaps::Close(2e-3),
     triangles: 40_000,
     keep_inner: false,
 };
@@ -121,6 +122,71 @@ fn two_crossing_balls_are_their_union() {
     check(&wrapped, union, SETTINGS.distance);
 }
 
+/// A ball with a fissure, 1.5 mm wide and 8 mm deep around its equator: closed if all gaps are, and kept if only needed ones are. Judge:
+/// its volume.
+#[test]
+fn a_fissure_stays_where_nothing_needs_it_closed() {
+    let (radius, wide, deep) = (0.02_f64, 1.5e-3, 8e-3);
+    // Its profile, from pole to pole, turned around z.
+    let half = 0.5 * wide;
+    let edge = (radius * radius - half * half).sqrt();
+    let arc = |k: usize| {
+        let angle = (half / radius).acos() * k as f64 / 24.0;
+        [radius * angle.sin(), radius * angle.cos()]
+    };
+    let upper = (0..=24).map(arc).chain([[edge - deep, half]]);
+    let upper: Vec<[f64; 2]> = upper.collect();
+    let lower = upper.iter().rev().map(|[r, z]| [*r, -z]);
+    let profile: Vec<[f64; 2]> = upper.iter().copied().chain(lower).collect();
+    let body = turned(&profile);
+    let volume = body.volume();
+    let groove = PI * (edge * edge - (edge - deep).powi(2)) * wide;
+    let settings = WrapSettings {
+        gaps: Gaps::CloseIfNeeded(2e-3),
+        ..SETTINGS
+    };
+    let kept = wrap(&body, &settings).unwrap();
+    // Corners of the fissure are rounded.
+    check(&kept, volume, SETTINGS.distance);
+    let closed = wrap(&body, &SETTINGS).unwrap();
+    // Its mouth is rounded inwards a little.
+    check(
+        &closed,
+        volume + groove,
+        0.5 * wide + 0.1 * SETTINGS.distance,
+    );
+    assert!(kept.gaps < wide && closed.gaps > wide);
+}
+
+/// Closed triangles around z of a profile of radii and heights [m], whose ends are on the axis.
+fn turned(profile: &[[f64; 2]]) -> TriangleMesh {
+    const AROUND: u32 = 96;
+    let rings = &profile[1..profile.len() - 1];
+    let mut vertices: Vec<Vec3> = [profile[0], profile[profile.len() - 1]]
+        .iter()
+        .map(|[_, z]| Vec3::new(0.0, 0.0, *z))
+        .collect();
+    for [r, z] in rings {
+        vertices.extend((0..AROUND).map(|n| {
+            let (sine, cosine) = (2.0 * PI * f64::from(n) / f64::from(AROUND)).sin_cos();
+            Vec3::new(r * cosine, r * sine, *z)
+        }));
+    }
+    let node = |ring: u32, n: u32| NodeId(2 + ring * AROUND + n % AROUND);
+    let last = rings.len() as u32 - 1;
+    let mut triangles = Vec::new();
+    for n in 0..AROUND {
+        triangles.push([NodeId(0), node(0, n), node(0, n + 1)]);
+        triangles.push([NodeId(1), node(last, n + 1), node(last, n)]);
+        for ring in 0..last {
+            let [a, b] = [node(ring, n), node(ring, n + 1)];
+            let [c, d] = [node(ring + 1, n), node(ring + 1, n + 1)];
+            triangles.extend([[a, c, b], [b, c, d]]);
+        }
+    }
+    TriangleMesh::new(vertices, triangles).unwrap()
+}
+
 #[test]
 fn two_halves_with_a_gap_are_one_body() {
     let whole = ball(0.02);
@@ -131,8 +197,14 @@ fn two_halves_with_a_gap_are_one_body() {
         });
         moved(&kept, Vec3::new(0.0, 0.0, 0.5 * sign * gap), 1.0)
     };
-    let wrapped = wrap(&soup(&[half(1.0), half(-1.0)], |_, _| true), &SETTINGS).unwrap();
+    let halves = soup(&[half(1.0), half(-1.0)], |_, _| true);
+    let wrapped = wrap(&halves, &SETTINGS).unwrap();
     assert_eq!(wrapped.other_pieces, 0);
+    let needed = WrapSettings {
+        gaps: Gaps::CloseIfNeeded(2e-3),
+        ..SETTINGS
+    };
+    assert_eq!(wrap(&halves, &needed).unwrap(), wrapped);
     // A slice of the gap's width, whose rim the ball of 1 mm rounds inwards a little.
     let volume = 4.0 / 3.0 * PI * 0.02f64.powi(3) + PI * 0.02f64.powi(2) * gap;
     // Amid the gap nothing is nearer than half its width.
@@ -240,7 +312,7 @@ fn distances_that_are_none_or_too_small_are_refused() {
     }
     for close_gaps in [-1.0, f64::NAN, f64::INFINITY] {
         let settings = WrapSettings {
-            close_gaps,
+            gaps: Gaps::Close(close_gaps),
             ..SETTINGS
         };
         let refused = wrap(&body, &settings);

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use clap::Args;
 use palpate_files::{Claim, Overwrite};
-use palpate_geometry::{Deviation, LengthUnit, WrapSettings, Wrapped, wrap_with_progress};
+use palpate_geometry::{Deviation, Gaps, LengthUnit, WrapSettings, Wrapped, wrap_with_progress};
 use palpate_jobs::{Error, Watch};
 use serde::Serialize;
 
@@ -24,7 +24,8 @@ Examples:
   palpate mesh wrap scan.stl organ.ply --unit mm --distance 0.001 --close-gaps 0.004 --triangles 20000
 
 Caps holes with a boundary loop at any width. Closes gaps without one, such as gaps between pieces or narrow fissures \
-of the organ, up to --close-gaps; if nothing is enclosed then, also wider openings, where they are narrowest, with a warning. \
+of the organ, up to --close-gaps; where it is not given, up to 2 mm, and only where the body is otherwise open or in pieces. If nothing \
+is enclosed then, closes also wider openings, where they are narrowest, with a warning. \
 Removes inner walls and cavities, unless --keep-inner writes them to files of their own, for the regions of a scene or a \
 problem (`surface = \"kidney-inner-1.ply\"`). Every surface is closed, manifold, oriented outward, connected and free of \
 self-intersections.";
@@ -44,9 +45,9 @@ pub(crate) struct Arguments {
     /// Largest distance of the surface from the triangles [m].
     #[arg(long, value_name = "M", default_value_t = WrapSettings::default().distance)]
     distance: f64,
-    /// Width of gaps to close [m].
-    #[arg(long, value_name = "M", default_value_t = WrapSettings::default().close_gaps)]
-    close_gaps: f64,
+    /// Width of gaps to close [m] [default: 0.002 where the body is not closed without, else 0].
+    #[arg(long, value_name = "M")]
+    close_gaps: Option<f64>,
     /// Also write the closed surfaces inside, such as vessels, cavities, parts and inner walls, to OUT-inner-1, OUT-inner-2,
     /// ..., the largest first. Leaves out those nearer to the envelope than about three times --distance.
     #[arg(long)]
@@ -77,6 +78,8 @@ struct Answer {
     input_to_envelope: Deviation,
     holes_capped: usize,
     widest_rim_m: f64,
+    /// Width up to which gaps were closed.
+    gaps_closed_m: f64,
     /// Of an opening without a rim that was closed.
     widest_opening_m: Option<f64>,
     pieces_left_out: usize,
@@ -101,7 +104,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let begin = Instant::now();
     let settings = WrapSettings {
         distance: arguments.distance,
-        close_gaps: arguments.close_gaps,
+        gaps: match arguments.close_gaps {
+            Some(width) => Gaps::Close(width),
+            None => WrapSettings::default().gaps,
+        },
         triangles: arguments.triangles,
         keep_inner: arguments.keep_inner,
     };
@@ -127,6 +133,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         input_to_envelope: wrapped.of_input,
         holes_capped: wrapped.holes,
         widest_rim_m: wrapped.widest_rim,
+        gaps_closed_m: wrapped.gaps,
         widest_opening_m: wrapped.opening,
         pieces_left_out: wrapped.other_pieces,
         cavities_filled_m3: wrapped.filled,
@@ -228,6 +235,7 @@ impl Answer {
              from the envelope to the triangles  {}\n\
              from the triangles to the envelope  {} (more where they lie inside)\n\
              holes with a rim that were capped   {holes}\n\
+             gaps that were closed               up to {:.2} mm\n\
              volume                              {:.4e} m³\n\
              took                                {:.1} s{inner}",
             self.triangles_before,
@@ -235,6 +243,7 @@ impl Answer {
             self.written.file.display(),
             self.envelope_to_input,
             self.input_to_envelope,
+            1e3 * self.gaps_closed_m,
             self.written.volume_m3,
             self.seconds
         )
