@@ -36,6 +36,9 @@ const MOST_VOXELS: f64 = 3e8;
 /// most, and its vertices are then moved to the triangles.
 const SPACING: f64 = 0.75;
 
+/// From the envelope to a surface inside, over the asked distance, at least [-].
+const CLEAR: f64 = 0.5;
+
 /// Which gaps between triangles are closed. Holes with a rim are closed at any width, and where nothing is enclosed then,
 /// openings without one behind which there is more room.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -240,17 +243,25 @@ pub fn wrap_with_progress(
         distance,
         distance,
     );
+    let to_input = deviation_with_tree(&fitted, &capped.mesh, &tree);
+    let of_input = deviation(&input, &fitted);
+    let surface = Surface::new(fitted)?;
+    let envelope = AabbTree::new(surface.mesh());
+    let is_inside = |inner: &Surface| {
+        let mut vertices = inner.mesh().vertices().iter();
+        vertices.all(|place| surface.signed_distance(&envelope, place).1 < -CLEAR * distance)
+    };
     Ok(Wrapped {
-        to_input: deviation_with_tree(&fitted, &capped.mesh, &tree),
-        of_input: deviation(&input, &fitted),
+        to_input,
+        of_input,
         holes: capped.holes,
         widest_rim: capped.widest_rim,
         gaps: 2.0 * radius,
         opening,
         other_pieces: found.other_pieces,
         filled,
-        inner,
-        surface: Surface::new(fitted)?,
+        inner: inner.into_iter().filter(is_inside).collect(),
+        surface,
     })
 }
 

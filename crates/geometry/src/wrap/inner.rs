@@ -11,8 +11,8 @@ use super::{WrapError, fit};
 use crate::flood::{Sharing, flood};
 use crate::{AabbTree, IsosurfaceSettings, Surface, TriangleMesh, isosurface};
 
-/// Voxels between a region and the envelope, at least, beside the closing's radius [-]: a wall, and tissue of two voxels.
-const DEEP: f64 = 4.0;
+/// Voxels between a region and the outside, at least, beside the closing's radius [-]: one is a wall that both share, the other tissue.
+const DEEP: f64 = 2.0;
 
 /// Voxels around those of a region [-].
 const MARGIN: usize = 3;

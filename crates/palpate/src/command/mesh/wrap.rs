@@ -49,7 +49,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "M")]
     close_gaps: Option<f64>,
     /// Also write the closed surfaces inside, such as vessels, cavities, parts and inner walls, to OUT-inner-1, OUT-inner-2,
-    /// ..., the largest first. Leaves out those nearer to the envelope than about three times --distance.
+    /// ..., the largest first. Leaves out those nearer to the envelope than about --distance.
     #[arg(long)]
     keep_inner: bool,
     /// Maximum number of triangles, of each surface.
