@@ -1,28 +1,28 @@
-//! Which voxels of a block hang together, in runs along the first axis: memory is read in the order in which it lies.
+//! Flood fill of voxels, in runs along the first axis, so that memory is read in order.
 
-/// Over what voxels hang together.
+/// Which voxels are neighbours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Sharing {
-    /// Their sides.
-    Sides,
-    /// Their sides and edges.
-    Edges,
+pub(crate) enum Connectivity {
+    /// Those that share a face.
+    Six,
+    /// Those that share a face or an edge.
+    Eighteen,
 }
 
-/// Goes from the voxel `start` of a block of `size`, whose first index runs fastest, to all that hang together with it.
-/// `take` says whether a voxel is one of them and was not taken before, and is asked several times. Returns how many
-/// there are; `start` is one.
+/// Visits the connected component of the voxel `start` in a block of `size`, whose first index runs fastest. `take` marks a
+/// voxel and says whether it belongs to the component and was not marked before; it is called several times for a voxel.
+/// Returns the number of voxels, with `start`.
 pub(crate) fn flood(
     size: [usize; 3],
     start: usize,
-    sharing: Sharing,
+    connectivity: Connectivity,
     mut take: impl FnMut(usize) -> bool,
 ) -> usize {
     let [nx, ny, nz] = size;
     let mut found = 0;
     // Runs of voxels that are taken: their row, and the first and the last.
     let mut open: Vec<(usize, usize, usize)> = Vec::new();
-    // Takes what it can of a row from `low` to `high`, and what hangs together with that along the row.
+    // Takes what it can of a row from `low` to `high`, and what is connected to that along the row.
     let mut take_row = |row: usize, low: usize, high: usize, open: &mut Vec<_>| {
         let at = |x: usize| row * nx + x;
         let mut x = low;
@@ -49,9 +49,9 @@ pub(crate) fn flood(
         let (y, z) = (row % ny, row / ny);
         for dz in [-1, 0, 1] {
             for dy in [-1, 0, 1] {
-                let wider = match (usize::from(dy != 0) + usize::from(dz != 0), sharing) {
-                    (1, Sharing::Sides) | (2, Sharing::Edges) => 0,
-                    (1, Sharing::Edges) => 1,
+                let wider = match (usize::from(dy != 0) + usize::from(dz != 0), connectivity) {
+                    (1, Connectivity::Six) | (2, Connectivity::Eighteen) => 0,
+                    (1, Connectivity::Eighteen) => 1,
                     _ => continue,
                 };
                 let (Some(y), Some(z)) = (y.checked_add_signed(dy), z.checked_add_signed(dz))
@@ -72,9 +72,9 @@ pub(crate) fn flood(
 mod tests {
     use super::*;
 
-    /// Judge: voxel by voxel, over all that share a side, or an edge.
+    /// Judge: voxel by voxel, by differences of indices.
     #[test]
-    fn what_hangs_together_is_found_at_random() {
+    fn random_components_are_found() {
         let mut state = 1u64;
         let mut random = || {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1); // [Knuth 1998, 3.3.4]
@@ -87,9 +87,9 @@ mod tests {
             let Some(start) = free.iter().position(|&is_free| is_free) else {
                 continue;
             };
-            for (sharing, axes) in [(Sharing::Sides, 1), (Sharing::Edges, 2)] {
+            for (connectivity, axes) in [(Connectivity::Six, 1), (Connectivity::Eighteen, 2)] {
                 let mut taken = vec![false; count];
-                let found = flood(size, start, sharing, |at| {
+                let found = flood(size, start, connectivity, |at| {
                     free[at] && !std::mem::replace(&mut taken[at], true)
                 });
                 let mut judge = vec![false; count];
@@ -105,7 +105,7 @@ mod tests {
                         judge[other] |= near && judge[one] && free[other];
                     }
                 }
-                assert_eq!(taken, judge, "{size:?} {sharing:?}");
+                assert_eq!(taken, judge, "{size:?} {connectivity:?}");
                 assert_eq!(found, judge.iter().filter(|&&is| is).count());
             }
         }

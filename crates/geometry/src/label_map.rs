@@ -82,8 +82,12 @@ impl LabelMap {
             true => organ,
             false => *label,
         };
+        self.with_labels(self.labels.iter().map(joined).collect())
+    }
+
+    fn with_labels(&self, labels: Vec<u16>) -> Self {
         Self {
-            labels: self.labels.iter().map(joined).collect(),
+            labels,
             size: self.size,
             steps: self.steps,
             origin: self.origin,
@@ -95,7 +99,7 @@ impl LabelMap {
     /// The same where every voxel of the labels `inside` has only `organ` and its own label around it: what touches something else
     /// or an earlier one of them, over a corner too, becomes `organ`. And how many voxels of each that were.
     #[must_use]
-    pub fn apart(&self, organ: u16, inside: &[u16]) -> (Self, Vec<usize>) {
+    pub fn separated(&self, organ: u16, inside: &[u16]) -> (Self, Vec<usize>) {
         let [nx, ny, nz] = self.size;
         let mut labels = self.labels.clone();
         let mut moved = vec![0; inside.len()];
@@ -118,15 +122,7 @@ impl LabelMap {
                 moved[place] += 1;
             }
         }
-        let map = Self {
-            labels,
-            size: self.size,
-            steps: self.steps,
-            origin: self.origin,
-            names: self.names.clone(),
-            warnings: self.warnings.clone(),
-        };
-        (map, moved)
+        (self.with_labels(labels), moved)
     }
 
     /// Volume of one voxel [m³].

@@ -205,16 +205,17 @@ pub fn wrap_with_progress(
     }
     let mut closing = Closing::new(&grid, &capped.mesh);
     at(0.1)?;
-    let mut opening = None;
+    let (mut opening, mut map) = (None, None);
     if !closing.encloses(radius) {
         let found = Openings::find(&capped.mesh, spacing).ok_or(WrapError::Open)?;
         at(0.15)?;
         found.shut(&mut closing, radius);
         opening = Some(found.width);
-    } else if matches!(settings.gaps, Gaps::CloseIfNeeded(_))
-        && closing.encloses_the_same(spacing, radius)
-    {
-        radius = spacing;
+    } else if let Gaps::CloseIfNeeded(_) = settings.gaps {
+        map = closing.same_body(spacing, radius);
+        if map.is_some() {
+            radius = spacing;
+        }
     }
     at(0.2)?;
     let tree = AabbTree::new(&capped.mesh);
@@ -225,7 +226,8 @@ pub fn wrap_with_progress(
         false => Vec::new(),
     };
     at(0.25)?;
-    let map = closing.inside(radius);
+    let map = map.unwrap_or_else(|| closing.inside(radius));
+    drop(closing);
     at(0.3)?;
     let found = isosurface_with_progress(
         &map,

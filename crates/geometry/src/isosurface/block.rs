@@ -1,6 +1,6 @@
 use super::bits::Bits;
 use crate::LabelMap;
-use crate::flood::{Sharing, flood};
+use crate::flood::{Connectivity, flood};
 
 /// The voxels of one label with a margin of one voxel of nothing on every side.
 ///
@@ -75,7 +75,7 @@ impl Block {
         let mut pieces = 0;
         for start in 0..self.voxels() {
             if self.is_inside(start) && !seen.contains(start) {
-                let voxels = self.flood(start, true, &mut seen, Sharing::Sides);
+                let voxels = self.flood(start, true, &mut seen, Connectivity::Six);
                 pieces += 1;
                 if voxels > largest.0 {
                     largest = (voxels, start);
@@ -84,7 +84,7 @@ impl Block {
         }
         if pieces > 1 {
             let mut piece = self.none();
-            self.flood(largest.1, true, &mut piece, Sharing::Sides);
+            self.flood(largest.1, true, &mut piece, Connectivity::Six);
             self.inside = piece;
         }
         pieces - 1
@@ -95,7 +95,7 @@ impl Block {
         let before = self.count();
         let mut outside = self.none();
         // What touches along an edge hangs together outside, since it does not inside.
-        let around = self.flood(0, false, &mut outside, Sharing::Edges);
+        let around = self.flood(0, false, &mut outside, Connectivity::Eighteen);
         let filled = self.voxels() - around - before;
         if filled > 0 {
             self.inside = outside.others(self.voxels());
@@ -111,9 +111,15 @@ impl Block {
         Bits::none(self.voxels())
     }
 
-    /// Marks the voxels that hang together with `start` as seen. Returns how many there are.
-    fn flood(&self, start: usize, inside: bool, seen: &mut Bits, sharing: Sharing) -> usize {
-        flood(self.size, start, sharing, |at| {
+    /// Marks the connected component of `start` as seen. Returns how many there are.
+    fn flood(
+        &self,
+        start: usize,
+        inside: bool,
+        seen: &mut Bits,
+        connectivity: Connectivity,
+    ) -> usize {
+        flood(self.size, start, connectivity, |at| {
             self.is_inside(at) == inside && seen.insert(at)
         })
     }

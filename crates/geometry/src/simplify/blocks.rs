@@ -16,7 +16,7 @@ const BLOCK: usize = 60_000;
 /// How many times more triangles are left than are asked for [-], so that the end, which sees all of them, decides where
 /// they are.
 const LEFT: usize = 2;
-/// Fewer triangles than this many times those that are to be left are not worth the way [-].
+/// A mesh with fewer times as many triangles than are to be left, or than a block has, is not divided [-].
 const WORTHWHILE: usize = 2;
 
 /// A part of space, without its sides.
@@ -125,8 +125,8 @@ fn divide(mesh: &TriangleMesh, owners: &mut [usize]) -> Vec<Block> {
 }
 
 impl Block {
-    /// What is left of the triangles that are `own` to the block when all but `part` [-] of them have gone. Those beside
-    /// them stay, and stay apart from them.
+    /// Simplifies the triangles for which `own` is true, all in this block, to `part` of their number [-]. The triangles around
+    /// them stay as they are, and nothing passes through them.
     fn simplify(
         &self,
         mesh: &TriangleMesh,

@@ -161,11 +161,11 @@ impl<'a> Run<'a> {
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         let first = self.net.live();
-        let mut told = |live: usize| progress((first - live) as f64 / (first - target) as f64);
+        let mut report = |live: usize| progress((first - live) as f64 / (first - target) as f64);
         self.queue_all();
         loop {
             let before = self.net.live();
-            self.work(target, &mut told)?;
+            self.work(target, &mut report)?;
             if self.net.live() <= target || self.net.live() == before {
                 return ControlFlow::Continue(());
             }
@@ -244,14 +244,14 @@ impl<'a> Run<'a> {
     fn work(
         &mut self,
         target: usize,
-        told: &mut dyn FnMut(usize) -> ControlFlow<()>,
+        report: &mut dyn FnMut(usize) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         let mut looked_at = 0;
         while self.net.live() > target
             && let Some(Reverse(candidate)) = self.queue.pop()
         {
             if looked_at % BETWEEN_CALLS == 0 {
-                told(self.net.live())?;
+                report(self.net.live())?;
             }
             looked_at += 1;
             let [a, b] = candidate.edge;

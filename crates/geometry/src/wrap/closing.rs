@@ -4,7 +4,7 @@ use std::mem;
 use nalgebra::Matrix3;
 
 use super::grid::Grid;
-use crate::flood::{Sharing, flood};
+use crate::flood::{Connectivity, flood};
 use crate::isosurface::voxels_in_pieces;
 use crate::{LabelMap, TriangleId, TriangleMesh, closest_on_triangle};
 
@@ -103,7 +103,7 @@ impl<'m> Closing<'m> {
         self.reach_out(skin);
         let mut outside = vec![false; self.distance.len()];
         // The first voxel is in the margin.
-        flood(self.grid.size, 0, Sharing::Sides, |number| {
+        flood(self.grid.size, 0, Connectivity::Six, |number| {
             f64::from(self.distance[number]) > radius && !mem::replace(&mut outside[number], true)
         });
         let encloses = (0..outside.len())
@@ -112,29 +112,28 @@ impl<'m> Closing<'m> {
         encloses
     }
 
-    /// Whether balls of a `narrow` radius [m] enclose the same body as those of a `wide` one, which found what is outside: they reach no
-    /// place where a wide one has room, and leave the body in one piece, but for a little. They then say what is outside.
-    pub(super) fn encloses_the_same(&mut self, narrow: f64, wide: f64) -> bool {
+    /// What no ball of a `narrow` radius [m] covers, if that is the same body as for a `wide` one, which found what is outside: balls
+    /// reach no place where a wide one has room, and leave the body in one piece, but for a little. They then say what is outside.
+    pub(super) fn same_body(&mut self, narrow: f64, wide: f64) -> Option<LabelMap> {
         let outside = mem::take(&mut self.outside);
         if self.encloses(narrow) {
             let places = outside.iter().zip(&self.outside).zip(&self.distance);
             let reached = places.filter(|((before, now), distance)| {
                 !**before && **now && f64::from(**distance) > wide
             });
-            let [body, pieces] =
-                voxels_in_pieces(&within(self.grid, &self.outside, narrow, false), 1);
+            let map = self.inside(narrow);
+            let [body, pieces] = voxels_in_pieces(&map, 1);
             if (reached.count() + pieces) as f64 <= LITTLE * body as f64 {
-                return true;
+                return Some(map);
             }
         }
         self.outside = outside;
-        false
+        None
     }
 
     /// What no ball of `radius` [m] covers, as label 1.
-    pub(super) fn inside(self, radius: f64) -> LabelMap {
-        let Self { grid, outside, .. } = self;
-        within(grid, &outside, radius, false)
+    pub(super) fn inside(&self, radius: f64) -> LabelMap {
+        within(self.grid, &self.outside, radius, false)
     }
 }
 

@@ -8,7 +8,7 @@ use std::mem;
 use super::closing::{Closing, ONE_SIDE, SKIN, within};
 use super::grid::Grid;
 use super::{WrapError, fit};
-use crate::flood::{Sharing, flood};
+use crate::flood::{Connectivity, flood};
 use crate::{AabbTree, IsosurfaceSettings, Surface, TriangleMesh, isosurface};
 
 /// Voxels between a region and the outside, at least, beside the closing's radius [-]: one is a wall that both share, the other tissue.
@@ -69,7 +69,7 @@ impl Closing<'_> {
             }
             let (mut is_deep, mut is_inner) = (false, true);
             let (mut low, mut high) = ([usize::MAX; 3], [0; 3]);
-            let voxels = flood(grid.size, start, Sharing::Sides, |number| {
+            let voxels = flood(grid.size, start, Connectivity::Six, |number| {
                 if !self.is_free(number) || mem::replace(&mut seen[number], true) {
                     return false;
                 }
@@ -108,7 +108,7 @@ impl Closing<'_> {
         };
         let [i, j, k] = whole.indices(region.start);
         let start = grid.number([i - first[0], j - first[1], k - first[2]]);
-        flood(grid.size, start, Sharing::Sides, |number| {
+        flood(grid.size, start, Connectivity::Six, |number| {
             self.is_free(within(number)) && !mem::replace(&mut set[number], true)
         });
         (grid, set)

@@ -223,7 +223,7 @@ fn apart(
     warnings: &mut Vec<String>,
 ) -> Result<LabelMap, Failure> {
     let (organ, _) = &chosen.surfaces[0];
-    let (apart, moved) = map.apart(organ.number, &chosen.inside);
+    let (apart, moved) = map.separated(organ.number, &chosen.inside);
     let organ = label::in_words(organ);
     for ((inner, _), voxels) in chosen.surfaces[1..].iter().zip(moved) {
         let (inner, all) = (label::in_words(inner), inner.voxels);
