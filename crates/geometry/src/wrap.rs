@@ -29,7 +29,7 @@ use closing::Closing;
 use grid::Grid;
 use openings::Openings;
 
-/// Voxels that a grid may have; they take 15 bytes each.
+/// Voxels that a grid may have; they take up to 17 bytes each.
 const MOST_VOXELS: f64 = 3e8;
 
 /// The edge of a voxel over the asked distance [-]. A voxel's surface is off by half of it and by half its diagonal at
