@@ -23,8 +23,9 @@
 use std::f64::consts::PI;
 
 use nalgebra::Complex;
+use palpate_files::scene::InclusionShape;
 
-use crate::regions::RegionMap;
+use crate::regions::{RegionMap, places_in_shape};
 use crate::{LinearElastic, Vec3};
 
 /// Places of an inclusion at which stress is taken, about.
@@ -67,6 +68,36 @@ impl InclusionField {
     /// Of the shapes of a `map`, in tissue of the law `around` and with the bulk and shear `moduli` of its regions [Pa] from number 0
     /// on: zeros of what is empty. Compliances are scaled to the Young's modulus `unit` [Pa].
     pub fn new(map: &RegionMap, around: &LinearElastic, moduli: &[[f64; 2]], unit: f64) -> Self {
+        let places = |number| map.places_in(number, PLACES);
+        let inclusions = moduli.iter().enumerate();
+        Self::of(
+            inclusions.filter_map(|(number, moduli)| Some((places(number)?, *moduli))),
+            around,
+            unit,
+        )
+    }
+
+    /// Of shapes in tissue of the law `around` that are so many times as stiff [-]; compliances are scaled to the Young's modulus `unit`
+    /// [Pa].
+    pub fn of_shapes<'a>(
+        shapes: impl IntoIterator<Item = (&'a InclusionShape, f64)>,
+        around: &LinearElastic,
+        unit: f64,
+    ) -> Self {
+        let of_around = [around.bulk_modulus(), around.shear_modulus()];
+        let inclusions = shapes.into_iter().filter_map(|(shape, ratio)| {
+            let places = places_in_shape(shape, PLACES)?;
+            Some((places, of_around.map(|modulus| ratio * modulus)))
+        });
+        Self::of(inclusions, around, unit)
+    }
+
+    /// Of inclusions by their places, the volume of each [m³], and their bulk and shear moduli [Pa].
+    fn of(
+        inclusions: impl Iterator<Item = ((Vec<Vec3>, f64), [f64; 2])>,
+        around: &LinearElastic,
+        unit: f64,
+    ) -> Self {
         let nu = around.poissons_ratio();
         let shares = [
             (1.0 + nu) / (3.0 * (1.0 - nu)),
@@ -75,24 +106,29 @@ impl InclusionField {
         let modulus = around.youngs_modulus();
         let of_energy = [around.bulk_modulus(), 2.0 * around.shear_modulus()];
         let of_around = [around.bulk_modulus(), around.shear_modulus()];
-        let inclusions = moduli.iter().enumerate().filter_map(|(number, moduli)| {
-            let (places, volume) = map.places_in(number, PLACES)?;
+        let inclusions = inclusions.map(|((places, volume), moduli)| {
             let changes = [0, 1].map(|k| {
                 let more = moduli[k] / of_around[k] - 1.0;
                 more / (1.0 + shares[k] * more) * modulus / of_energy[k]
             });
-            Some(Inclusion {
+            Inclusion {
                 places,
                 volume,
                 changes,
                 shares,
-            })
+            }
         });
         Self {
             inclusions: inclusions.filter(|own| own.changes != [0.0; 2]).collect(),
             poissons_ratio: nu,
             modulus: modulus / unit,
         }
+    }
+
+    /// With those of `other`, in the same tissue, as well.
+    pub fn joined(mut self, other: &Self) -> Self {
+        self.inclusions.extend_from_slice(&other.inclusions);
+        self
     }
 
     /// Whether it has none.
@@ -102,23 +138,26 @@ impl InclusionField {
 
     /// How much less than without inclusions loads at `place` [m] along the outward `normal` [-] move their own means, times Young's
     /// modulus over the force [1/m]: more than zero over what is stiff. Inclusions that a flat tip of the radius `tip` [m] does not
-    /// feel count for none.
+    /// feel count for none; of several, each takes its part of what the others leave.
     pub fn less<const LOADS: usize>(
         &self,
         loads: &[Load; LOADS],
         tip: f64,
         (place, normal): (&Vec3, &Vec3),
     ) -> [f64; LOADS] {
-        let mut sums = [0.0; LOADS];
+        let mut left = [1.0; LOADS];
         for inclusion in &self.inclusions {
             if self.is_out_of_reach(inclusion, tip, place) {
                 continue;
             }
-            for (sum, load) in sums.iter_mut().zip(loads) {
-                *sum += self.less_by(inclusion, load, [place, normal]) / self.modulus;
+            for (left, load) in left.iter_mut().zip(loads) {
+                *left *= 1.0 - self.part_of(inclusion, load, [place, normal]);
             }
         }
-        sums
+        std::array::from_fn(|n| {
+            let own = loads[n].own_compliance(self.poissons_ratio);
+            own * (1.0 - left[n]) / self.modulus
+        })
     }
 
     /// How much less a sphere is moved, times Young's modulus over the force [1/m], under the forces at which areas of these `radii` [m]
@@ -165,8 +204,8 @@ impl InclusionField {
         2.0 * tip * changes.sum::<f64>() * inclusion.volume * squares.sum::<f64>() < LEAST
     }
 
-    /// By how much less a load moves itself at a place and normal, times the Young's modulus of what is around [1/m].
-    fn less_by(&self, inclusion: &Inclusion, load: &Load, [place, normal]: [&Vec3; 2]) -> f64 {
+    /// The part of its own compliance by which a load at a place and normal moves itself less [-].
+    fn part_of(&self, inclusion: &Inclusion, load: &Load, [place, normal]: [&Vec3; 2]) -> f64 {
         let mut energies = [0.0; 2];
         for inside in &inclusion.places {
             let way = inside - place;
@@ -190,7 +229,7 @@ impl InclusionField {
         }
         let share = (sizes[0] * inclusion.shares[0] + sizes[1] * inclusion.shares[1]) / all;
         let x = x[0] + x[1];
-        own * x / (1.0 + (1.0 - share) * x).max(LEAST_STIFFNESS)
+        x / (1.0 + (1.0 - share) * x).max(LEAST_STIFFNESS)
     }
 }
 

@@ -304,26 +304,15 @@ impl RegionMap {
     /// About so many places [m] spread evenly over a shape or what a surface encloses, and the volume of each [m³]; none of what has
     /// no border of its own.
     pub fn places_in(&self, number: usize, about: f64) -> Option<(Vec<Vec3>, f64)> {
-        let border = match self.region(number)? {
-            Mapped::Layer { .. } => return None,
-            Mapped::Shape(shape) => border(shape),
-            Mapped::Enclosed(enclosed) => enclosed.surface.mesh().vertices().to_vec(),
-        };
         let [volume, _] = self.volume_and_area(number)?;
-        let first = border.first().copied().unwrap_or_default();
-        let low = border.iter().fold(first, |low, place| low.inf(place));
-        let high = border.iter().fold(first, |high, place| high.sup(place));
-        let spacing = (volume / about).cbrt();
-        let counts = [0, 1, 2].map(|axis| ((high - low)[axis] / spacing).ceil() as usize);
-        let along =
-            |axis: usize| (0..counts[axis]).map(move |n| low[axis] + (n as f64 + 0.5) * spacing);
-        let mut places = Vec::new();
-        for (x, y) in along(0).flat_map(|x| along(1).map(move |y| (x, y))) {
-            let column = along(2).map(|z| Vec3::new(x, y, z));
-            places.extend(column.filter(|place| self.height(number, place) <= 0.0));
+        let is_inside = |place: &Vec3| self.height(number, place) <= 0.0;
+        match self.region(number)? {
+            Mapped::Layer { .. } => None,
+            Mapped::Shape(shape) => spread((volume, about), &border(shape), is_inside),
+            Mapped::Enclosed(Enclosed { surface, .. }) => {
+                spread((volume, about), surface.mesh().vertices(), is_inside)
+            }
         }
-        let each = volume / places.len() as f64;
-        (!places.is_empty()).then_some((places, each))
     }
 
     /// Distance to the outer surface [m]; infinite without layers.
@@ -392,6 +381,35 @@ fn border(shape: &InclusionShape) -> Vec<Vec3> {
         }
     }
     points
+}
+
+/// As [`RegionMap::places_in`], of a shape.
+pub(crate) fn places_in_shape(shape: &InclusionShape, about: f64) -> Option<(Vec<Vec3>, f64)> {
+    let [volume, _] = shape.volume_and_area();
+    let is_inside = |place: &Vec3| shape.holds([place.x, place.y, place.z]);
+    spread((volume, about), &border(shape), is_inside)
+}
+
+/// About so many places [m] of a body of a `volume` [m³] between points of its `border`, and the volume of each [m³].
+fn spread(
+    (volume, about): (f64, f64),
+    border: &[Vec3],
+    is_inside: impl Fn(&Vec3) -> bool,
+) -> Option<(Vec<Vec3>, f64)> {
+    let first = border.first().copied().unwrap_or_default();
+    let low = border.iter().fold(first, |low, place| low.inf(place));
+    let high = border.iter().fold(first, |high, place| high.sup(place));
+    let spacing = (volume / about).cbrt();
+    let counts = [0, 1, 2].map(|axis| ((high - low)[axis] / spacing).ceil() as usize);
+    let along =
+        |axis: usize| (0..counts[axis]).map(move |n| low[axis] + (n as f64 + 0.5) * spacing);
+    let mut places = Vec::new();
+    for (x, y) in along(0).flat_map(|x| along(1).map(move |y| (x, y))) {
+        let column = along(2).map(|z| Vec3::new(x, y, z));
+        places.extend(column.filter(&is_inside));
+    }
+    let each = volume / places.len() as f64;
+    (!places.is_empty()).then_some((places, each))
 }
 
 /// The triangles of the outer surface.

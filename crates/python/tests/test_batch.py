@@ -59,12 +59,12 @@ def test_only_some_go_on(simulation: palpate.Simulation) -> None:
     assert np.count_nonzero(batch.times == batch.times.max()) == 2
 
 
-def test_states_differ_in_their_nodules(simulation: palpate.Simulation) -> None:
+def test_states_differ_in_their_inclusions(simulation: palpate.Simulation) -> None:
     poses = press(simulation)
     top = poses[0, 0]
-    nodule = {"center_m": (top - [0, 0, 0.013]).tolist(), "radius_m": 0.008, "stiffness_ratio": 10.0}
+    ball = {"center_m": (top - [0, 0, 0.013]).tolist(), "radius_m": 0.008}
     batch = palpate.SimulationBatch(simulation, 2)
-    batch.reset(1, local({"nodule": [nodule]}))
+    batch.reset(1, local({"inclusion": [{"ball": ball, "stiffness_ratio": 10.0}]}))
     forces = batch.replay(np.repeat(poses[:, None], 2, axis=1))[-1]
     assert np.linalg.norm(forces[1]) > 1.1 * np.linalg.norm(forces[0])
 

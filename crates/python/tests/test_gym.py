@@ -140,7 +140,7 @@ def palpates(environment: touch.TouchEnv, seen: NDArray[np.float32], step: int) 
     """Goes over the place, then down, then says: here."""
     content = hidden(environment)
     target = np.array(content["task"]["find"]["target_m"])
-    out = target - np.array(content["organ"]["nodule"][0]["center_m"])
+    out = target - np.array(content["organ"]["inclusion"][0]["ball"]["center_m"])
     out /= np.linalg.norm(out)
     place = target + 0.03 * out if step < 60 else target - 0.003 * out
     here = step > 60 and seen[9] > 0 and np.linalg.norm(seen[:3] - place) < 1e-3

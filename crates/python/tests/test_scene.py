@@ -74,7 +74,7 @@ def test_errors_are_those_of_the_command(command: Command, tmp_path: Path) -> No
         f"format = 1\norgan = {{ {organ}, triangels = 5 }}\n",
         f"organ = {{ {organ} }}\n",
         "format = 1\norgan = \n",
-        f"format = 1\n{local}organ = {{ {organ}, nodule = [{{ center_m = [1, 0, 0], radius_m = 0.01, stiffness_ratio = 3 }}] }}\n",
+        f"format = 1\n{local}organ = {{ {organ}, inclusion = [{{ ball = {{ center_m = [1, 0, 0], radius_m = 0.01 }}, stiffness_ratio = 3 }}] }}\n",
     ):
         scene = tmp_path / "scene.toml"
         scene.write_text(text)
@@ -84,7 +84,7 @@ def test_errors_are_those_of_the_command(command: Command, tmp_path: Path) -> No
         assert said.returncode == 2 and str(raised.value) in said.stderr
 
 
-def test_a_nodule_outside_is_told_at_a_reset(simulation: palpate.Simulation) -> None:
-    nodule = {"center_m": [1.0, 0.0, 0.0], "radius_m": 0.01, "stiffness_ratio": 3.0}
-    with pytest.raises(palpate.InputError, match=r"`organ.nodule\[0\].center_m` lies"):
-        simulation.reset(local({"nodule": [nodule]}))
+def test_an_inclusion_outside_is_reported_at_a_reset(simulation: palpate.Simulation) -> None:
+    ball = {"center_m": [1.0, 0.0, 0.0], "radius_m": 0.01}
+    with pytest.raises(palpate.InputError, match=r"the middle of the organ's part \"inclusion 1\" lies"):
+        simulation.reset(local({"inclusion": [{"ball": ball, "stiffness_ratio": 3.0}]}))

@@ -149,11 +149,11 @@ def test_any_numbers_will_do(simulation: palpate.Simulation) -> None:
     simulation.step(np.zeros((1, 3), dtype=np.int32))
 
 
-def test_a_nodule_is_felt_where_a_reset_puts_it(simulation: palpate.Simulation) -> None:
-    """One model serves organs that differ in their stiff balls: as a model made for it, to the bit."""
+def test_an_inclusion_is_felt_where_a_reset_puts_it(simulation: palpate.Simulation) -> None:
+    """One model serves organs that differ in their estimated inclusions: as a model made for it, to the bit."""
     top = above(simulation)
-    nodule = {"center_m": (top - [0, 0, 0.012]).tolist(), "radius_m": 0.008, "stiffness_ratio": 10.0}
-    there = local({"nodule": [nodule]})
+    ball = {"center_m": (top - [0, 0, 0.012]).tolist(), "radius_m": 0.008}
+    there = local({"inclusion": [{"ball": ball, "stiffness_ratio": 10.0}]})
     poses = press(simulation)
     plain = simulation.replay(poses)
     simulation.reset(there)

@@ -15,8 +15,8 @@
 use std::fmt::{Debug, Write};
 
 use palpate_files::scene::{
-    Calibration, CavityContent, Cutting, DeviceKind, Enhancement, Inclusion, InclusionPlace,
-    InclusionShape, IntegrationPoints, Jaws, Layer, LocalSettings, Model, Nodule, Region,
+    Calibration, CavityContent, Cutting, DeviceKind, Enhancement, EstimatedInclusion, Inclusion,
+    InclusionPlace, InclusionShape, IntegrationPoints, Jaws, Layer, LocalSettings, Model, Region,
     RegionBox, RegionPlane, RegionSphere, Tip, Tool,
 };
 use palpate_files::{Scene, Tissue};
@@ -126,7 +126,7 @@ fn former(scene: &Scene, tissue: &Tissue) -> String {
         &tools,
         &scene.cutting,
         &scene.organ.layers,
-        &scene.organ.nodules,
+        &scene.organ.estimated_inclusions,
     ];
     let text = parts.map(|part| format!("{part:?}")).concat();
     // Layers had no toughness of their own then, and the local model no calibration.
@@ -153,9 +153,9 @@ fn canonical(scene: &Scene, tissue: &Tissue) -> Form {
         .for_each(|layer| form.layer(layer));
     scene
         .organ
-        .nodules
+        .estimated_inclusions
         .iter()
-        .for_each(|ball| form.nodule(ball));
+        .for_each(|inclusion| form.estimated_inclusion(inclusion));
     scene
         .organ
         .inclusions
@@ -387,10 +387,12 @@ impl Form {
             Some(CavityContent::Fluid(pressure)) => self.numbers("fluid", &[pressure]),
             None => {}
         }
-        let place = &inclusion.place;
-        let InclusionPlace::Shape(shape) = place else {
-            return;
-        };
+        if let InclusionPlace::Shape(shape) = &inclusion.place {
+            self.shape(shape);
+        }
+    }
+
+    fn shape(&mut self, shape: &InclusionShape) {
         match shape {
             InclusionShape::Ball { center_m, radius_m } => {
                 self.numbers("ball", &[&center_m[..], &[*radius_m]].concat());
@@ -408,16 +410,14 @@ impl Form {
         }
     }
 
-    fn nodule(&mut self, nodule: &Nodule) {
-        let Nodule {
-            center_m,
-            radius_m,
+    fn estimated_inclusion(&mut self, inclusion: &EstimatedInclusion) {
+        let EstimatedInclusion {
+            name: _,
+            shape,
             stiffness_ratio,
-        } = nodule;
-        self.numbers(
-            "nodule",
-            &[&center_m[..], &[*radius_m, *stiffness_ratio]].concat(),
-        );
+        } = inclusion;
+        self.numbers("estimated_inclusion", &[*stiffness_ratio]);
+        self.shape(shape);
     }
 }
 
@@ -431,7 +431,7 @@ mod tests {
     const SCENE: &str = "format = 1\n[organ]\nbuiltin = \"hemisphere\"\ntriangles = 800\n[organ.tissue]\n\
         law = \"linear\"\nyoungs_modulus_pa = 10000.0\npoissons_ratio = 0.45\n\
         prony = [{ g = 0.3, tau_s = 0.5 }]\n[[organ.layer]]\nname = \"outer\"\nthickness_m = 0.001\n\
-        builtin_tissue = \"pig-liver\"\n[[organ.nodule]]\ncenter_m = [0.0, 0.0, 0.03]\nradius_m = 0.005\n\
+        builtin_tissue = \"pig-liver\"\n[[organ.inclusion]]\nball = { center_m = [0.0, 0.0, 0.03], radius_m = 0.005 }\n\
         stiffness_ratio = 6.0\n[model]\nkind = \"local\"\n[[tool]]\nname = \"right\"\ndevice = \"mouse\"\n\
         tip = { shape = \"flat\", radius_m = 0.002, contact = \"slip\" }\n[[neighbour]]\nbuiltin = \"cube\"\n\
         at_m = [0.3, 0.0, 0.0]\ncollides = true\nfriction = 0.2\n";

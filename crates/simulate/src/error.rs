@@ -108,14 +108,14 @@ pub enum Error {
         /// Devices, and nones, that were given.
         devices: usize,
     },
-    /// A stiff ball has its middle outside of the organ.
+    /// An estimated inclusion has its middle outside of the organ.
     #[error(
-        "`organ.nodule[{number}].center_m` lies {} mm outside of the organ; move it in (`palpate mesh info` tells where the organ lies)",
+        "the middle of the organ's part {name:?} lies {} mm outside of the organ; move it in (`palpate mesh info` reports where the organ lies)",
         millimetres(*.outside)
     )]
-    NoduleOutside {
-        /// Its number, from zero.
-        number: usize,
+    EstimatedOutside {
+        /// Its name.
+        name: String,
         /// How far outside [m].
         outside: f64,
     },
@@ -281,7 +281,7 @@ impl Error {
             | Self::CutTooDeep { .. }
             | Self::OtherResponse { .. }
             | Self::OtherDevices { .. }
-            | Self::NoduleOutside { .. }
+            | Self::EstimatedOutside { .. }
             | Self::InclusionOutside { .. }
             | Self::InclusionsOverlap { .. }
             | Self::CavityNotEnclosed { .. }

@@ -1,10 +1,13 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use palpate_files::scene::{Enhancement, HandOver, Layer, ModelKind, Nodule, ResponseMethod};
+use palpate_files::scene::{
+    Enhancement, EstimatedInclusion, HandOver, Layer, ModelKind, ResponseMethod,
+};
 use palpate_files::{Scene, SessionHeader};
 use palpate_geometry::{AabbTree, Surface, TriangleMesh};
-use palpate_mechanics::Material;
+use palpate_mechanics::inclusion::InclusionField;
+use palpate_mechanics::{LinearElastic, Material};
 
 use crate::cutting::{CuttingModel, cuts};
 use crate::digest::SceneDigest;
@@ -13,7 +16,9 @@ use crate::neighbour::Neighbour;
 use crate::nonlinear::{Beside, NonlinearOrgan, SoftBody};
 use crate::regions::{InclusionTable, RegionTissue, Regions};
 use crate::tool::{Tool, settings, typical_radius};
-use crate::{Error, Progress, Resources, Work, nodule, organ, target, tip_laws, trocar};
+use crate::{
+    Error, Progress, Resources, Work, estimated_inclusions, organ, target, tip_laws, trocar,
+};
 
 /// An organ and the tools that may touch it. Built once, never changed.
 #[derive(Debug, Clone)]
@@ -31,8 +36,12 @@ pub struct Simulation {
     pub(crate) cutting: Option<CuttingModel>,
     /// The bodies at which tools stop.
     pub(crate) neighbours: Vec<Neighbour>,
-    /// Stiff balls in the organ.
-    pub(crate) nodules: Vec<Nodule>,
+    /// The inclusions with a tissue, if the model does not solve them.
+    unsolved: InclusionField,
+    /// All whose effect is estimated.
+    pub(crate) estimated: Arc<InclusionField>,
+    /// The organ's tissue at rest, below its layers.
+    tissue_at_rest: LinearElastic,
     /// Length of the edges of a typical triangle [m].
     pub(crate) typical_edge: f64,
     pub(crate) organ_radius: f64,
@@ -77,7 +86,6 @@ impl Simulation {
         for tool in &scene.tools {
             trocar::check(tool, &surface, &tree)?;
         }
-        nodule::check(&scene.organ.nodules, &surface, &tree)?;
         target::check_line(scene, &surface, &tree)?;
         let kind = scene.model.kind;
         let is_nonlinear = kind == ModelKind::Nonlinear;
@@ -85,13 +93,26 @@ impl Simulation {
             ModelKind::Local => &[],
             ModelKind::Hybrid | ModelKind::Nonlinear => &scene.organ.layers,
         };
+        let is_of_one_tissue = is_of_one_tissue(scene);
         let parts = (layers, &scene.organ.inclusions[..]);
         let regions = Regions::read(parts, (&surface, &tree), (&tissue, &material))?;
         warnings.extend_from_slice(&regions.warnings);
         warnings.extend(not_felt(scene, &regions));
-        let is_felt = is_nonlinear || !(is_of_one_tissue(scene) || regions.are_alike());
         let mut enclosed: Vec<Surface> = regions.enclosed().cloned().collect();
-        let regions = is_felt.then_some(regions);
+        let law = |region: &RegionTissue| match kind {
+            ModelKind::Nonlinear => region.law,
+            ModelKind::Local | ModelKind::Hybrid => region.material.at_rest,
+        };
+        let (unsolved, mut felt) = match is_of_one_tissue {
+            true => {
+                let inclusions = regions.inclusions(law, &regions.tissues[0]);
+                let tissues = regions.of_inclusions().cloned().collect();
+                (inclusions, tissues)
+            }
+            false => (InclusionField::default(), Vec::new()),
+        };
+        let is_solved = is_nonlinear || !(is_of_one_tissue || regions.are_alike());
+        let regions = is_solved.then_some(regions);
         let (mut soft, more) = match is_nonlinear {
             true => SoftBody::all(scene)?,
             false => Default::default(),
@@ -125,16 +146,14 @@ impl Simulation {
             .zip(&touched)
             .map(|(tool, (_, own))| Tool::new(tool, settings, &own.at_rest, &surface, &tree))
             .collect::<Result<Vec<_>, _>>()?;
-        let law = |region: &RegionTissue| match kind {
-            ModelKind::Nonlinear => region.law,
-            ModelKind::Local | ModelKind::Hybrid => region.material.at_rest,
-        };
         let of_soft = soft.iter().map(|body| (&body.surface, &body.regions));
         let bodies = regions
             .iter()
             .map(|own| (&organ_surface, own))
             .chain(of_soft);
-        let bodies: Vec<_> = bodies.map(|(of, own)| (of, own.inclusions(law))).collect();
+        let bodies: Vec<_> = bodies
+            .map(|(of, own)| (of, own.inclusions(law, own.at_surface())))
+            .collect();
         for tool in &mut tools {
             tool.inclusions = InclusionTable::new(tool.tip, &bodies);
         }
@@ -142,6 +161,11 @@ impl Simulation {
             Some(regions) => regions.at_surface().material.clone(),
             None => material.clone(),
         };
+        let estimated = estimated_inclusions::field(
+            &scene.organ.estimated_inclusions,
+            (&surface, &tree),
+            (&material.at_rest, surface_material.at_rest.youngs_modulus()),
+        )?;
         let global = match kind {
             ModelKind::Local | ModelKind::Nonlinear => None,
             ModelKind::Hybrid => {
@@ -158,7 +182,7 @@ impl Simulation {
         };
         let beside = regions.iter().flat_map(Regions::beside);
         let bending = soft.iter().flat_map(|body| body.regions.all());
-        let felt: Vec<_> = beside.chain(bending).cloned().collect();
+        felt.extend(beside.chain(bending).cloned());
         let neighbours = Neighbour::all(scene, &tools)?;
         target::check_touch(
             &scene.task.goal,
@@ -245,7 +269,9 @@ impl Simulation {
             hand_over: scene.model.hand_over,
             force_scale: scene.model.force_scale,
             typical_edge: typical_edge(&surface),
-            nodules: scene.organ.nodules.clone(),
+            estimated: Arc::new(estimated.joined(&unsolved)),
+            unsolved,
+            tissue_at_rest: material.at_rest,
             cutting,
             neighbours,
             surface,
@@ -256,6 +282,17 @@ impl Simulation {
             nonlinear,
             warnings,
         })
+    }
+
+    /// Whose effect is estimated: `inclusions`, and those that the model does not solve.
+    pub(crate) fn estimate(
+        &self,
+        inclusions: &[EstimatedInclusion],
+    ) -> Result<InclusionField, Error> {
+        let unit = self.material.at_rest.youngs_modulus();
+        let organ = (&self.surface, &self.tree);
+        let field = estimated_inclusions::field(inclusions, organ, (&self.tissue_at_rest, unit))?;
+        Ok(field.joined(&self.unsolved))
     }
 
     /// The surface that nothing touches, and its boxes: that at rest, or as the organ hangs under its weight.
@@ -380,7 +417,9 @@ fn not_felt(scene: &Scene, regions: &Regions) -> Vec<String> {
         ));
     }
     if ignores && !organ.inclusions.is_empty() {
-        said.push(format!("{model} inclusions change no force"));
+        said.push(format!(
+            "{model} the effect of inclusions on a force is estimated, as of Eshelby's inclusions in a half-space"
+        ));
     }
     if is_hybrid && !ignores && !regions.are_alike() {
         if !regions.relax_alike() {

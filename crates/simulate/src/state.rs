@@ -1,11 +1,12 @@
 use std::sync::Arc;
 
 use palpate_files::Pose;
-use palpate_files::scene::Nodule;
+use palpate_files::scene::EstimatedInclusion;
 use palpate_files::session::{Events, SessionRow};
 use palpate_geometry::{AabbTree, NodeId, TriangleId, TriangleMesh, Vec3};
 use palpate_mechanics::enhance::SurfacePoint;
 use palpate_mechanics::finite_spheres::{FiniteSphereWorkspace, Response};
+use palpate_mechanics::inclusion::InclusionField;
 use palpate_mechanics::{ForceHistory, Limits};
 
 use crate::contact::Clearance;
@@ -16,7 +17,7 @@ use crate::grip::Grip;
 use crate::limits::LimitCounts;
 use crate::neighbour::Stopped;
 use crate::nonlinear::{Body, Moved, NonlinearOrgan, NonlinearWorkspace, Pushed};
-use crate::{Contact, Error, Simulation, nodule};
+use crate::{Contact, Error, Simulation};
 
 /// All that a step changes.
 #[derive(Debug, Clone)]
@@ -31,8 +32,8 @@ pub struct SimulationState {
     pub(crate) body: Option<Body>,
     /// Its cuts, if anything can cut it.
     pub cuts: Option<Cuts>,
-    /// Stiff balls in it.
-    pub(crate) nodules: Vec<Nodule>,
+    /// The inclusions whose effect is estimated.
+    pub(crate) estimated: Arc<InclusionField>,
     /// The boxes around it.
     pub(crate) tree: AabbTree,
     /// The vertices that are not at rest.
@@ -171,7 +172,7 @@ impl SimulationState {
                 .nonlinear
                 .as_ref()
                 .map(|organ| Body::at_rest(organ, simulation.tools.len())),
-            nodules: simulation.nodules.clone(),
+            estimated: Arc::clone(&simulation.estimated),
             tree: boxes.clone(),
             moved: MovedVertices::with_room(simulation.surface.mesh().vertices().len()),
             show_every: 0.0,
@@ -195,7 +196,7 @@ impl SimulationState {
             whole,
             body,
             cuts,
-            nodules: _,
+            estimated: _,
             tree,
             moved,
             show_every: _,
@@ -230,19 +231,17 @@ impl SimulationState {
         (*shown_at, *cuts_shown_at) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
     }
 
-    /// Replaces the stiff balls of the scene: one model serves organs that differ in nothing else. After an error
+    /// Replaces the estimated inclusions of the scene: one model serves organs that differ in nothing else. After an error
     /// nothing has changed.
     ///
     /// # Errors
     /// When the middle of one is not in the organ.
-    pub fn set_nodules(
+    pub fn set_estimated_inclusions(
         &mut self,
         simulation: &Simulation,
-        nodules: &[Nodule],
+        inclusions: &[EstimatedInclusion],
     ) -> Result<(), Error> {
-        nodule::check(nodules, &simulation.surface, &simulation.tree)?;
-        self.nodules.clear();
-        self.nodules.extend_from_slice(nodules);
+        self.estimated = Arc::new(simulation.estimate(inclusions)?);
         Ok(())
     }
 

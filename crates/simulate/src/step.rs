@@ -12,7 +12,9 @@ use crate::shaft::Shaft;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, SimulationWorkspace, ToolState};
 use crate::tool::Tool;
-use crate::{cutting, deform, energy, grip, hand_speed, neighbour, nodule, orientation};
+use crate::{
+    cutting, deform, energy, estimated_inclusions, grip, hand_speed, neighbour, orientation,
+};
 
 /// Depth beyond which no model here has been compared with tissue [m].
 pub const TRUSTED_DEPTH: f64 = 0.010;
@@ -66,7 +68,7 @@ pub fn touch(
         }
     }
     respond(simulation, elapsed, state, workspace);
-    find_nodules(simulation, state);
+    feel_estimated_inclusions(simulation, state);
     grip::act(simulation, elapsed, state, workspace);
     for (number, tool) in simulation.tools.iter().enumerate() {
         let own = &mut state.tools[number];
@@ -259,19 +261,16 @@ pub(crate) fn respond_again(
     }
 }
 
-/// Where a stiff ball lies under a tip, it is pushed harder.
-fn find_nodules(simulation: &Simulation, state: &mut SimulationState) {
-    let SimulationState { tools, nodules, .. } = state;
-    if nodules.is_empty() {
+/// Where an inclusion that is in no model lies under a tip, the tip is pushed harder.
+fn feel_estimated_inclusions(simulation: &Simulation, state: &mut SimulationState) {
+    let SimulationState {
+        tools, estimated, ..
+    } = state;
+    if estimated.is_empty() {
         return;
     }
     for (tool, own) in simulation.tools.iter().zip(tools) {
-        if let (Some(contact), false) = (own.contact, own.holds()) {
-            let place = (&contact.point(), &contact.rest_normal());
-            let harder = nodule::stiffening(nodules, tool.typical_radius, place);
-            own.elastic *= harder;
-            own.stiffness *= harder;
-        }
+        estimated_inclusions::stiffen(simulation, estimated, tool, own);
     }
 }
 

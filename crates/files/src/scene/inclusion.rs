@@ -1,13 +1,13 @@
 use std::f64::consts::PI;
-use std::ops::Bound::Included;
+use std::ops::Bound::{Excluded, Included};
 use std::path::{Path, PathBuf};
 
 use super::part::CAVITY;
 use super::{CavityContent, LengthUnit, PartContent, Shape, TissueChoice};
 use crate::{Domain, Error, Key, Keys};
 
-/// A part of an organ with a tissue of its own, such as a tumour or a vessel, which the hybrid and the nonlinear model feel, or a cavity, which the
-/// nonlinear model has.
+/// A part of an organ with a tissue of its own, such as a tumour or a vessel, which the hybrid and the nonlinear model solve and the
+/// local one estimates, or a cavity, which the nonlinear model has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inclusion {
     /// Its name, for people.
@@ -16,6 +16,18 @@ pub struct Inclusion {
     pub place: InclusionPlace,
     /// What it is made of.
     pub content: PartContent,
+}
+
+/// An inclusion of the tissue around it, so many times as stiff, whose effect on the force is estimated: it needs no preparation, and
+/// may be drawn anew for each attempt.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EstimatedInclusion {
+    /// Its name, for people.
+    pub name: String,
+    /// Where it is.
+    pub shape: InclusionShape,
+    /// Its modulus over that of the tissue around it [-].
+    pub stiffness_ratio: f64,
 }
 
 /// Where an inclusion is.
@@ -105,6 +117,7 @@ impl Inclusion {
         TissueChoice::KEYS[0],
         TissueChoice::KEYS[1],
         CAVITY,
+        STIFFNESS_RATIO,
     ];
 
     /// The inclusion of a table with these keys, the `number`th from 0; paths begin in `folder`.
@@ -120,6 +133,66 @@ impl Inclusion {
         })
     }
 }
+
+impl EstimatedInclusion {
+    /// As [`Inclusion::from_keys`].
+    pub(super) fn from_keys(keys: &Keys<'_>, name: String) -> Result<Self, Error> {
+        for key in ["tissue", "builtin_tissue", "cavity"] {
+            if keys.contains(key) {
+                return Err(keys.given_twice("stiffness_ratio", key));
+            }
+        }
+        for key in ["mesh", "mesh_unit", "surface", "layer", "label"] {
+            keys.refuse(
+                key,
+                "nothing beside `stiffness_ratio`, for only the effect of a ball, an ellipsoid or a capsule is estimated; give it a \
+                 `tissue`",
+            )?;
+        }
+        Ok(Self {
+            name,
+            shape: InclusionShape::from_keys(keys)?,
+            stiffness_ratio: keys.required_number("stiffness_ratio")?,
+        })
+    }
+
+    /// Keys of a ball by the name that these inclusions had first.
+    pub(super) const BALL_KEYS: &[Key] = &[
+        BALL[0],
+        BALL[1],
+        Key::number(
+            "stiffness_ratio",
+            STIFFER,
+            "Its modulus over that of the organ.",
+        )
+        .required("6.0"),
+    ];
+
+    /// The ball of a table with these keys, the `number`th from 0.
+    pub(super) fn from_ball_keys(keys: &Keys<'_>, number: usize) -> Result<Self, Error> {
+        Ok(Self {
+            name: format!("nodule {}", number + 1),
+            shape: InclusionShape::ball(keys)?,
+            stiffness_ratio: keys.required_number("stiffness_ratio")?,
+        })
+    }
+
+    /// Its middle [m].
+    pub fn middle(&self) -> [f64; 3] {
+        self.shape.point([0.0; 3], 0.5)
+    }
+}
+
+const STIFFER: Domain =
+    Domain::number("a number", [Excluded(1.0), Included(1e9)]).usually(1.0, 1000.0);
+
+pub(super) const STIFFNESS_RATIO: Key = Key::number(
+    "stiffness_ratio",
+    STIFFER,
+    "In place of a tissue: of a ball, an ellipsoid or a capsule of the organ's tissue so many times as stiff. Its effect on the force \
+     is estimated and needs no preparation, so that it may be drawn anew for each attempt; where it stays, a tissue is more accurate.",
+)
+.optional("6.0", "it is of a tissue");
 
 /// A radius [m].
 const RADIUS: Domain = Domain::quantity("a radius", "m", [Included(1e-6), Included(1e3)]);
@@ -171,10 +244,7 @@ impl InclusionShape {
         let ellipsoid = keys.table("ellipsoid")?;
         let capsule = keys.table("capsule")?;
         match (ball, ellipsoid, capsule) {
-            (Some(keys), None, None) => Ok(Self::Ball {
-                center_m: keys.required_vector("center_m")?,
-                radius_m: keys.required_number("radius_m")?,
-            }),
+            (Some(keys), None, None) => Self::ball(&keys),
             (None, Some(keys), None) => Ok(Self::Ellipsoid {
                 center_m: keys.required_vector("center_m")?,
                 radii_m: keys.required_vector("radii_m")?,
@@ -194,6 +264,13 @@ impl InclusionShape {
             (Some(_), _, Some(_)) => Err(keys.given_twice("ball", "capsule")),
             (_, Some(_), Some(_)) => Err(keys.given_twice("ellipsoid", "capsule")),
         }
+    }
+
+    fn ball(keys: &Keys<'_>) -> Result<Self, Error> {
+        Ok(Self::Ball {
+            center_m: keys.required_vector("center_m")?,
+            radius_m: keys.required_number("radius_m")?,
+        })
     }
 
     /// The point of the shape [m] with the coordinates `unit` [-] in a ball of radius one, which in a capsule is around the

@@ -28,7 +28,7 @@ pub use cut_line::CutLine;
 pub use cutting::{CutMode, Cutting};
 pub use draw::{Drawn, Draws, FindOnSurface, LARGEST_SEED, OnSurface, SurfacePoint, Variant};
 pub use goal::{Goal, SoughtSize, TouchGoal};
-pub use inclusion::{Inclusion, InclusionPlace, InclusionShape};
+pub use inclusion::{EstimatedInclusion, Inclusion, InclusionPlace, InclusionShape};
 pub use jaws::Jaws;
 use model::Asked;
 pub use model::{Enhancement, LocalSettings, Model};
@@ -37,7 +37,7 @@ pub use model_words::{
     Placement, ResponseMethod, Smoothing, Solver,
 };
 pub use neighbour::{Location, Neighbour, SoftNeighbour};
-pub use organ::{Layer, Nodule, Organ};
+pub use organ::{Layer, Organ};
 pub use part::{BodyPart, PartContent, PartPlace};
 pub use region::{Region, RegionBox, RegionPlane, RegionSphere};
 pub use shape::{BuiltinOrgan, LengthUnit, Shape};

@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use super::organ::parts;
+use super::organ::Parts;
 use super::{Inclusion, Layer, Region, Shape, TissueChoice};
 use crate::{BuiltinTissue, Domain, Error, Key, Keys, Tissue};
 
@@ -160,6 +160,14 @@ impl Neighbour {
                 "nothing in a further organ, for only the first `[[organ]]` can have it yet",
             )?;
         }
+        for list in ["inclusion", "region"] {
+            for keys in keys.tables(list)? {
+                keys.refuse(
+                    "stiffness_ratio",
+                    "nothing in a further organ, for only in the first `[[organ]]` inclusions are estimated; give it a `tissue`",
+                )?;
+            }
+        }
         for keys in keys.tables("layer")? {
             for key in ["perforation_force_n", "toughness_j_per_m2"] {
                 keys.refuse(
@@ -169,7 +177,9 @@ impl Neighbour {
             }
         }
         let tissue = SoftNeighbour::of_tissue(keys, folder)?;
-        let (layers, inclusions) = parts(keys, folder, &tissue.tissue)?;
+        let Parts {
+            layers, inclusions, ..
+        } = Parts::from_keys(keys, folder, &tissue.tissue)?;
         Ok(Self {
             shape: Shape::from_keys(keys, folder)?,
             location: Location::from_keys(keys)?,

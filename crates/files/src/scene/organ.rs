@@ -1,8 +1,10 @@
-use std::ops::Bound::{Excluded, Included};
 use std::path::Path;
 
 use super::neighbour::{LEAST_NODES, MOST_NODES};
-use super::{BodyPart, Inclusion, Neighbour, PartContent, PartPlace, Region, Shape, TissueChoice};
+use super::{
+    BodyPart, EstimatedInclusion, Inclusion, Neighbour, PartContent, PartPlace, Region, Shape,
+    TissueChoice,
+};
 use crate::{Domain, Error, Event, Key, Keys};
 
 /// What an organ means that does not say where it stands.
@@ -24,23 +26,12 @@ pub struct Organ {
     pub layers: Vec<Layer>,
     /// Parts of another tissue in it, and cavities.
     pub inclusions: Vec<Inclusion>,
-    /// Stiff balls in it.
-    pub nodules: Vec<Nodule>,
+    /// Stiff parts in it whose effect is estimated.
+    pub estimated_inclusions: Vec<EstimatedInclusion>,
     /// Whether its parts stay out of one another, with the nonlinear model.
     pub self_contact: bool,
     /// Coulomb's coefficient between them [-].
     pub self_friction: f64,
-}
-
-/// A ball of stiffer tissue in an organ, such as a tumour.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Nodule {
-    /// Its middle [m].
-    pub center_m: [f64; 3],
-    /// Its radius [m].
-    pub radius_m: f64,
-    /// Its modulus over that of the organ [-].
-    pub stiffness_ratio: f64,
 }
 
 /// A layer of an organ. A blade opens it where it goes as deep as the layer's lower face, and any tool where the
@@ -88,8 +79,8 @@ impl Organ {
         Key::tables(
             "inclusion",
             Inclusion::KEYS,
-            "Parts of another tissue, such as a tumour or a vessel, which the hybrid and the nonlinear model feel, and cavities, \
-             which the nonlinear model has.",
+            "Parts of another tissue, such as a tumour or a vessel, which the hybrid and the nonlinear model solve and the local one \
+             estimates, and cavities, which the nonlinear model has.",
         )
         .optional("", "none"),
         Key::tables(
@@ -101,9 +92,8 @@ impl Organ {
         .optional("", "none"),
         Key::tables(
             "nodule",
-            Nodule::KEYS,
-            "Balls of stiffer tissue, whose effect on the force is estimated, so that they may be drawn anew for each attempt \
-             without a new preparation. Where they stay, `inclusion` is more accurate.",
+            EstimatedInclusion::BALL_KEYS,
+            "Earlier form of an `inclusion` with a `ball` and a `stiffness_ratio`, which is still read.",
         )
         .optional("", "none"),
         Key::truth(
@@ -146,16 +136,19 @@ impl Organ {
             let table = keys.table(key)?;
             table.map(|keys| Region::from_keys(&keys)).transpose()
         };
-        let nodules = keys.tables("nodule")?;
         let tissue = TissueChoice::from_keys(keys, folder)?;
-        let (layers, inclusions) = parts(keys, folder, &tissue)?;
+        let Parts {
+            layers,
+            inclusions,
+            estimated: mut estimated_inclusions,
+        } = Parts::from_keys(keys, folder, &tissue)?;
+        for (number, keys) in keys.tables("nodule")?.iter().enumerate() {
+            estimated_inclusions.push(EstimatedInclusion::from_ball_keys(keys, number)?);
+        }
         Ok(Self {
             self_contact: keys.truth("self_contact")?.unwrap_or(false),
             self_friction: keys.number("self_friction")?.unwrap_or(0.0),
-            nodules: nodules
-                .iter()
-                .map(Nodule::from_keys)
-                .collect::<Result<_, _>>()?,
+            estimated_inclusions,
             shape: Shape::from_keys(keys, folder)?,
             tissue,
             anchor: region("anchor")?,
@@ -166,64 +159,89 @@ impl Organ {
     }
 }
 
-/// The layers and the inclusions of an organ of tissue `around`.
-pub(super) fn parts(
-    keys: &Keys<'_>,
-    folder: &Path,
-    around: &TissueChoice,
-) -> Result<(Vec<Layer>, Vec<Inclusion>), Error> {
-    let layers = keys.tables("layer")?;
-    let mut layers: Vec<Layer> = layers
-        .iter()
-        .enumerate()
-        .map(|(number, keys)| Layer::from_keys(keys, number, (folder, around)))
-        .collect::<Result<_, _>>()?;
-    let inclusions = keys.tables("inclusion")?;
-    let mut inclusions: Vec<Inclusion> = inclusions
-        .iter()
-        .enumerate()
-        .map(|(number, keys)| Inclusion::from_keys(keys, number, folder))
-        .collect::<Result<_, _>>()?;
-    let mut key = "layer";
-    for (number, keys) in keys.tables("region")?.iter().enumerate() {
-        let BodyPart {
-            name,
-            place,
-            content,
-            key: shape,
-        } = BodyPart::from_keys(keys, number, folder)?;
-        match place {
-            PartPlace::Layer(thickness_m) => {
-                let PartContent::Tissue(tissue) = content else {
-                    return Err(keys.bad("cavity", "a tissue, as a layer is of one"));
-                };
-                key = "region";
-                layers.push(Layer {
-                    name,
-                    thickness_m,
-                    tissue,
-                    perforation_force_n: None,
-                    toughness_j_per_m2: None,
-                });
+/// What is not of the tissue of an organ.
+pub(super) struct Parts {
+    pub(super) layers: Vec<Layer>,
+    pub(super) inclusions: Vec<Inclusion>,
+    pub(super) estimated: Vec<EstimatedInclusion>,
+}
+
+impl Parts {
+    /// Those of an organ of tissue `around`.
+    pub(super) fn from_keys(
+        keys: &Keys<'_>,
+        folder: &Path,
+        around: &TissueChoice,
+    ) -> Result<Self, Error> {
+        let layers = keys.tables("layer")?;
+        let mut layers: Vec<Layer> = layers
+            .iter()
+            .enumerate()
+            .map(|(number, keys)| Layer::from_keys(keys, number, (folder, around)))
+            .collect::<Result<_, _>>()?;
+        let (mut inclusions, mut estimated) = (Vec::new(), Vec::new());
+        for (number, keys) in keys.tables("inclusion")?.iter().enumerate() {
+            if keys.contains("stiffness_ratio") {
+                let name = keys
+                    .text("name")?
+                    .unwrap_or_else(|| format!("inclusion {}", number + 1));
+                estimated.push(EstimatedInclusion::from_keys(keys, name)?);
+            } else {
+                inclusions.push(Inclusion::from_keys(keys, number, folder)?);
             }
-            PartPlace::Inclusion(place) => inclusions.push(Inclusion {
+        }
+        let mut key = "layer";
+        for (number, keys) in keys.tables("region")?.iter().enumerate() {
+            if keys.contains("stiffness_ratio") {
+                let name = keys
+                    .text("name")?
+                    .unwrap_or_else(|| format!("region {}", number + 1));
+                estimated.push(EstimatedInclusion::from_keys(keys, name)?);
+                continue;
+            }
+            let BodyPart {
                 name,
                 place,
                 content,
-            }),
-            PartPlace::Label(_) | PartPlace::Group(_) => {
-                return Err(keys.bad(
+                key: shape,
+            } = BodyPart::from_keys(keys, number, folder)?;
+            match place {
+                PartPlace::Layer(thickness_m) => {
+                    let PartContent::Tissue(tissue) = content else {
+                        return Err(keys.bad("cavity", "a tissue, as a layer is of one"));
+                    };
+                    key = "region";
+                    layers.push(Layer {
+                        name,
+                        thickness_m,
+                        tissue,
+                        perforation_force_n: None,
+                        toughness_j_per_m2: None,
+                    });
+                }
+                PartPlace::Inclusion(place) => inclusions.push(Inclusion {
+                    name,
+                    place,
+                    content,
+                }),
+                PartPlace::Label(_) | PartPlace::Group(_) => {
+                    return Err(keys.bad(
                     shape,
                     "`surface = \"file.stl\"` or another shape, for the mesh of an organ is a surface, which has no numbered \
                      regions",
                 ));
+                }
             }
         }
+        if layers.len() > Event::OPENS_LAYER.len() {
+            return Err(keys.bad(key, "at most 6 layers: a session has an event for each"));
+        }
+        Ok(Self {
+            layers,
+            inclusions,
+            estimated,
+        })
     }
-    if layers.len() > Event::OPENS_LAYER.len() {
-        return Err(keys.bad(key, "at most 6 layers: a session has an event for each"));
-    }
-    Ok((layers, inclusions))
 }
 
 /// Refuses the cavities of an organ, for a model that has none.
@@ -237,30 +255,6 @@ pub(super) fn refuse_cavities(organ: &Keys<'_>) -> Result<(), Error> {
         }
     }
     Ok(())
-}
-
-const STIFFER: Domain =
-    Domain::number("a number", [Excluded(1.0), Included(1e9)]).usually(1.0, 1000.0);
-
-impl Nodule {
-    const KEYS: &[Key] = &[
-        Key::vector("center_m", Domain::POSITION, "Its middle.").required("[0.02, 0.01, 0.03]"),
-        Key::number("radius_m", Domain::LENGTH, "Its radius.").required("0.005"),
-        Key::number(
-            "stiffness_ratio",
-            STIFFER,
-            "Its modulus over that of the organ.",
-        )
-        .required("6.0"),
-    ];
-
-    fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
-        Ok(Self {
-            center_m: keys.required_vector("center_m")?,
-            radius_m: keys.required_number("radius_m")?,
-            stiffness_ratio: keys.required_number("stiffness_ratio")?,
-        })
-    }
 }
 
 impl Layer {

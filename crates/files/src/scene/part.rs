@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use super::inclusion::{BALL, CAPSULE, ELLIPSOID, InclusionShape};
+use super::inclusion::{BALL, CAPSULE, ELLIPSOID, InclusionShape, STIFFNESS_RATIO};
 use super::{CavityContent, InclusionPlace, LengthUnit, Shape, TissueChoice};
 use crate::{Domain, Error, Key, Keys};
 
@@ -94,6 +94,7 @@ impl BodyPart {
         TissueChoice::KEYS[0],
         TissueChoice::KEYS[1],
         CAVITY,
+        STIFFNESS_RATIO,
     ];
 
     /// The keys of a part of a body that may be a volume mesh.

@@ -8,9 +8,8 @@ format = 1
 [organ]
 builtin = "hemisphere"
 builtin_tissue = "pig-liver"
-[[organ.nodule]]
-center_mm = { draw = "lump" }
-radius_m = { draw = "radius" }
+[[organ.inclusion]]
+ball = { center_mm = { draw = "lump" }, radius_m = { draw = "radius" } }
 stiffness_ratio = { draw = "stiffness" }
 [[tool]]
 name = "left"
@@ -68,7 +67,10 @@ fn the_same_seed_is_the_same_scene_and_another_is_another() {
     assert_eq!(one.variant.as_ref().unwrap().seed, 7);
     assert!(one.draws.is_none());
     let other = scene.drawn(8, &flat).unwrap();
-    assert_ne!(one.organ.nodules, other.organ.nodules);
+    assert_ne!(
+        one.organ.estimated_inclusions,
+        other.organ.estimated_inclusions
+    );
     assert!(scene.drawn(LARGEST_SEED, &flat).is_ok());
 }
 
@@ -95,10 +97,10 @@ fn values_are_those_of_their_distributions() {
     let mut depths = Vec::new();
     let (mut lefts, mut soft) = (0, 0);
     for one in &all {
-        let nodule = one.organ.nodules[0];
-        assert!((0.004..=0.006).contains(&nodule.radius_m));
+        let lump = &one.organ.estimated_inclusions[0];
+        assert!((0.004..=0.006).contains(&lump.shape.smallest_radius()));
         // The place takes the value in its own unit.
-        assert!((0.030..=0.040).contains(&nodule.center_m[2]), "{nodule:?}");
+        assert!((0.030..=0.040).contains(&lump.middle()[2]), "{lump:?}");
         let (Drawn::Vector(place), Drawn::Number(depth), Drawn::Vector(below)) = (
             value(one, "place"),
             value(one, "depth"),
@@ -109,7 +111,7 @@ fn values_are_those_of_their_distributions() {
         assert_eq!(below[..2], place[..2]);
         assert!((place[2] - below[2] - depth).abs() < 1e-15);
         depths.push(*depth);
-        soft += usize::from(nodule.stiffness_ratio == 4.0);
+        soft += usize::from(lump.stiffness_ratio == 4.0);
         let Goal::Traction { tool, .. } = &one.task.goal else {
             panic!("{:?}", one.task)
         };
@@ -128,7 +130,7 @@ fn values_are_those_of_their_distributions() {
     // Draws with different names do not follow one another.
     let both = all.iter().filter(|one| {
         let left = *value(one, "hand") == Drawn::Text("left".to_owned());
-        left == (one.organ.nodules[0].stiffness_ratio == 4.0)
+        left == (one.organ.estimated_inclusions[0].stiffness_ratio == 4.0)
     });
     assert!(both.count().abs_diff(150) < 35);
 }
@@ -175,7 +177,7 @@ fn what_cannot_be_drawn_is_an_error_at_its_line() {
             "uniform = [0.004, 0.006]",
             "uniform = [-0.006, -0.004]",
             8,
-            "organ.nodule[0].radius_m",
+            "organ.inclusion[0].ball.radius_m",
         ),
         (
             "uniform = [0.004, 0.006]",

@@ -40,12 +40,16 @@ fn every_key_is_understood() {
         size: None,
     };
     assert_eq!(scene.task.goal, goal);
-    let nodule = Nodule {
-        center_m: [0.0, 0.0, 0.02],
-        radius_m: 0.005,
+    // By the name that they had first.
+    let nodule = EstimatedInclusion {
+        name: "nodule 1".to_owned(),
+        shape: InclusionShape::Ball {
+            center_m: [0.0, 0.0, 0.02],
+            radius_m: 0.005,
+        },
         stiffness_ratio: 6.0,
     };
-    assert_eq!(scene.organ.nodules, [nodule]);
+    assert_eq!(scene.organ.estimated_inclusions, [nodule]);
     assert!((scene.view.field_of_view_rad - 60_f64.to_radians()).abs() < 1e-15);
     assert_eq!(scene.view.shading, Shading::Plain);
 }

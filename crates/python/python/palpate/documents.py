@@ -533,7 +533,7 @@ class SceneOrganInclusionEllipsoid(TypedDict, total=False):
 
 
 class SceneOrganInclusion(TypedDict, total=False):
-    """Parts of another tissue, such as a tumour or a vessel, which the hybrid and the nonlinear model feel, and cavities, which the nonlinear model has. (default: none)"""
+    """Parts of another tissue, such as a tumour or a vessel, which the hybrid and the nonlinear model solve and the local one estimates, and cavities, which the nonlinear model has. (default: none)"""
 
     ball: SceneOrganInclusionBall
     """A ball. One of the three shapes or `mesh` has to be there. (default: another shape is there)"""
@@ -551,6 +551,8 @@ class SceneOrganInclusion(TypedDict, total=False):
     """The unit of the coordinates in the mesh file. (default: the file's own unit, or a guess from its size, with a warning)"""
     name: str | Draw
     """What people call it. (default: its number)"""
+    stiffness_ratio: float | Draw
+    """In place of a tissue: of a ball, an ellipsoid or a capsule of the organ's tissue so many times as stiff. Its effect on the force is estimated and needs no preparation, so that it may be drawn anew for each attempt; where it stays, a tissue is more accurate. (default: it is of a tissue)"""
     tissue: str | SceneNeighbourTissue | Draw
     """A tissue file, or a table with a tissue's keys. (default: `builtin_tissue` names one)"""
 
@@ -584,10 +586,10 @@ class SceneOrganLayer(TypedDict, total=False):
 
 
 class SceneOrganNodule(TypedDict, total=False):
-    """Balls of stiffer tissue, whose effect on the force is estimated, so that they may be drawn anew for each attempt without a new preparation. Where they stay, `inclusion` is more accurate. (default: none)"""
+    """Earlier form of an `inclusion` with a `ball` and a `stiffness_ratio`, which is still read. (default: none)"""
 
     center_cm: Sequence[float] | Draw
-    """Its middle. (required)"""
+    """Its centre. (required)"""
     center_m: Sequence[float] | Draw
     center_mm: Sequence[float] | Draw
     center_nm: Sequence[float] | Draw
@@ -634,6 +636,8 @@ class SceneOrganRegion(TypedDict, total=False):
     """The unit of the coordinates in the mesh file. (default: the file's own unit, or a guess from its size, with a warning)"""
     name: str | Draw
     """What people call it. (default: its group or number)"""
+    stiffness_ratio: float | Draw
+    """In place of a tissue: of a ball, an ellipsoid or a capsule of the organ's tissue so many times as stiff. Its effect on the force is estimated and needs no preparation, so that it may be drawn anew for each attempt; where it stays, a tissue is more accurate. (default: it is of a tissue)"""
     surface: str | Draw
     """A mesh file with a closed surface in the body, as of a tumour or a vessel. (default: another shape is there)"""
     tissue: str | SceneNeighbourTissue | Draw
@@ -658,7 +662,7 @@ class SceneOrgan(TypedDict, total=False):
     friction: float | Draw
     """A further organ: Coulomb's coefficient between it and other organs. (default: 0.0)"""
     inclusion: Sequence[SceneOrganInclusion]
-    """Parts of another tissue, such as a tumour or a vessel, which the hybrid and the nonlinear model feel, and cavities, which the nonlinear model has. (default: none)"""
+    """Parts of another tissue, such as a tumour or a vessel, which the hybrid and the nonlinear model solve and the local one estimates, and cavities, which the nonlinear model has. (default: none)"""
     layer: Sequence[SceneOrganLayer]
     """Its layers from outside to inside, at most 6, above `tissue`. A blade opens a layer where it goes as deep as its lower face, and any tool where it is bare and the normal force exceeds `perforation_force_n`. The hybrid and the nonlinear model feel its tissue; with the local one the organ answers as `tissue` does. (default: it is of one tissue)"""
     mesh: str | Draw
@@ -668,7 +672,7 @@ class SceneOrgan(TypedDict, total=False):
     nodes: int | Draw
     """A further organ: about how many nodes carry its mechanics; `model.nodes` says it of the first. (default: 500 of a further organ)"""
     nodule: Sequence[SceneOrganNodule]
-    """Balls of stiffer tissue, whose effect on the force is estimated, so that they may be drawn anew for each attempt without a new preparation. Where they stay, `inclusion` is more accurate. (default: none)"""
+    """Earlier form of an `inclusion` with a `ball` and a `stiffness_ratio`, which is still read. (default: none)"""
     region: Sequence[SceneOrganRegion]
     """Layers, in the order of the file after those of `layer`, and inclusions and cavities, after those of `inclusion`: all in one list. (default: none)"""
     scale: float | Draw
@@ -1903,6 +1907,8 @@ class SolidInclusion(TypedDict, total=False):
     """The unit of the coordinates in the mesh file. (default: the file's own unit, or a guess from its size, with a warning)"""
     name: str
     """What people call it. (default: its number)"""
+    stiffness_ratio: float
+    """In place of a tissue: of a ball, an ellipsoid or a capsule of the organ's tissue so many times as stiff. Its effect on the force is estimated and needs no preparation, so that it may be drawn anew for each attempt; where it stays, a tissue is more accurate. (default: it is of a tissue)"""
     tissue: str | TissueTissue
     """A tissue file, or a table with a tissue's keys. (default: `builtin_tissue` names one)"""
 

@@ -96,7 +96,7 @@ impl Stepper {
         self.course.state.set_show_every(period);
     }
 
-    /// Everything as in the beginning; with the stiff balls and the task of `scene`, if one is given.
+    /// Everything as in the beginning; with the estimated inclusions and the task of `scene`, if one is given.
     pub(super) fn reset(
         &mut self,
         model: &Model,
@@ -109,7 +109,7 @@ impl Stepper {
             clock,
             judge,
         } = &mut self.course;
-        state.set_nodules(&model.prepared, &scene.organ.nodules)?;
+        state.set_estimated_inclusions(&model.prepared, &scene.organ.estimated_inclusions)?;
         state.reset(&model.prepared);
         state.set_show_every(period);
         *clock = Clock::default();

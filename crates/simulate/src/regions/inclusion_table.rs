@@ -12,6 +12,10 @@ const LOADS: usize = 8;
 const LOAD_FACTOR: f64 = 2.0;
 const LEAST_LOAD: f64 = 1.7;
 
+/// Radius of the flat punch that spreads a force as far as Hertz's pressure does, in radii of that: ⟨r²⟩ is ⅔ a² of the one and ⅖ a² of
+/// the other [-].
+const PUNCH_OF_HERTZ: f64 = 0.774_596_669_241_483;
+
 /// Places of a triangle: its corners, then the middles of 01, 12, 20.
 const PLACES: usize = 6;
 
@@ -46,11 +50,8 @@ impl InclusionTable {
             return Self::default();
         }
         let (Tip::Flat { radius } | Tip::Sphere { radius }) = tip;
-        let least = match tip {
-            Tip::Flat { .. } => radius,
-            Tip::Sphere { .. } => radius * TIP_FACTOR.powi(1 - TIPS as i32),
-        };
-        let radii: [f64; TIPS] = std::array::from_fn(|n| least * TIP_FACTOR.powi(n as i32));
+        let radii = radii(tip);
+        let least = radii[0];
         let tips = radii.map(|touching| match tip {
             Tip::Flat { .. } => Load::punch(radius),
             Tip::Sphere { .. } => Load::hertz(touching),
@@ -123,7 +124,32 @@ impl InclusionTable {
     }
 }
 
+/// Areas that touch for which inclusions are tabulated [m].
+fn radii(tip: Tip) -> [f64; TIPS] {
+    let least = match tip {
+        Tip::Flat { radius } => radius,
+        Tip::Sphere { radius } => radius * TIP_FACTOR.powi(1 - TIPS as i32),
+    };
+    std::array::from_fn(|n| least * TIP_FACTOR.powi(n as i32))
+}
+
 impl TipExchange {
+    /// Of inclusions that are in no mesh, at a place [m] and along an outward normal [-]: no load has anything of them.
+    pub(crate) fn unsolved(field: &InclusionField, tip: Tip, at: (&Vec3, &Vec3)) -> Self {
+        let radii = radii(tip);
+        let less = match tip {
+            Tip::Flat { radius } => [field.less(&[Load::punch(radius)], radius, at)[0]; TIPS],
+            Tip::Sphere { radius } => {
+                let loads = radii.map(|touching| Load::punch(PUNCH_OF_HERTZ * touching));
+                field.less_under_sphere(radii, field.less(&loads, radius, at))
+            }
+        };
+        Self {
+            least: radii[0],
+            at: less.map(|less| -less),
+        }
+    }
+
     /// That under the force at which an area of the radius `touching` [m] would touch without inclusions, and its change with the
     /// logarithm of the force.
     pub(crate) fn compliance(&self, touching: f64) -> [f64; 2] {

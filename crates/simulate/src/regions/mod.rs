@@ -185,6 +185,12 @@ impl Regions {
         self.tissues[1..].iter().map(|region| &region.tissue)
     }
 
+    /// Inclusions: of what tissue.
+    pub(crate) fn of_inclusions(&self) -> impl Iterator<Item = &Tissue> {
+        let inclusions = &self.tissues[1 + self.layers..];
+        inclusions.iter().map(|region| &region.tissue)
+    }
+
     /// What lies at the outer surface.
     pub(crate) fn at_surface(&self) -> &RegionTissue {
         &self.tissues[usize::from(self.layers > 0)]
@@ -201,11 +207,12 @@ impl Regions {
         interpolate(&self.load, radius)
     }
 
-    /// What the inclusions, and cavities, are to loads on the tissue around them, whose `law` of each tissue is scaled to Young's
-    /// modulus of the tissue at the surface.
+    /// What the inclusions, and cavities, are to loads on the tissue around them, with the `law` of each tissue, for compliances that are
+    /// scaled to Young's modulus of that of the tissue `unit`.
     pub(crate) fn inclusions(
         &self,
         law: impl Fn(&RegionTissue) -> LinearElastic,
+        unit: &RegionTissue,
     ) -> InclusionField {
         let around = law(&self.tissues[0]);
         let moduli = self.tissues.iter().enumerate().map(|(number, region)| {
@@ -217,8 +224,7 @@ impl Regions {
             }
         });
         let moduli: Vec<_> = moduli.collect();
-        let unit = law(self.at_surface()).youngs_modulus();
-        InclusionField::new(&self.map, &around, &moduli, unit)
+        InclusionField::new(&self.map, &around, &moduli, law(unit).youngs_modulus())
     }
 
     /// Puts the layers under the tip of a tool, whose law is that on what a flat tip of its typical radius meets: the area that

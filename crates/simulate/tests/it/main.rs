@@ -16,6 +16,7 @@ mod demonstration;
 mod digest;
 mod enhanced;
 mod errors;
+mod estimated_inclusions;
 mod friction;
 mod gestures;
 mod grip;
@@ -32,7 +33,7 @@ mod limits;
 mod loss;
 mod neighbours;
 mod no_allocation;
-mod nodules;
+
 mod nonlinear;
 mod nonlinear_cavities;
 mod nonlinear_cuts;

@@ -183,7 +183,7 @@ fn presses_as(
     interface: f64,
     modulus: impl Fn(f64, f64) -> f64,
 ) {
-    let [coarse, expected] = [2e-4, 1e-4].map(|fine| press.expected(&modulus, interface, fine));
+    let [coarse, expected] = [1e-4, 7e-5].map(|fine| press.expected(&modulus, interface, fine));
     assert!(
         (coarse / expected - 1.0).abs() < 0.01,
         "{name}: {coarse} {expected}"
@@ -285,11 +285,60 @@ fn many_inclusions_press_back_as_finite_elements() {
 }
 
 fn inclusions_press_back(press: (Press, &[Model<'_>], f64), balls: &[Ball]) {
+    let tissue = |modulus: f64| {
+        format!(
+            "tissue = {{ law = \"linear\", youngs_modulus_pa = {modulus:.1}, poissons_ratio = {RATIO} }}"
+        )
+    };
+    balls_press_back(press, balls, tissue);
+}
+
+/// The largest, a middle one and the least lump of the palpation task, and those of before that are stiffer than what is around.
+const STIFF_BALLS: [Ball; 6] = [
+    (10.5e-3, 11.5e-3, 1.6e5),
+    (8.5e-3, 12e-3, 1.2e5),
+    (6.5e-3, 12.5e-3, 8e4),
+    BALLS[0],
+    BALLS[1],
+    BALLS[3],
+];
+
+/// Over a ball that is nearer to the surface than a flat tip is wide the estimate is up to 8 % off.
+#[test]
+fn estimated_inclusions_press_back_as_finite_elements() {
+    let press = |bound| (Press::Flat, &ESTIMATING[..], bound);
+    balls_press_back(press(ASKED), &STIFF_BALLS[1..], stiffness_ratio);
+    balls_press_back(press(0.08), &STIFF_BALLS[..1], stiffness_ratio);
+}
+
+/// Over that ball, where a sphere is pressed in as far as the ball is deep, the estimate is 19 % off.
+#[test]
+#[ignore = "slow: two minutes"]
+fn estimated_inclusions_press_back_on_spheres() {
+    for (depth, bound) in [(1e-3, 0.2), (0.25e-3, ASKED)] {
+        let press = |bound| (sphere(depth), &ESTIMATING[..], bound);
+        balls_press_back(press(ASKED), &STIFF_BALLS[1..], stiffness_ratio);
+        balls_press_back(press(bound), &STIFF_BALLS[..1], stiffness_ratio);
+    }
+}
+
+const ESTIMATING: [Model<'_>; 2] = [("local", ""), HYBRID];
+
+fn stiffness_ratio(modulus: f64) -> String {
+    format!("stiffness_ratio = {:?}", modulus / YOUNGS_MODULUS)
+}
+
+/// `content` says of what a ball of a modulus [Pa] is.
+fn balls_press_back(
+    press: (Press, &[Model<'_>], f64),
+    balls: &[Ball],
+    content: impl Fn(f64) -> String,
+) {
     for &(radius, depth, modulus) in balls {
         let organ = format!(
-            "{BODY}\ninclusion = [{{ ball = {{ center_m = [0.002, 0.003, {:?}], radius_m = {radius:?} }}, \
-             tissue = {{ law = \"linear\", youngs_modulus_pa = {modulus:.1}, poissons_ratio = {RATIO} }} }}]",
-            0.05 - depth
+            "{BODY}\ninclusion = [{{ ball = {{ center_m = [0.002, 0.003, {:?}], radius_m = {radius:?} }}, {} }}]",
+            0.05 - depth,
+            content(modulus)
         );
         let name = format!("{modulus} Pa, {radius} m, {depth} m deep");
         presses_as(press, (&name, &organ), depth + radius, |r, at| {

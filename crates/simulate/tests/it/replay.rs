@@ -238,8 +238,8 @@ fn another_scene_is_not_played() {
     ));
     played.gestures(2, &mut Random(3));
     let session = played.session(&first);
-    let nodule = "nodule = [{ center_m = [0, 0, 0.04], radius_m = 0.004, stiffness_ratio = 5 }]";
-    let message = match Replay::new(simulation(MODELS[0], nodule), &session) {
+    let ball = "inclusion = [{ ball = { center_m = [0, 0, 0.04], radius_m = 0.004 }, stiffness_ratio = 5 }]";
+    let message = match Replay::new(simulation(MODELS[0], ball), &session) {
         Err(error) => error.to_string(),
         Ok(_) => panic!("played"),
     };

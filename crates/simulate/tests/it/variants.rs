@@ -82,18 +82,19 @@ fn a_lump_lies_as_deep_as_it_was_drawn() {
     let tree = AabbTree::new(surface.mesh());
     for seed in 0..20 {
         let one = draw_variant(&scene, seed).unwrap();
-        let nodule = one.organ.nodules[0];
-        let (_, outside) = surface.signed_distance(&tree, &Vec3::from(nodule.center_m));
+        let lump = &one.organ.estimated_inclusions[0];
+        let (_, outside) = surface.signed_distance(&tree, &Vec3::from(lump.middle()));
+        let radius = lump.shape.smallest_radius();
         let depth = (vector(&one, "place") - vector(&one, "lump")).norm();
         assert!(
             (-outside / depth - 1.0).abs() < 0.1,
             "{seed}: {outside} {depth}"
         );
-        assert!(depth > nodule.radius_m, "{seed}");
+        assert!(depth > radius, "{seed}");
         let Goal::Find { size, .. } = one.task.goal else {
             panic!("{:?}", one.task.goal)
         };
-        assert_eq!(size.unwrap().radius_m, nodule.radius_m, "{seed}");
+        assert_eq!(size.unwrap().radius_m, radius, "{seed}");
         let (_, off) = surface.signed_distance(&tree, &vector(&one, "place"));
         assert!(off.abs() < 1e-9, "{seed}: {off}");
     }

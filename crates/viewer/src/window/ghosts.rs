@@ -3,7 +3,7 @@
 
 use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2};
 use nalgebra::{Quaternion, Unit};
-use palpate_files::scene::{CutLine, Nodule};
+use palpate_files::scene::{CutLine, EstimatedInclusion};
 use palpate_geometry::Vec3;
 use palpate_simulate::Ghost;
 
@@ -23,8 +23,8 @@ const ARROW: f64 = 0.025;
 
 /// The middle of the lump that a target lies over [m], for from the eye it is not below that; the target where there is
 /// no lump.
-pub(super) fn nearest_lump(lumps: &[Nodule], target: Vec3) -> Vec3 {
-    let middles = lumps.iter().map(|lump| Vec3::from(lump.center_m));
+pub(super) fn nearest_lump(lumps: &[EstimatedInclusion], target: Vec3) -> Vec3 {
+    let middles = lumps.iter().map(|lump| Vec3::from(lump.middle()));
     let off = |middle: &Vec3| (middle - target).norm();
     let nearest = middles.min_by(|one, other| off(one).total_cmp(&off(other)));
     nearest.unwrap_or(target)

@@ -233,16 +233,18 @@ impl OrganView {
                 over.target(&target, touch.tolerance_m, is_covered);
             }
             Goal::Find { target_m, .. } if attempt.is_over() => {
-                for nodule in &play.scene.organ.nodules {
-                    let middle = Vec3::from(nodule.center_m);
-                    over.lump(&middle, nodule.radius_m);
+                let lumps = &play.scene.organ.estimated_inclusions;
+                for lump in lumps {
+                    let (middle, radius) =
+                        (Vec3::from(lump.middle()), lump.shape.smallest_radius());
+                    over.lump(&middle, radius);
                     if let Some(stated) = attempt.stated_diameter() {
-                        over.stated(&middle, 0.5 * stated, nodule.radius_m);
+                        over.stated(&middle, 0.5 * stated, radius);
                     }
                 }
                 if let Some(marked) = attempt.marked {
                     let target = Vec3::from(*target_m);
-                    over.mark(&marked, &nearest_lump(&play.scene.organ.nodules, target));
+                    over.mark(&marked, &nearest_lump(lumps, target));
                 }
             }
             _ => {}

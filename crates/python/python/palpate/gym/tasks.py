@@ -121,12 +121,17 @@ class Palpation(Task):
 
     def __init__(self, scene: palpate.Scene, rest: palpate.Mesh) -> None:
         super().__init__(scene, rest)
-        nodules = self.content["organ"].get("nodule", [])
-        if len(nodules) != 1:
-            raise palpate.InputError(f"the scene has {len(nodules)} `organ.nodule`s; give it one, which is to be found")
-        self.nodule = nodules[0]
+        inclusions = self.content["organ"].get("inclusion", [])
+        hidden = [inclusion for inclusion in inclusions if "stiffness_ratio" in inclusion and "ball" in inclusion]
+        if len(hidden) != 1:
+            raise palpate.InputError(
+                f"the scene has {len(hidden)} `organ.inclusion`s with a `ball` and a `stiffness_ratio`; give it one, which is to "
+                "be found"
+            )
+        self.inclusion = hidden[0]
+        self.others = [inclusion for inclusion in inclusions if inclusion is not self.inclusion]
         self.target = np.array(self.wanted["target_m"], dtype=float)
-        out = self.target - np.array(self.nodule["center_m"], dtype=float)
+        out = self.target - np.array(self.inclusion["ball"]["center_m"], dtype=float)
         self.below = float(np.linalg.norm(out))
         self.facing = out / max(self.below, 1e-12)
         self.places = self.near(self.target, self.REACH, self.facing)
@@ -136,7 +141,7 @@ class Palpation(Task):
         if len(self.hidden) == 0:
             raise palpate.InputError(
                 f"nowhere is the organ so thick that something could be hidden {1e3 * self.below:.1f} mm deep; move "
-                "`organ.nodule` nearer to `task.find.target_m`"
+                "the inclusion's `ball` nearer to `task.find.target_m`"
             )
 
     def scenario(self, draw: np.random.Generator) -> Scenario:
@@ -146,7 +151,8 @@ class Palpation(Task):
         # An agent marks a place, and states no size.
         for key in ("radius_m", "diameter_tolerance_m"):
             content["task"][self.word].pop(key, None)
-        content["organ"]["nodule"] = [{**self.nodule, "center_m": self.centers[place].tolist()}]
+        ball = {**self.inclusion["ball"], "center_m": self.centers[place].tolist()}
+        content["organ"]["inclusion"] = [*self.others, {**self.inclusion, "ball": ball}]
         above = self.vertices[start] + CLEAR * self.normals[start]
         return Scenario(palpate.Scene(content), above, np.empty(0))
 

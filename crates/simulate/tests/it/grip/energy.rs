@@ -1,7 +1,7 @@
 //! Friction and work.
 
 use palpate_files::Event;
-use palpate_files::scene::{Jaws, Nodule};
+use palpate_files::scene::{EstimatedInclusion, InclusionShape, Jaws};
 use palpate_geometry::{AabbTree, Vec3};
 use palpate_simulate::Simulation;
 
@@ -208,11 +208,14 @@ fn a_gain_of_energy_is_reported() {
         ..HEMISPHERE
     };
     let simulation = setting.simulation();
-    let stiffer = Nodule {
-        center_m: [0.0, 0.0, 0.047],
-        radius_m: 4e-3,
+    let stiffer = [EstimatedInclusion {
+        name: String::new(),
+        shape: InclusionShape::Ball {
+            center_m: [0.0, 0.0, 0.047],
+            radius_m: 4e-3,
+        },
         stiffness_ratio: 50.0,
-    };
+    }];
     for becomes_stiffer in [false, true] {
         let mut hands = Hands::new(&simulation);
         let (mut gains, mut forces) = (0, [0.0; 2]);
@@ -220,11 +223,14 @@ fn a_gain_of_energy_is_reported() {
             let depth = |step: i32| 2e-3 * (1.0 - f64::from(step).abs() / 20.0);
             for step in -20..=20 {
                 let before = if becomes_stiffer && step > 0 {
-                    &[stiffer][..]
+                    &stiffer[..]
                 } else {
                     &[]
                 };
-                hands.state.set_nodules(&simulation, before).unwrap();
+                hands
+                    .state
+                    .set_estimated_inclusions(&simulation, before)
+                    .unwrap();
                 let force = hands.at(&(POLE - Vec3::z() * depth(step)), 0.0);
                 if step.abs() == 1 {
                     forces[usize::from(step > 0)] = force.z;

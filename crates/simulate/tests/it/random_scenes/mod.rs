@@ -31,7 +31,7 @@ use crate::scenes::Random;
 /// one in 500 scenes the force over depth is computed, which takes four minutes.
 const TIME_LIMIT: Duration = Duration::from_secs(600);
 
-/// Of scenes that the reader takes, so many may be refused as input when they are prepared [-]: for a nodule or a trocar
+/// Of scenes that the reader takes, so many may be refused as input when they are prepared [-]: for an inclusion or a trocar
 /// in the wrong place, which nobody knows without the organ.
 const MOST_REFUSED: f64 = 0.2;
 
@@ -213,7 +213,7 @@ impl<'a> Check<'a> {
 
 /// More than any contact can answer [N]: twenty half-spaces, which is the stiffest that a model allows, under the widest
 /// tip or the faces of the jaws, moved through the `reach` [m] of the scene and as far again by each tool; a sphere
-/// stiffens with the root of its depth, a nodule by its ratio, nonlinear tissue along the tangent of its force.
+/// stiffens with the root of its depth, an inclusion by its ratio, nonlinear tissue along the tangent of its force.
 fn largest_force(scene: &Scene, reach: f64) -> f64 {
     let tissue = scene.organ.tissue.read().unwrap();
     let values = tissue.elasticity.values();
@@ -230,12 +230,9 @@ fn largest_force(scene: &Scene, reach: f64) -> f64 {
             .map_or(0.0, |jaws| jaws.length_m.max(jaws.width_m));
         2.0 * modulus * radius.max(jaws) * (reach / radius).sqrt().max(1.0)
     });
-    let nodules = scene
-        .organ
-        .nodules
-        .iter()
-        .map(|nodule| nodule.stiffness_ratio);
-    let stiffest = tools.fold(0.0, f64::max) * nodules.product::<f64>() * stiffens;
+    let inclusions = scene.organ.estimated_inclusions.iter();
+    let inclusions = inclusions.map(|inclusion| inclusion.stiffness_ratio);
+    let stiffest = tools.fold(0.0, f64::max) * inclusions.product::<f64>() * stiffens;
     // Of two tools that carry one another: 1/(1 − 0.99²) of the way of both.
     let carried = if scene.tools.len() > 1 { 100.0 } else { 1.0 };
     20.0 * stiffest * carried * reach

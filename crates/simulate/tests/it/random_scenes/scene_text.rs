@@ -52,7 +52,7 @@ pub(super) fn scene_text(random: &mut Random) -> String {
         text += &layers(random);
     }
     if random.chance(0.15) {
-        text += &nodule(random, organ);
+        text += &inclusion(random, organ);
     }
     text += &model(random, is_hybrid);
     if random.chance(0.5) {
@@ -105,14 +105,14 @@ fn layers(random: &mut Random) -> String {
 }
 
 /// In the middle of a body that has tissue there.
-fn nodule(random: &mut Random, organ: &str) -> String {
+fn inclusion(random: &mut Random, organ: &str) -> String {
     let middle = match organ {
         "hemisphere" => random.between(0.005, 0.045),
         "cube" => random.between(-0.045, 0.045),
         _ => return String::new(),
     };
     format!(
-        "[[organ.nodule]]\ncenter_m = [0.0, 0.0, {middle:?}]\nradius_m = {:?}\nstiffness_ratio = {:?}\n",
+        "[[organ.inclusion]]\nball = {{ center_m = [0.0, 0.0, {middle:?}], radius_m = {:?} }}\nstiffness_ratio = {:?}\n",
         random.spread(1e-3, 1e-2),
         random.between(1.5, 30.0)
     )

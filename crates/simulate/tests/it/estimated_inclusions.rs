@@ -1,13 +1,13 @@
-//! Stiff balls are up to a state: judged by a model that was made with them.
+//! Estimated inclusions are up to a state: judged by a model that was made with them.
 
-use palpate_files::scene::Nodule;
+use palpate_files::scene::{EstimatedInclusion, InclusionShape};
 use palpate_geometry::Vec3;
 use palpate_simulate::{Error, SimulationState};
 
 use crate::scenes::{Hand, Setting};
 
 const BALL: &str = "builtin = \"hemisphere\"\n\
-                    nodule = [{ center_m = [0, 0, 0.040], radius_m = 0.004, stiffness_ratio = 8 }]";
+                    inclusion = [{ ball = { center_m = [0, 0, 0.040], radius_m = 0.004 }, stiffness_ratio = 8 }]";
 
 /// The force after a press of 1 mm on the pole [N].
 fn pressed(hand: &mut Hand<'_>, top: f64) -> Vec3 {
@@ -17,7 +17,7 @@ fn pressed(hand: &mut Hand<'_>, top: f64) -> Vec3 {
 }
 
 #[test]
-fn a_state_with_other_balls_is_that_of_a_model_with_them() {
+fn a_state_with_other_inclusions_is_that_of_a_model_with_them() {
     let plain = Setting::default().simulation();
     let setting = Setting {
         organ: BALL,
@@ -33,7 +33,7 @@ fn a_state_with_other_balls_is_that_of_a_model_with_them() {
     );
     let mut hand = Hand::new(&plain);
     hand.state
-        .set_nodules(&plain, &scene.organ.nodules)
+        .set_estimated_inclusions(&plain, &scene.organ.estimated_inclusions)
         .unwrap();
     assert_eq!(pressed(&mut hand, top), expected);
     // What begins anew is the same organ.
@@ -42,16 +42,16 @@ fn a_state_with_other_balls_is_that_of_a_model_with_them() {
 }
 
 #[test]
-fn a_ball_outside_is_refused() {
+fn an_inclusion_outside_is_refused() {
     let plain = Setting::default().simulation();
-    let outside = Nodule {
-        center_m: [0.0, 0.0, 1.0],
-        radius_m: 0.004,
+    let outside = EstimatedInclusion {
+        name: "tumour".to_owned(),
+        shape: InclusionShape::Ball {
+            center_m: [0.0, 0.0, 1.0],
+            radius_m: 0.004,
+        },
         stiffness_ratio: 8.0,
     };
-    let refused = SimulationState::new(&plain).set_nodules(&plain, &[outside]);
-    assert!(matches!(
-        refused,
-        Err(Error::NoduleOutside { number: 0, .. })
-    ));
+    let refused = SimulationState::new(&plain).set_estimated_inclusions(&plain, &[outside]);
+    assert!(matches!(refused, Err(Error::EstimatedOutside { name, .. }) if name == "tumour"));
 }

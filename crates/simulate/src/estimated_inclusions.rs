@@ -1,0 +1,95 @@
+//! Stiff inclusions whose effect on the force is estimated, for they are in no model that was prepared.
+//!
+//! A tip over them is moved less by L F than without, where L follows in closed form from the stress under the tip and the energy that
+//! the inclusion takes from that (`palpate_mechanics::inclusion`): its force F₀(δ) becomes the F of which F = F₀(δ + L F).
+//!
+//! *How we know*: `regions::estimated_inclusions_press_back_as_finite_elements`, `estimated_inclusions::…`.
+//!
+//! *Limits*: the surface is flat there and the same at every depth; what an inclusion does to a force along the surface is what it does
+//! to one along the normal; the organ's shape is that without it.
+
+use palpate_files::scene::EstimatedInclusion;
+use palpate_geometry::{AabbTree, Surface, Vec3};
+use palpate_mechanics::LinearElastic;
+use palpate_mechanics::contact::Tip;
+use palpate_mechanics::inclusion::InclusionField;
+
+use crate::Error;
+use crate::regions::TipExchange;
+use crate::simulation::Simulation;
+use crate::state::ToolState;
+use crate::tool::Tool;
+
+/// Rounds, of which a few are needed: where a sphere touches what is nearly all stiff, each leaves 0.9 of the change.
+const MOST_ROUNDS: usize = 40;
+
+/// Change of the force that ends the rounds, in parts of it: a hundredth of what the estimate is good for [-].
+const SETTLED: f64 = 5e-4;
+
+/// Those in tissue of the law `around`, for compliances that are scaled to the Young's modulus `unit` [Pa].
+///
+/// # Errors
+/// When the middle of one is not in the organ.
+pub(crate) fn field(
+    inclusions: &[EstimatedInclusion],
+    (surface, tree): (&Surface, &AabbTree),
+    (around, unit): (&LinearElastic, f64),
+) -> Result<InclusionField, Error> {
+    for inclusion in inclusions {
+        let (_, outside) = surface.signed_distance(tree, &Vec3::from(inclusion.middle()));
+        if outside > 0.0 {
+            let name = inclusion.name.clone();
+            return Err(Error::EstimatedOutside { name, outside });
+        }
+    }
+    let shapes = inclusions.iter();
+    let shapes = shapes.map(|inclusion| (&inclusion.shape, inclusion.stiffness_ratio));
+    Ok(InclusionField::of_shapes(shapes, around, unit))
+}
+
+/// Makes the force of a tip that touches, and its stiffness, what they are over the inclusions of the `field`.
+pub(crate) fn stiffen(
+    simulation: &Simulation,
+    field: &InclusionField,
+    tool: &Tool,
+    state: &mut ToolState,
+) {
+    let Some(contact) = state.contact.filter(|_| !state.holds()) else {
+        return;
+    };
+    let law = &simulation.material.at_rest;
+    let alone = state.elastic.dot(&contact.normal()).max(0.0);
+    let touching = |force: f64| tool.touching_radius(law, force);
+    let radius = touching(alone);
+    if radius <= 0.0 {
+        return;
+    }
+    let (point, normal) = (contact.point(), contact.rest_normal());
+    let exchange = TipExchange::unsolved(field, tool.tip, (&point, &normal));
+    // What is more than a linear tip's is a nonlinear law's, which the inclusion has as well.
+    let most = 2.0 * radius * law.youngs_modulus() / (1.0 - law.poissons_ratio().powi(2));
+    let stiffness = normal.dot(&(state.stiffness * normal)).clamp(0.0, most);
+    let yields = |times: f64| {
+        let own = exchange.compliance(touching(times * alone));
+        own.map(|own| -own * stiffness / law.youngs_modulus())
+    };
+    let (times, steeper) = match tool.tip {
+        Tip::Flat { .. } => (1.0 / (1.0 - yields(1.0)[0]), 1.0),
+        Tip::Sphere { .. } => {
+            let mut times = 1.0_f64;
+            for _ in 0..MOST_ROUNDS {
+                let next = (1.0 + yields(times)[0] * times / 1.5).powf(1.5);
+                let change = (next / times - 1.0).abs();
+                times = next;
+                if change <= SETTLED {
+                    break;
+                }
+            }
+            (times, times.cbrt())
+        }
+    };
+    // L F grows with the force by L and by what L itself does.
+    let [less, growth] = yields(times);
+    state.elastic *= times;
+    state.stiffness *= steeper / (1.0 - steeper * (less + growth));
+}
