@@ -26,6 +26,12 @@ const MOST_ROUNDS: usize = 40;
 /// Change of the force that ends the rounds, in parts of it: a hundredth of what the estimate is good for [-].
 const SETTLED: f64 = 5e-4;
 
+/// Rounds of Newton's method, each of which leaves the square of the error: of a root of 0.1 a thousandth.
+const NEWTON_ROUNDS: usize = 6;
+
+/// What is left at least of a tip's compliance, which is positive but for rounding [-].
+const LEAST_LEFT: f64 = 0.01;
+
 /// Those in tissue of the law `around`, for compliances that are scaled to the Young's modulus `unit` [Pa].
 ///
 /// # Errors
@@ -78,7 +84,7 @@ pub(crate) fn stiffen(
         Tip::Sphere { .. } => {
             let mut times = 1.0_f64;
             for _ in 0..MOST_ROUNDS {
-                let next = (1.0 + yields(times)[0] * times / 1.5).powf(1.5);
+                let next = deeper(yields(times)[0], times);
                 let change = (next / times - 1.0).abs();
                 times = next;
                 if change <= SETTLED {
@@ -91,5 +97,39 @@ pub(crate) fn stiffen(
     // L F grows with the force by L and by what L itself does.
     let [less, growth] = yields(times);
     state.elastic *= times;
-    state.stiffness *= steeper / (1.0 - steeper * (less + growth));
+    state.stiffness *= steeper / (1.0 - steeper * (less + growth)).max(LEAST_LEFT);
+}
+
+/// How many times its force Hertz's sphere has that yields less by a part of its compliance [-], at about so many `times` the force. It
+/// is the t of which t = (1 + ⅔ x t)^(3/2).
+fn deeper(part: f64, times: f64) -> f64 {
+    let share = part / 1.5;
+    if share >= 0.0 {
+        return (1.0 + share * times).powf(1.5);
+    }
+    // Softer: t^(2/3) by Newton's method, which comes from above.
+    let mut root = 1.0_f64;
+    for _ in 0..NEWTON_ROUNDS {
+        let off = root - share * root.powf(1.5) - 1.0;
+        root -= off / (1.0 - 1.5 * share * root.sqrt());
+    }
+    root.powf(1.5)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Judge: the equation.
+    #[test]
+    fn a_sphere_on_what_is_softer_has_the_root() {
+        for part in [-0.01, -0.5, -5.0, -50.0] {
+            let times = deeper(part, 1.0);
+            let expected = (1.0 + part / 1.5 * times).powf(1.5);
+            assert!(
+                (times / expected - 1.0).abs() < 1e-2,
+                "{part}: {times} {expected}"
+            );
+        }
+    }
 }

@@ -230,11 +230,12 @@ impl Simulation {
         };
         if kind == ModelKind::Local {
             let organ = (scene, &surface);
-            if let Err(error) = surround(&mut tools, organ, &material.at_rest, resources.memory) {
-                warnings.push(format!(
+            match surround(&mut tools, organ, &material.at_rest, resources.memory) {
+                Ok(warning) => warnings.extend(warning),
+                Err(error) => warnings.push(format!(
                     "the organ's size is felt as that of a hemisphere of its volume, for boundary elements have no \
                      answer: {error}"
-                ));
+                )),
             }
         }
         let cutting = CuttingModel::new(scene, &surface)?;

@@ -4,7 +4,7 @@ use palpate_geometry::Surface;
 use crate::walls::Walls;
 
 /// More tetrahedra are not tried: a wall of so many takes minutes, a thick body some gigabytes.
-const MOST_TETRAHEDRA: f64 = 25_000.0;
+pub(super) const MOST_TETRAHEDRA: f64 = 25_000.0;
 
 /// Where a wall is lost between tetrahedra, ones with this part of the edge are tried [-], so many times
 /// in all.
@@ -30,13 +30,13 @@ impl Method {
         }
     }
 
-    /// Finite elements for `surface`, where they are wanted: the best first, the next where walls are lost
-    /// between its tetrahedra. They alone answer for several tissues.
+    /// Finite elements for a surface with its walls, where they are wanted: the best first, the next where walls are lost
+    /// between its tetrahedra, of which there are `most`. They alone answer for several tissues.
     pub(super) fn finite(
         wanted: ResponseMethod,
         has_regions: bool,
-        surface: &Surface,
-        walls: &Walls,
+        (surface, walls): (&Surface, &Walls),
+        most: f64,
     ) -> Vec<Self> {
         let finite = match wanted {
             ResponseMethod::Automatic => has_regions || walls.are_thin(),
@@ -46,7 +46,7 @@ impl Method {
         if !finite {
             return Vec::new();
         }
-        let shortest = (12.0 * surface.mesh().volume() / MOST_TETRAHEDRA).cbrt();
+        let shortest = (12.0 * surface.mesh().volume() / most).cbrt();
         // Where no wall bends, they need not be as small as the triangles.
         let edge = walls.edge_of_tetrahedra().max(shortest);
         let edges = (0..TRIES).map(|tries| edge * SHORTER.powi(tries));

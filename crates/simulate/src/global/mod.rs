@@ -54,7 +54,7 @@ use crate::{Error, Progress, Resources, held_region};
 pub use enhanced_surface::{EnhancedSurface, OrganField};
 use held::HeldWorkspace;
 use key::Ingredients;
-use method::Method;
+use method::{MOST_TETRAHEDRA, Method};
 use organ_slit::OrganSlit;
 use solve::Found;
 pub(crate) use surroundings::surround;
@@ -193,7 +193,12 @@ impl<'a> GlobalProblem<'a> {
         }
         let walls = Walls::new(&surface, &touchable);
         Ok(Self {
-            finite: Method::finite(scene.model.response, regions.is_some(), &surface, &walls),
+            finite: Method::finite(
+                scene.model.response,
+                regions.is_some(),
+                (&surface, &walls),
+                MOST_TETRAHEDRA,
+            ),
             regions: regions.map(OrganRegions::new).transpose()?,
             walls,
             surface,
@@ -270,7 +275,9 @@ impl<'a> GlobalProblem<'a> {
                 "the organ is solved by boundary elements, for finite elements have none: {error}"
             )
         }));
-        found.warnings.extend(self.walls.warning());
+        found
+            .warnings
+            .extend(self.walls.warning(&self.walls.instead()));
         Ok((method, found))
     }
 

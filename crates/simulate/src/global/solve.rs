@@ -69,7 +69,8 @@ pub(super) fn response(
     })
 }
 
-fn solve(
+/// The response, solved.
+pub(super) fn solve(
     ingredients: &Ingredients<'_>,
     memory: usize,
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,

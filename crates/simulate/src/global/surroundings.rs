@@ -1,48 +1,74 @@
 //! What an organ yields around each contact of the local model, beyond a half-space.
 //!
 //! The particles reach a few tip radii. That the organ ends, is held somewhere and is round is felt from afar, and is
-//! smooth over its surface: boundary elements of a few hundred triangles know it.
+//! smooth over its surface: boundary elements of a few hundred triangles know it, and where walls bend more than those do, some
+//! thousand tetrahedra.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use nalgebra::Matrix3;
 use palpate_files::Scene;
-use palpate_files::scene::Smoothing;
+use palpate_files::scene::{ResponseMethod, Smoothing};
 use palpate_geometry::{AabbTree, Surface};
 use palpate_mechanics::LinearElastic;
-use palpate_mechanics::boundary_elements::BoundaryProblem;
 use palpate_mechanics::enhance::Interpolation;
-use palpate_mechanics::surface_response::{SurfaceResponse, TipField};
+use palpate_mechanics::surface_response::TipField;
 
+use super::key::Ingredients;
 use super::mechanical_surface::mechanical_surface;
+use super::method::Method;
+use super::solve::solve;
 use super::{centroid, held_region};
 use crate::Error;
 use crate::tool::Tool;
+use crate::walls::Walls;
 
 /// Triangles that carry it: on a cube, the force under a tip is 1 % too small with so many, 2 % with 300.
 const TRIANGLES: usize = 500;
 
-/// Gives every tool what the organ of `scene`, which is seen as `shown`, yields beyond a half-space.
+/// More tetrahedra would take longer than this model may: some seconds.
+const MOST_TETRAHEDRA: f64 = 5_000.0;
+
+/// Gives every tool what the organ of `scene`, which is seen as `shown`, yields beyond a half-space; with a warning.
 pub(crate) fn surround(
     tools: &mut [Tool],
     (scene, shown): (&Scene, &Surface),
     law: &LinearElastic,
     memory: usize,
-) -> Result<(), Error> {
+) -> Result<Option<String>, Error> {
     let (surface, _) = mechanical_surface(shown, Some(TRIANGLES))?;
     let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
     let mesh = surface.mesh();
     let (held, free): (Vec<_>, Vec<_>) = mesh
         .triangle_ids()
         .partition(|&triangle| anchor.holds(centroid(&surface, triangle)));
-    let problem = BoundaryProblem {
-        surface: &surface,
-        poissons_ratio: law.poissons_ratio(),
-        held: &held,
-        touchable: &free,
+    let walls = Walls::new(&surface, &free);
+    let by = |method| {
+        let ingredients = Ingredients {
+            surface: &surface,
+            poissons_ratio: law.poissons_ratio(),
+            held: &held,
+            touchable: &free,
+            method,
+            regions: None,
+        };
+        solve(&ingredients, memory, &mut |_| ControlFlow::Continue(()))
     };
-    let response: SurfaceResponse = problem.solve(memory, &mut |_| ControlFlow::Continue(()))?;
+    let finite = Method::finite(
+        ResponseMethod::Automatic,
+        false,
+        (&surface, &walls),
+        MOST_TETRAHEDRA,
+    );
+    let finite = finite.into_iter().find_map(|method| by(method).ok());
+    let (response, warning) = match finite {
+        Some(response) => (response, None),
+        None => {
+            let instead = "set `model.kind` to \"hybrid\" or \"nonlinear\"";
+            (by(Method::BoundaryElements)?, walls.warning(instead))
+        }
+    };
     let tree = AabbTree::new(mesh);
     let interpolation = Interpolation::new(surface.clone(), Smoothing::None);
     let places: Vec<_> = shown
@@ -70,5 +96,5 @@ pub(crate) fn surround(
         };
         tool.further = Some(further);
     }
-    Ok(())
+    Ok(warning)
 }

@@ -309,6 +309,8 @@ fn estimated_inclusions_press_back_as_finite_elements() {
     let press = |bound| (Press::Flat, &ESTIMATING[..], bound);
     balls_press_back(press(ASKED), &STIFF_BALLS[1..], stiffness_ratio);
     balls_press_back(press(0.08), &STIFF_BALLS[..1], stiffness_ratio);
+    // With a tissue, which the local model does not solve.
+    inclusions_press_back((Press::Flat, &ESTIMATING[..1], ASKED), &BALLS[2..3]);
 }
 
 /// Over that ball, where a sphere is pressed in as far as the ball is deep, the estimate is 19 % off.
@@ -319,6 +321,7 @@ fn estimated_inclusions_press_back_on_spheres() {
         let press = |bound| (sphere(depth), &ESTIMATING[..], bound);
         balls_press_back(press(ASKED), &STIFF_BALLS[1..], stiffness_ratio);
         balls_press_back(press(bound), &STIFF_BALLS[..1], stiffness_ratio);
+        inclusions_press_back((sphere(depth), &ESTIMATING[..1], ASKED), &BALLS[2..3]);
     }
 }
 
