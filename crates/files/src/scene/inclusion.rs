@@ -115,7 +115,12 @@ impl Inclusion {
         .optional("\"tumour.stl\"", "another shape is there"),
         Shape::KEYS[1],
         TissueChoice::KEYS[0],
-        TissueChoice::KEYS[1],
+        TissueChoice::KEYS[1]
+            .optional(
+                "\"pig-liver\"",
+                "`tissue`, `cavity` or `stiffness_ratio` is there",
+            )
+            .in_template(),
         CAVITY,
         STIFFNESS_RATIO,
     ];

@@ -92,7 +92,11 @@ impl BodyPart {
         )
         .optional("2", "another shape is there"),
         TissueChoice::KEYS[0],
-        TissueChoice::KEYS[1],
+        TissueChoice::KEYS[1].optional(
+            "\"pig-liver\"",
+            "`tissue`, `cavity` or `stiffness_ratio` is there",
+        )
+        .in_template(),
         CAVITY,
         STIFFNESS_RATIO,
     ];
@@ -118,7 +122,7 @@ impl BodyPart {
         Key::text("group", "The name of the physical group in a Gmsh file.")
             .optional("\"tumour\"", "another shape is there"),
         TissueChoice::KEYS[0],
-        TissueChoice::KEYS[1],
+        TissueChoice::KEYS[1].optional("\"pig-liver\"", "`tissue` or `cavity` is there").in_template(),
         CAVITY,
     ];
 

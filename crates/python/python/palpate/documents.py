@@ -538,7 +538,7 @@ class SceneOrganInclusion(TypedDict, total=False):
     ball: SceneOrganInclusionBall
     """A ball. One of the three shapes or `mesh` has to be there. (default: another shape is there)"""
     builtin_tissue: Literal["pig-liver", "pig-kidney", "pig-spleen", "pig-esophagus"] | Draw
-    """A tissue that comes with the program. (required without `tissue`)"""
+    """A tissue that comes with the program. (default: `tissue`, `cavity` or `stiffness_ratio` is there)"""
     capsule: SceneOrganInclusionCapsule
     """All points within a distance of a line segment. (default: another shape is there)"""
     cavity: SceneOrganInclusionCavity
@@ -621,7 +621,7 @@ class SceneOrganRegion(TypedDict, total=False):
     ball: SceneOrganInclusionBall
     """A ball. (default: another shape is there)"""
     builtin_tissue: Literal["pig-liver", "pig-kidney", "pig-spleen", "pig-esophagus"] | Draw
-    """A tissue that comes with the program. (required without `tissue`)"""
+    """A tissue that comes with the program. (default: `tissue`, `cavity` or `stiffness_ratio` is there)"""
     capsule: SceneOrganInclusionCapsule
     """All points within a distance of a line segment. (default: another shape is there)"""
     cavity: SceneOrganInclusionCavity
@@ -1894,7 +1894,7 @@ class SolidInclusion(TypedDict, total=False):
     ball: SolidInclusionBall
     """A ball. One of the three shapes or `mesh` has to be there. (default: another shape is there)"""
     builtin_tissue: Literal["pig-liver", "pig-kidney", "pig-spleen", "pig-esophagus"]
-    """A tissue that comes with the program. (required without `tissue`)"""
+    """A tissue that comes with the program. (default: `tissue`, `cavity` or `stiffness_ratio` is there)"""
     capsule: SolidInclusionCapsule
     """All points within a distance of a line segment. (default: another shape is there)"""
     cavity: SolidInclusionCavity
@@ -2051,7 +2051,7 @@ class SolidRegion(TypedDict, total=False):
     ball: SolidInclusionBall
     """A ball. (default: another shape is there)"""
     builtin_tissue: Literal["pig-liver", "pig-kidney", "pig-spleen", "pig-esophagus"]
-    """A tissue that comes with the program. (required without `tissue`)"""
+    """A tissue that comes with the program. (default: `tissue` or `cavity` is there)"""
     capsule: SolidInclusionCapsule
     """All points within a distance of a line segment. (default: another shape is there)"""
     cavity: SolidInclusionCavity
