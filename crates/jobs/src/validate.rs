@@ -129,9 +129,12 @@ fn scene(path: &Path) -> Result<Validated, Error> {
     variants
         .iter()
         .try_for_each(palpate_simulate::check_target)?;
+    let (surface, said) = palpate_simulate::read_organ(&variants[0].organ.shape)?;
+    variants
+        .iter()
+        .try_for_each(|one| palpate_simulate::check_estimated_inclusions(one, &surface))?;
     let scene = variants.swap_remove(0);
     let mut warnings = scene.warnings.clone();
-    let (surface, said) = palpate_simulate::read_organ(&scene.organ.shape)?;
     warnings.extend(said);
     palpate_simulate::read_tissue(&scene.organ.tissue)?;
     warnings.extend(parts(&scene.organ.layers, &scene.organ.inclusions)?);

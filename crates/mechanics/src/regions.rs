@@ -304,13 +304,13 @@ impl RegionMap {
     /// About so many places [m] spread evenly over a shape or what a surface encloses, and the volume of each [m³]; none of what has
     /// no border of its own.
     pub fn places_in(&self, number: usize, about: f64) -> Option<(Vec<Vec3>, f64)> {
-        let [volume, _] = self.volume_and_area(number)?;
-        let is_inside = |place: &Vec3| self.height(number, place) <= 0.0;
         match self.region(number)? {
             Mapped::Layer { .. } => None,
-            Mapped::Shape(shape) => spread((volume, about), &border(shape), is_inside),
+            Mapped::Shape(shape) => places_in_shape(shape, about),
             Mapped::Enclosed(Enclosed { surface, .. }) => {
-                spread((volume, about), surface.mesh().vertices(), is_inside)
+                let mesh = surface.mesh();
+                let is_inside = |place: &Vec3| self.height(number, place) <= 0.0;
+                spread((mesh.volume().abs(), about), mesh.vertices(), is_inside)
             }
         }
     }

@@ -8,11 +8,12 @@
 //! *Limits*: the surface is flat there and the same at every depth; what an inclusion does to a force along the surface is what it does
 //! to one along the normal; the organ's shape is that without it.
 
+use palpate_files::Scene;
 use palpate_files::scene::EstimatedInclusion;
 use palpate_geometry::{AabbTree, Surface, Vec3};
-use palpate_mechanics::LinearElastic;
 use palpate_mechanics::contact::Tip;
 use palpate_mechanics::inclusion::InclusionField;
+use palpate_mechanics::{Limit, LinearElastic, Reached};
 
 use crate::Error;
 use crate::regions::TipExchange;
@@ -32,15 +33,34 @@ const NEWTON_ROUNDS: usize = 6;
 /// What is left at least of a tip's compliance, which is positive but for rounding [-].
 const LEAST_LEFT: f64 = 0.01;
 
+/// Refuses those of `scene`, whose organ has this `surface`, that lie outside of it.
+///
+/// # Errors
+/// When the middle of one is not in the organ.
+pub fn check_estimated_inclusions(scene: &Scene, surface: &Surface) -> Result<(), Error> {
+    let tree = AabbTree::new(surface.mesh());
+    check(&scene.organ.estimated_inclusions, (surface, &tree))
+}
+
 /// Those in tissue of the law `around`, for compliances that are scaled to the Young's modulus `unit` [Pa].
 ///
 /// # Errors
 /// When the middle of one is not in the organ.
 pub(crate) fn field(
     inclusions: &[EstimatedInclusion],
-    (surface, tree): (&Surface, &AabbTree),
+    organ: (&Surface, &AabbTree),
     (around, unit): (&LinearElastic, f64),
 ) -> Result<InclusionField, Error> {
+    check(inclusions, organ)?;
+    let shapes = inclusions.iter();
+    let shapes = shapes.map(|inclusion| (&inclusion.shape, inclusion.stiffness_ratio));
+    Ok(InclusionField::of_shapes(shapes, around, unit))
+}
+
+fn check(
+    inclusions: &[EstimatedInclusion],
+    (surface, tree): (&Surface, &AabbTree),
+) -> Result<(), Error> {
     for inclusion in inclusions {
         let (_, outside) = surface.signed_distance(tree, &Vec3::from(inclusion.middle()));
         if outside > 0.0 {
@@ -48,9 +68,7 @@ pub(crate) fn field(
             return Err(Error::EstimatedOutside { name, outside });
         }
     }
-    let shapes = inclusions.iter();
-    let shapes = shapes.map(|inclusion| (&inclusion.shape, inclusion.stiffness_ratio));
-    Ok(InclusionField::of_shapes(shapes, around, unit))
+    Ok(())
 }
 
 /// Makes the force of a tip that touches, and its stiffness, what they are over the inclusions of the `field`.
@@ -75,39 +93,46 @@ pub(crate) fn stiffen(
     // What is more than a linear tip's is a nonlinear law's, which the inclusion has as well.
     let most = 2.0 * radius * law.youngs_modulus() / (1.0 - law.poissons_ratio().powi(2));
     let stiffness = normal.dot(&(state.stiffness * normal)).clamp(0.0, most);
-    let yields = |times: f64| {
-        let own = exchange.compliance(touching(times * alone));
+    let yields = |ratio: f64| {
+        let own = exchange.compliance(touching(ratio * alone));
         own.map(|own| -own * stiffness / law.youngs_modulus())
     };
-    let (times, steeper) = match tool.tip {
+    let (ratio, of_tangent) = match tool.tip {
         Tip::Flat { .. } => (1.0 / (1.0 - yields(1.0)[0]), 1.0),
         Tip::Sphere { .. } => {
-            let mut times = 1.0_f64;
+            let (mut ratio, mut change) = (1.0_f64, 1.0);
             for _ in 0..MOST_ROUNDS {
-                let next = deeper(yields(times)[0], times);
-                let change = (next / times - 1.0).abs();
-                times = next;
+                let next = force_ratio_of_sphere(yields(ratio)[0], ratio);
+                change = (next / ratio - 1.0).abs();
+                ratio = next;
                 if change <= SETTLED {
                     break;
                 }
             }
-            (times, times.cbrt())
+            if change > SETTLED {
+                let reached = Reached {
+                    asked: change,
+                    used: SETTLED,
+                };
+                state.limited.add(Limit::Coupling, reached);
+            }
+            (ratio, ratio.cbrt())
         }
     };
     // L F grows with the force by L and by what L itself does.
-    let [less, growth] = yields(times);
-    state.elastic *= times;
-    state.stiffness *= steeper / (1.0 - steeper * (less + growth)).max(LEAST_LEFT);
+    let [less, growth] = yields(ratio);
+    state.elastic *= ratio;
+    state.stiffness *= of_tangent / (1.0 - of_tangent * (less + growth)).max(LEAST_LEFT);
 }
 
-/// How many times its force Hertz's sphere has that yields less by a part of its compliance [-], at about so many `times` the force. It
-/// is the t of which t = (1 + ⅔ x t)^(3/2).
-fn deeper(part: f64, times: f64) -> f64 {
+/// The force under a sphere over that without inclusions, where these take the part x of the tangent compliance: the solution of
+/// t = (1 + ⅔ x t)^(3/2). Where x is positive, one round from `ratio` towards it.
+fn force_ratio_of_sphere(part: f64, ratio: f64) -> f64 {
     let share = part / 1.5;
     if share >= 0.0 {
-        return (1.0 + share * times).powf(1.5);
+        return (1.0 + share * ratio).powf(1.5);
     }
-    // Softer: t^(2/3) by Newton's method, which comes from above.
+    // t^(2/3) by Newton's method, which comes from above.
     let mut root = 1.0_f64;
     for _ in 0..NEWTON_ROUNDS {
         let off = root - share * root.powf(1.5) - 1.0;
@@ -124,11 +149,11 @@ mod tests {
     #[test]
     fn a_sphere_on_what_is_softer_has_the_root() {
         for part in [-0.01, -0.5, -5.0, -50.0] {
-            let times = deeper(part, 1.0);
-            let expected = (1.0 + part / 1.5 * times).powf(1.5);
+            let ratio = force_ratio_of_sphere(part, 1.0);
+            let expected = (1.0 + part / 1.5 * ratio).powf(1.5);
             assert!(
-                (times / expected - 1.0).abs() < 1e-2,
-                "{part}: {times} {expected}"
+                (ratio / expected - 1.0).abs() < 1e-2,
+                "{part}: {ratio} {expected}"
             );
         }
     }

@@ -77,6 +77,7 @@ pub use contact::Contact;
 pub use cutting::{CutPart, Cuts, gape};
 pub use demonstration::{Demonstration, ShownTool};
 pub use error::Error;
+pub use estimated_inclusions::check_estimated_inclusions;
 pub use global::{EnhancedSurface, OrganField, ResponseOrigin};
 pub use hand_speed::FASTEST_HAND;
 pub use indentation::Site;

@@ -19,7 +19,7 @@ pub struct Inclusion {
 }
 
 /// An inclusion of the tissue around it, so many times as stiff, whose effect on the force is estimated: it needs no preparation, and
-/// may be drawn anew for each attempt.
+/// may be drawn for each attempt.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EstimatedInclusion {
     /// Its name, for people.
@@ -140,8 +140,14 @@ impl Inclusion {
 }
 
 impl EstimatedInclusion {
-    /// As [`Inclusion::from_keys`].
-    pub(super) fn from_keys(keys: &Keys<'_>, name: String) -> Result<Self, Error> {
+    /// That of the `number`th table, from 0, of a `list`; none of a table without a `stiffness_ratio`.
+    pub(super) fn from_keys(
+        keys: &Keys<'_>,
+        (list, number): (&str, usize),
+    ) -> Result<Option<Self>, Error> {
+        let Some(stiffness_ratio) = keys.number("stiffness_ratio")? else {
+            return Ok(None);
+        };
         for key in ["tissue", "builtin_tissue", "cavity"] {
             if keys.contains(key) {
                 return Err(keys.given_twice("stiffness_ratio", key));
@@ -150,15 +156,16 @@ impl EstimatedInclusion {
         for key in ["mesh", "mesh_unit", "surface", "layer", "label"] {
             keys.refuse(
                 key,
-                "nothing beside `stiffness_ratio`, for only the effect of a ball, an ellipsoid or a capsule is estimated; give it a \
+                "nothing together with `stiffness_ratio`, for only the effect of a ball, an ellipsoid or a capsule is estimated; give it a \
                  `tissue`",
             )?;
         }
-        Ok(Self {
-            name,
+        let name = keys.text("name")?;
+        Ok(Some(Self {
+            name: name.unwrap_or_else(|| format!("{list} {}", number + 1)),
             shape: InclusionShape::from_keys(keys)?,
-            stiffness_ratio: keys.required_number("stiffness_ratio")?,
-        })
+            stiffness_ratio,
+        }))
     }
 
     /// Keys of a ball by the name that these inclusions had first.
@@ -195,7 +202,7 @@ pub(super) const STIFFNESS_RATIO: Key = Key::number(
     "stiffness_ratio",
     STIFFER,
     "In place of a tissue: of a ball, an ellipsoid or a capsule of the organ's tissue so many times as stiff. Its effect on the force \
-     is estimated and needs no preparation, so that it may be drawn anew for each attempt; where it stays, a tissue is more accurate.",
+     is estimated and needs no preparation, so that it may be drawn for each attempt; where it stays, a tissue is more accurate.",
 )
 .optional("6.0", "it is of a tissue");
 

@@ -181,22 +181,15 @@ impl Parts {
             .collect::<Result<_, _>>()?;
         let (mut inclusions, mut estimated) = (Vec::new(), Vec::new());
         for (number, keys) in keys.tables("inclusion")?.iter().enumerate() {
-            if keys.contains("stiffness_ratio") {
-                let name = keys
-                    .text("name")?
-                    .unwrap_or_else(|| format!("inclusion {}", number + 1));
-                estimated.push(EstimatedInclusion::from_keys(keys, name)?);
-            } else {
-                inclusions.push(Inclusion::from_keys(keys, number, folder)?);
+            match EstimatedInclusion::from_keys(keys, ("inclusion", number))? {
+                Some(own) => estimated.push(own),
+                None => inclusions.push(Inclusion::from_keys(keys, number, folder)?),
             }
         }
         let mut key = "layer";
         for (number, keys) in keys.tables("region")?.iter().enumerate() {
-            if keys.contains("stiffness_ratio") {
-                let name = keys
-                    .text("name")?
-                    .unwrap_or_else(|| format!("region {}", number + 1));
-                estimated.push(EstimatedInclusion::from_keys(keys, name)?);
+            if let Some(own) = EstimatedInclusion::from_keys(keys, ("region", number))? {
+                estimated.push(own);
                 continue;
             }
             let BodyPart {

@@ -70,6 +70,13 @@ fn what_is_wrong_is_told() {
         "missing.toml",
         "format = 1\norgan = { builtin = \"cube\", tissue = \"found.toml\" }\n",
     );
+    // Each variant has its lump outside.
+    put(
+        "lump.toml",
+        "format = 1\norgan = { builtin = \"cube\", builtin_tissue = \"pig-liver\", inclusion = [{ stiffness_ratio = 6.0, ball = { \
+         center_m = { draw = \"lump\" }, radius_m = 0.005 } }] }\ndraw.lump.uniform = [[1, 1, 1], [2, 2, 2]]\n\
+         tool = [{ name = \"right\" }]\n",
+    );
     put("open.stl", "solid a\nendsolid a\n");
     put("empty.csv", "");
     put(
@@ -84,6 +91,7 @@ fn what_is_wrong_is_told() {
         "open.stl",
         "empty.csv",
         "none.toml",
+        "lump.toml",
     ];
     let arguments: Vec<&str> = ["validate", "tissue.toml"]
         .into_iter()

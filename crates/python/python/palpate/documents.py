@@ -552,7 +552,7 @@ class SceneOrganInclusion(TypedDict, total=False):
     name: str | Draw
     """What people call it. (default: its number)"""
     stiffness_ratio: float | Draw
-    """In place of a tissue: of a ball, an ellipsoid or a capsule of the organ's tissue so many times as stiff. Its effect on the force is estimated and needs no preparation, so that it may be drawn anew for each attempt; where it stays, a tissue is more accurate. (default: it is of a tissue)"""
+    """In place of a tissue: of a ball, an ellipsoid or a capsule of the organ's tissue so many times as stiff. Its effect on the force is estimated and needs no preparation, so that it may be drawn for each attempt; where it stays, a tissue is more accurate. (default: it is of a tissue)"""
     tissue: str | SceneNeighbourTissue | Draw
     """A tissue file, or a table with a tissue's keys. (default: `builtin_tissue` names one)"""
 
@@ -637,7 +637,7 @@ class SceneOrganRegion(TypedDict, total=False):
     name: str | Draw
     """What people call it. (default: its group or number)"""
     stiffness_ratio: float | Draw
-    """In place of a tissue: of a ball, an ellipsoid or a capsule of the organ's tissue so many times as stiff. Its effect on the force is estimated and needs no preparation, so that it may be drawn anew for each attempt; where it stays, a tissue is more accurate. (default: it is of a tissue)"""
+    """In place of a tissue: of a ball, an ellipsoid or a capsule of the organ's tissue so many times as stiff. Its effect on the force is estimated and needs no preparation, so that it may be drawn for each attempt; where it stays, a tissue is more accurate. (default: it is of a tissue)"""
     surface: str | Draw
     """A mesh file with a closed surface in the body, as of a tumour or a vessel. (default: another shape is there)"""
     tissue: str | SceneNeighbourTissue | Draw
@@ -1908,7 +1908,7 @@ class SolidInclusion(TypedDict, total=False):
     name: str
     """What people call it. (default: its number)"""
     stiffness_ratio: float
-    """In place of a tissue: of a ball, an ellipsoid or a capsule of the organ's tissue so many times as stiff. Its effect on the force is estimated and needs no preparation, so that it may be drawn anew for each attempt; where it stays, a tissue is more accurate. (default: it is of a tissue)"""
+    """In place of a tissue: of a ball, an ellipsoid or a capsule of the organ's tissue so many times as stiff. Its effect on the force is estimated and needs no preparation, so that it may be drawn for each attempt; where it stays, a tissue is more accurate. (default: it is of a tissue)"""
     tissue: str | TissueTissue
     """A tissue file, or a table with a tissue's keys. (default: `builtin_tissue` names one)"""
 
