@@ -10,6 +10,10 @@
 //! touches as one of the mean curvature; a sphere that sticks has the normal force of one
 //! that slips (they differ by under 2 % at ν ≥ 0.3 [Spence 1975]).
 
+mod rounded;
+
+pub use rounded::{RoundedProfile, rounded_force};
+
 use std::f64::consts::FRAC_2_PI;
 
 use crate::LinearElastic;

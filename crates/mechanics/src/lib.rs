@@ -34,6 +34,7 @@ pub mod enhance;
 mod error;
 pub mod finite_elements;
 pub mod finite_spheres;
+mod gauss;
 pub mod inclusion;
 mod indentation_curve;
 pub mod layered;

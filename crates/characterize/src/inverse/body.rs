@@ -109,7 +109,10 @@ impl Body {
     /// [rad] between its axis and its side.
     pub fn under_cone(half_angle: f64, deepest: f64) -> Self {
         Self::large(Indenter {
-            shape: IndenterShape::Cone { half_angle },
+            shape: IndenterShape::Cone {
+                half_angle,
+                apex_radius: 0.0,
+            },
             radius: deepest * half_angle.tan(),
             face: FrictionLaw::Frictionless,
         })

@@ -53,11 +53,11 @@ impl CurvedContact {
         radius: f64,
     ) -> Result<Option<Self>, Error> {
         let shape = match indenter.shape {
-            IndenterShape::Flat { .. } => return Ok(None),
+            IndenterShape::Flat { .. } | IndenterShape::RoundedPunch { .. } => return Ok(None),
             IndenterShape::Sphere => Round::Sphere {
                 radius: indenter.radius,
             },
-            IndenterShape::Cone { half_angle } => Round::Cone {
+            IndenterShape::Cone { half_angle, .. } => Round::Cone {
                 slope: 1.0 / half_angle.tan(),
             },
         };
@@ -246,7 +246,10 @@ mod tests {
     #[test]
     fn depths_on_plane_and_organ_are_inverse() {
         let cone = Indenter {
-            shape: IndenterShape::Cone { half_angle: 1.2 },
+            shape: IndenterShape::Cone {
+                half_angle: 1.2,
+                apex_radius: 0.0,
+            },
             ..sphere()
         };
         for indenter in [sphere(), cone] {
@@ -267,7 +270,10 @@ mod tests {
         let (half_angle, radius) = (1.2_f64, 0.5 * RADIUS);
         let slope = 1.0 / half_angle.tan();
         let cone = Indenter {
-            shape: IndenterShape::Cone { half_angle },
+            shape: IndenterShape::Cone {
+                half_angle,
+                apex_radius: 0.0,
+            },
             ..sphere()
         };
         let closest = -0.399 * slope / radius;

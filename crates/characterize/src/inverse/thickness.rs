@@ -57,7 +57,9 @@ pub fn assumption(header: &RecordingHeader, body: &Body, deepest: f64) -> Option
         });
     }
     let (of, factors) = match indenter.shape {
-        IndenterShape::Flat { .. } => ("radii of the indenter", PUNCH_ON_LAYER),
+        IndenterShape::Flat { .. } | IndenterShape::RoundedPunch { .. } => {
+            ("radii of the indenter", PUNCH_ON_LAYER)
+        }
         IndenterShape::Cone { .. } => ("radii of the contact", CONE_ON_LAYER),
         IndenterShape::Sphere => {
             let chi = |radii: f64| (deepest / indenter.radius).sqrt() / radii;

@@ -57,7 +57,7 @@ fn forces(law: Arc<dyn Law>, history: &History, relaxing: Relaxing) -> (Vec<f64>
         indenter,
         law,
     };
-    let solved = solve_history(&problem, (&series, relaxing), history, 0.02, &mut |_| ()).unwrap();
+    let solved = solve_history(&problem, &series, relaxing, history, 0.02, &mut |_| ()).unwrap();
     let points = solved.answer.points.iter();
     (points.map(|point| point.force).collect(), solved.error)
 }

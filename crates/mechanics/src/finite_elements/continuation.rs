@@ -1,5 +1,7 @@
 //! Continuation: one equilibrium after the other along a path, in steps as long as they converge easily.
 
+use std::ops::ControlFlow;
+
 use super::newton::Failure;
 
 /// A body that follows a path of supports and loads.
@@ -54,12 +56,12 @@ impl Steps {
     }
 }
 
-/// Goes on to `end`; `at_step` hears of each equilibrium on the way.
+/// Goes on to `end`; `at_step` hears of each equilibrium on the way, and may end it there.
 pub(super) fn continue_to<R: Increments>(
     run: &mut R,
     steps: &mut Steps,
     end: f64,
-    mut at_step: impl FnMut(&mut R),
+    mut at_step: impl FnMut(&mut R) -> ControlFlow<()>,
 ) -> Result<(), Failure> {
     while run.reached() < end {
         let from = run.reached();
@@ -68,7 +70,9 @@ pub(super) fn continue_to<R: Increments>(
         match run.advance(goal) {
             Ok(solutions) => {
                 steps.succeeded(step, solutions);
-                at_step(run);
+                if at_step(run).is_break() {
+                    return Ok(());
+                }
             }
             Err(failure) => {
                 if !steps.failed(step) {
@@ -80,16 +84,20 @@ pub(super) fn continue_to<R: Increments>(
     Ok(())
 }
 
-/// The unknowns at `goal` of a body that goes on as `before`, each at a place of the path.
-pub(super) fn extrapolated(
-    (now, unknowns): (f64, &[f64]),
-    before: Option<(f64, &[f64])>,
-    goal: f64,
-) -> Vec<f64> {
-    let mut ahead = unknowns.to_vec();
-    if let Some((then, old)) = before {
-        let part = (goal - now) / (now - then);
-        for (x, old) in ahead.iter_mut().zip(old) {
+/// The unknowns of a body at a place of its path.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reached<'a> {
+    /// In the unit of the path.
+    pub(super) place: f64,
+    pub(super) unknowns: &'a [f64],
+}
+
+/// The unknowns at `goal` of a body that goes on as it did from `before` to `now`.
+pub(super) fn extrapolated(now: Reached<'_>, before: Option<Reached<'_>>, goal: f64) -> Vec<f64> {
+    let mut ahead = now.unknowns.to_vec();
+    if let Some(before) = before {
+        let part = (goal - now.place) / (now.place - before.place);
+        for (x, old) in ahead.iter_mut().zip(before.unknowns) {
             *x += part * (*x - old);
         }
     }

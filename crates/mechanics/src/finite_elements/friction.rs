@@ -94,7 +94,7 @@ fn normal_force_change(
     step: &[f64],
     product: &[f64],
 ) -> f64 {
-    let place = newton::beside(model, contact, &workspace.trial);
+    let place = newton::signed_distance(model, contact, &workspace.trial);
     let at = |values: &[f64]| {
         let first = 2 * contact.node;
         place.components([values[first], values[first + 1]])
@@ -110,6 +110,7 @@ mod tests {
 
     use super::super::mesh::ElementMesh;
     use super::super::model::Formulation;
+    use super::super::rigid_tool::RigidShape;
     use super::super::supports::RigidSurface;
     use super::*;
     use crate::NeoHookean;
@@ -129,7 +130,7 @@ mod tests {
             }
         }
         for contact in &supports.sliding {
-            let place = newton::beside(model, contact, unknowns);
+            let place = newton::signed_distance(model, contact, unknowns);
             let rows = 2 * contact.node..2 * contact.node + 2;
             let force = &workspace.residual[rows.clone()];
             let [normal, tangential] = place.components([force[0], force[1]]);
@@ -157,13 +158,16 @@ mod tests {
         let bottom = [0.0, 0.15, 0.3, 0.5, 0.7, 0.85, 1.0].map(|r| at(r, 0.0));
         let mut supports = Supports::none(&model).hold(&model, axis, 0, 0.0);
         supports = supports.hold(&model, bottom, 1, 0.0);
-        let sphere = RigidSurface::Sphere {
-            center: 1.95,
-            radius: 2.0,
+        let sphere = RigidSurface::Revolved {
+            shape: RigidShape::Sphere { radius: 2.0 },
+            height: 1.95,
         };
-        let cone = RigidSurface::Cone {
-            apex: -0.3,
-            half_angle: 1.2,
+        let cone = RigidSurface::Revolved {
+            shape: RigidShape::Cone {
+                half_angle: 1.2,
+                apex_radius: 0.0,
+            },
+            height: -0.3,
         };
         let plane = RigidSurface::Plane { height: -0.08 };
         let cylinder = RigidSurface::Cylinder { radius: 0.95 };

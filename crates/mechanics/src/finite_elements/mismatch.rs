@@ -1,3 +1,4 @@
+use super::rigid_tool::RigidShape;
 use super::supports::RigidSurface;
 
 /// Numbers of the caller that do not fit a finite element model: found before any work.
@@ -73,6 +74,15 @@ pub enum Mismatch {
         /// The coefficient [-].
         coefficient: f64,
     },
+    /// An indenter that there cannot be.
+    #[error(
+        "the indenter {shape:?} does not exist; give an edge that is rounded to less than the radius, and a half angle between 0 and \
+         π/2"
+    )]
+    IndenterOutOfRange {
+        /// Its shape [m, rad].
+        shape: RigidShape,
+    },
     /// A node slides that is also fixed, or slides twice.
     #[error(
         "node {node} slides on a rigid surface and is fixed as well, or slides on two; remove one of the supports"
@@ -134,6 +144,7 @@ impl Mismatch {
             | Self::SurfaceOutOfRange { .. }
             | Self::ForceRatioOutOfRange { .. }
             | Self::FrictionOutOfRange { .. }
+            | Self::IndenterOutOfRange { .. }
             | Self::SlidesAndIsFixed { .. }
             | Self::WrongLength { .. }
             | Self::FirstStepOutOfRange { .. }

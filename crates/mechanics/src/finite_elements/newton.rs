@@ -8,7 +8,8 @@ use super::assembly::{self, PRESSURE_REGULARIZATION};
 use super::friction;
 use super::line_search::LineSearch;
 use super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
-use super::supports::{Sliding, Supports, SurfaceDistance};
+use super::rigid_tool::MeridianDistance;
+use super::supports::{Sliding, Supports};
 use crate::linear::gmres::{Krylov, solve_by_products};
 
 /// Why an equilibrium was not found.
@@ -206,7 +207,7 @@ pub(super) fn size_of_residual(
         }
     }
     for contact in &supports.sliding {
-        let place = beside(model, contact, &workspace.trial);
+        let place = signed_distance(model, contact, &workspace.trial);
         let n = place.normal;
         let rows = [2 * contact.node, 2 * contact.node + 1];
         let [normal, tangential] = place.components(rows.map(|row| workspace.residual[row]));
@@ -262,7 +263,7 @@ pub(super) fn prescribe(
         }
     }
     for contact in &supports.sliding {
-        let correction = -beside(model, contact, unknowns).distance;
+        let correction = -signed_distance(model, contact, unknowns).distance;
         workspace.step[2 * contact.node] = correction;
         gap = gap.max(correction.abs());
         extent = extent.max(contact.surface.size());
@@ -345,7 +346,7 @@ pub(super) fn turn_back(
     solution: &mut [f64],
 ) {
     for contact in &supports.sliding {
-        let n = beside(model, contact, &workspace.trial).normal;
+        let n = signed_distance(model, contact, &workspace.trial).normal;
         let node = 2 * contact.node;
         let (normal, along) = (solution[node], solution[node + 1]);
         solution[node] = n[0] * normal - n[1] * along;
@@ -408,14 +409,14 @@ pub(super) fn eliminate(
     }
 }
 
-/// Where a sliding node lies beside its surface.
-pub(super) fn beside(
+/// Where a sliding node lies relative to its surface.
+pub(super) fn signed_distance(
     model: &FiniteElementModel,
     contact: &Sliding,
     unknowns: &[f64],
-) -> SurfaceDistance {
+) -> MeridianDistance {
     let place = &model.mesh.nodes[contact.node];
-    contact.surface.beside(
+    contact.surface.signed_distance(
         place.x + unknowns[2 * contact.node],
         place.y + unknowns[2 * contact.node + 1],
     )
@@ -429,11 +430,11 @@ fn turn_node(
     workspace: &mut FiniteElementWorkspace,
     right: &mut [f64],
 ) {
-    let SurfaceDistance {
+    let MeridianDistance {
         normal: n,
         curvature,
         ..
-    } = beside(model, contact, &workspace.trial);
+    } = signed_distance(model, contact, &workspace.trial);
     let first = 2 * contact.node;
     let rotate = |a: f64, b: f64| (n[0] * a + n[1] * b, -n[1] * a + n[0] * b);
     (right[first], right[first + 1]) = rotate(right[first], right[first + 1]);

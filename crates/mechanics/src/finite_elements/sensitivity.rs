@@ -26,7 +26,8 @@ pub(super) fn residual_sensitivity(
 pub(super) fn solve(
     model: &FiniteElementModel,
     supports: &Supports<'_>,
-    (state, force): (&FiniteElementState, &[f64]),
+    state: &FiniteElementState,
+    force: &[f64],
     slope: &mut [f64],
     workspace: &mut FiniteElementWorkspace,
 ) -> Result<(), Failure> {

@@ -75,7 +75,7 @@ pub(super) fn equilibrate_downhill(
             newton::solve(model, supports, workspace)?;
             let unstable = workspace.factors.negative_eigenvalues() > model.pressures();
             if !unstable {
-                if let Some(part) = follow(model, supports, state, workspace, (gap, before.free)) {
+                if let Some(part) = follow(model, supports, state, workspace, gap, before.free) {
                     break part;
                 }
                 newton::assemble(model, supports, &state.unknowns, workspace)?;
@@ -108,7 +108,8 @@ fn follow(
     supports: &Supports<'_>,
     state: &mut FiniteElementState,
     workspace: &mut FiniteElementWorkspace,
-    (gap, before): (f64, f64),
+    gap: f64,
+    before: f64,
 ) -> Option<f64> {
     let displacements = model.displacements();
     let moved = |part: f64, step: &[f64], from: &[f64]| -> Vec<f64> {

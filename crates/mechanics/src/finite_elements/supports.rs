@@ -1,5 +1,3 @@
-use std::f64::consts::FRAC_PI_2;
-
 use nalgebra::{Matrix6, Vector6};
 
 use super::cavity::Cavity;
@@ -7,7 +5,7 @@ use super::mismatch::Mismatch;
 use super::model::FiniteElementModel;
 use super::pressed_faces::PressedFaces;
 use super::relaxation::RelaxationStep;
-use super::rigid_tool::Contacts;
+use super::rigid_tool::{Contacts, MeridianDistance, RigidShape};
 use crate::Vec3;
 
 /// What holds a body and what loads it. Whoever solves with it checks it against the model first.
@@ -59,31 +57,13 @@ pub enum RigidSurface {
         /// Its radius [m].
         radius: f64,
     },
-    /// A sphere around a point of the axis.
-    Sphere {
-        /// Height of its centre [m].
-        center: f64,
-        /// Its radius [m].
-        radius: f64,
+    /// A shape of revolution about the axis, with the origin of its frame at a height.
+    Revolved {
+        /// The shape.
+        shape: RigidShape,
+        /// [m]
+        height: f64,
     },
-    /// A cone that opens upward from a point of the axis.
-    Cone {
-        /// Height of its apex [m].
-        apex: f64,
-        /// Angle between its axis and its side [rad].
-        half_angle: f64,
-    },
-}
-
-/// Where a point lies beside a rigid surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct SurfaceDistance {
-    /// Signed distance [m], positive outside.
-    pub distance: f64,
-    /// Its gradient [-]: radial and axial component.
-    pub normal: [f64; 2],
-    /// Curvature of the level line of the distance through the point, in the half plane [1/m].
-    pub curvature: f64,
 }
 
 impl RigidSurface {
@@ -92,11 +72,8 @@ impl RigidSurface {
         match *self {
             Self::Plane { height } => height.is_finite(),
             Self::Cylinder { radius } => radius > 0.0 && radius.is_finite(),
-            Self::Sphere { center, radius } => {
-                radius > 0.0 && radius.is_finite() && center.is_finite()
-            }
-            Self::Cone { apex, half_angle } => {
-                apex.is_finite() && half_angle > 0.0 && half_angle < FRAC_PI_2
+            Self::Revolved { shape, height } => {
+                height.is_finite() && shape.exists() && shape.meridian(0.0, 0.0).is_some()
             }
         }
     }
@@ -105,49 +82,25 @@ impl RigidSurface {
     pub(super) fn size(&self) -> f64 {
         match *self {
             Self::Plane { height } => height.abs(),
-            Self::Cylinder { radius } | Self::Sphere { radius, .. } => radius,
-            Self::Cone { apex, .. } => apex.abs(),
+            Self::Cylinder { radius } => radius,
+            Self::Revolved {
+                shape: RigidShape::Sphere { radius },
+                ..
+            } => radius,
+            Self::Revolved { height, .. } => height.abs(),
         }
     }
 
     /// The point at radius `r` and height `z` [m].
-    pub(super) fn beside(&self, r: f64, z: f64) -> SurfaceDistance {
-        match *self {
-            Self::Plane { height } => SurfaceDistance {
-                distance: height - z,
-                normal: [0.0, -1.0],
-                curvature: 0.0,
-            },
-            Self::Cylinder { radius } => SurfaceDistance {
-                distance: r - radius,
-                normal: [1.0, 0.0],
-                curvature: 0.0,
-            },
-            Self::Sphere { center, radius } => {
-                let (z, from_center) = (z - center, r.hypot(z - center));
-                SurfaceDistance {
-                    distance: from_center - radius,
-                    normal: [r / from_center, z / from_center],
-                    curvature: 1.0 / from_center,
-                }
+    pub(super) fn signed_distance(&self, r: f64, z: f64) -> MeridianDistance {
+        let shape = match *self {
+            Self::Plane { height } => return MeridianDistance::straight(height - z, [0.0, -1.0]),
+            Self::Cylinder { radius } => {
+                return MeridianDistance::straight(r - radius, [1.0, 0.0]);
             }
-            Self::Cone { apex, half_angle } => {
-                let (sine, cosine) = half_angle.sin_cos();
-                SurfaceDistance {
-                    distance: r * cosine - (z - apex) * sine,
-                    normal: [cosine, -sine],
-                    curvature: 0.0,
-                }
-            }
-        }
-    }
-}
-
-impl SurfaceDistance {
-    /// Components of a vector (r, z) along the normal and along the tangent (−n_z, n_r).
-    pub(super) fn components(&self, vector: [f64; 2]) -> [f64; 2] {
-        let (n, [r, z]) = (self.normal, vector);
-        [n[0] * r + n[1] * z, n[0] * z - n[1] * r]
+            Self::Revolved { shape, height } => shape.meridian(r, z - height),
+        };
+        shape.expect("checked: a shape of revolution")
     }
 }
 

@@ -236,7 +236,10 @@ fn no_node_leaves_the_cone_of_friction() {
         let shape = match (case / 3) % 4 {
             0 => IndenterShape::Sphere,
             1 => flat(FrictionLaw::Coulomb(mu)),
-            2 => IndenterShape::Cone { half_angle },
+            2 => IndenterShape::Cone {
+                half_angle,
+                apex_radius: 0.0,
+            },
             _ => NO_SIDE,
         };
         let deepest = 0.2 * RADIUS;

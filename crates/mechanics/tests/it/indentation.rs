@@ -83,7 +83,7 @@ fn sphere() -> Indenter {
 }
 
 /// The force [N] at `depth` [m] of a linear tissue with E = 6 kPa, on a mesh made for that depth.
-fn linear_force(indenter: Indenter, block: Block, (nu, depth): (f64, f64), halvings: i32) -> f64 {
+fn linear_force(indenter: Indenter, block: Block, nu: f64, depth: f64, halvings: i32) -> f64 {
     let settings = IndentationSettings {
         block,
         indenter,
@@ -104,7 +104,7 @@ fn a_sphere_meets_hertz() {
     let law = LinearElastic::new(6.0 * C10, 0.45).unwrap();
     for part in [0.01, 0.05] {
         let depth = part * RADIUS;
-        let found = linear_force(sphere(), BLOCK, (0.45, depth), 0);
+        let found = linear_force(sphere(), BLOCK, 0.45, depth, 0);
         let off = found / contact::hertz_force(&law, RADIUS, depth) - 1.0;
         assert!(off.abs() < 0.02, "{part}: {off}");
     }
@@ -117,11 +117,14 @@ fn a_cone_meets_sneddon() {
     let half_angle = 80_f64.to_radians();
     let depth = 0.1 * RADIUS;
     let cone = Indenter {
-        shape: IndenterShape::Cone { half_angle },
+        shape: IndenterShape::Cone {
+            half_angle,
+            apex_radius: 0.0,
+        },
         radius: RADIUS,
         face: FrictionLaw::Frictionless,
     };
-    let found = linear_force(cone, BLOCK, (0.4999, depth), 0);
+    let found = linear_force(cone, BLOCK, 0.4999, depth, 0);
     let modulus = 6.0 * C10 / (1.0 - 0.4999 * 0.4999);
     let exact = std::f64::consts::FRAC_2_PI * modulus * half_angle.tan() * depth * depth;
     let off = found / exact - 1.0;
@@ -139,7 +142,7 @@ fn a_thin_layer_under_a_punch_is_that_of_hayes() {
         };
         let slip = punch(Side::Absent, Friction::Frictionless);
         let depth = 1e-3 * RADIUS;
-        let found = linear_force(slip, block, (0.4999, depth), 0);
+        let found = linear_force(slip, block, 0.4999, depth, 0);
         let half_space = 2.0 * RADIUS * 6.0 * C10 / (1.0 - 0.4999 * 0.4999) * depth;
         let off = found / half_space / kappa - 1.0;
         assert!(off.abs() < 0.02, "a/h {ratio}: {off}");
@@ -164,7 +167,7 @@ fn a_lubricated_layer_is_softer_than_a_bonded_one() {
         };
         let depth = 1e-3 * RADIUS;
         let slip = punch(Side::Absent, Friction::Frictionless);
-        let found = linear_force(slip, block, (nu, depth), 0);
+        let found = linear_force(slip, block, nu, depth, 0);
         let half_space = 2.0 * RADIUS * 6.0 * C10 / (1.0 - nu * nu) * depth;
         let off = found / half_space / (1.0 + x + x * x) - 1.0;
         assert!(off.abs() < 0.023, "{nu}: {off}");
@@ -182,7 +185,7 @@ fn a_thin_layer_under_a_sphere_is_that_of_dimitriadis() {
             height: thickness * RADIUS,
             ..BLOCK
         };
-        let found = linear_force(sphere(), block, (0.4999, depth), 0);
+        let found = linear_force(sphere(), block, 0.4999, depth, 0);
         let chi = (RADIUS * depth).sqrt() / block.height;
         let powers = (1..).map(|power| chi.powi(power));
         let series = [1.133, 1.283, 0.769, 0.0975].into_iter().zip(powers);
@@ -370,7 +373,7 @@ fn convolution_is_the_full_run_at_small_depth() {
     let depths = times.iter().map(|t| 0.05 * RADIUS * t.min(0.6)).collect();
     let history = History { times, depths };
     let [folded, full] = [Relaxing::Convolution, Relaxing::Full].map(|how| {
-        let answer = solve_history(&problem, (&prony, how), &history, 0.2, &mut |_| {});
+        let answer = solve_history(&problem, &prony, how, &history, 0.2, &mut |_| {});
         answer.unwrap().answer.points
     });
     for (a, b) in folded.iter().zip(&full).skip(1) {
@@ -417,8 +420,8 @@ fn refuses_impossible_questions() {
         depths: vec![0.0; 3],
     };
     let series = PronySeries::default();
-    let how = (&series, Relaxing::Convolution);
-    let refused = solve_history(&good, how, &history, 0.1, &mut |_| {});
+    let how = Relaxing::Convolution;
+    let refused = solve_history(&good, &series, how, &history, 0.1, &mut |_| {});
     assert!(matches!(refused, Err(Error::TimesDoNotAscend)));
 }
 

@@ -54,6 +54,7 @@ mod punch_edge;
 mod real_organs;
 mod refused_input;
 mod rigid_tools;
+mod rounded_indenters;
 mod slit;
 mod slit_bodies;
 mod slit_closed;

@@ -11,6 +11,7 @@ use palpate_mechanics::finite_elements::hemisphere::{HalfBall, HemisphereProblem
 use palpate_mechanics::finite_elements::indentation::{
     Base, Block, IndentationRun, IndentationSettings, Indenter, IndenterShape,
 };
+use palpate_mechanics::finite_elements::rigid_tool::RigidShape;
 use palpate_mechanics::finite_elements::{
     Cavity, ElementKind, ElementMesh, FiniteElementModel, FiniteElementState,
     FiniteElementWorkspace, Formulation, LinearSystem, Mismatch, Path, PunchedLines, RigidSurface,
@@ -91,14 +92,18 @@ fn a_cavity_with_other_sides_is_refused() {
     }
 }
 
+fn sphere(radius: f64) -> RigidSurface {
+    RigidSurface::Revolved {
+        shape: RigidShape::Sphere { radius },
+        height: 2.0,
+    }
+}
+
 #[test]
 fn a_node_slides_on_a_sphere_only_in_axisymmetry() {
     let on = |node: usize| Sliding {
         node,
-        surface: RigidSurface::Sphere {
-            center: 2.0,
-            radius: 1.0,
-        },
+        surface: sphere(1.0),
         force_ratio: 0.0,
     };
     for kind in [ElementKind::Hex27, ElementKind::Tet10] {
@@ -119,10 +124,7 @@ fn a_node_slides_on_a_sphere_only_in_axisymmetry() {
     };
     let flat = Sliding {
         node: top,
-        surface: RigidSurface::Sphere {
-            center: 2.0,
-            radius: 0.0,
-        },
+        surface: sphere(0.0),
         force_ratio: 0.0,
     };
     assert!(matches!(
@@ -144,10 +146,7 @@ fn a_path_refuses_what_slides_and_a_first_step_of_nothing() {
     let node = face(model.mesh(), 1, 1.0)[1];
     supports.sliding.push(Sliding {
         node,
-        surface: RigidSurface::Sphere {
-            center: 2.0,
-            radius: 1.0,
-        },
+        surface: sphere(1.0),
         force_ratio: 0.0,
     });
     let refused = Path::new(model, supports, 0.1).unwrap_err();

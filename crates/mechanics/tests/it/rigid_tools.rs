@@ -124,6 +124,29 @@ fn spheres_converge_to_axisymmetric_elements() {
     spheres(0, 0.0125);
 }
 
+/// Judge: axisymmetric elements, as for spheres.
+#[test]
+#[ignore = "slow: 40 seconds"]
+fn a_rounded_punch_presses_as_on_axisymmetric_elements() {
+    let (radius, edge_radius, depth) = (0.01, 0.004, 0.002);
+    for friction in [FrictionLaw::Frictionless, FrictionLaw::Coulomb(0.3)] {
+        let indenter = Indenter {
+            shape: IndenterShape::RoundedPunch { edge_radius },
+            radius,
+            face: friction,
+        };
+        let judge = indented_cylinder(2.0 * HALF, indenter, neo_hookean(), depth);
+        let shape = RigidShape::FlatPunch {
+            radius,
+            edge_radius,
+        };
+        let answer = at(&pressed(shape, friction, neo_hookean(), depth), 0);
+        let ratio = last(&answer).force.z / judge;
+        println!("{friction:?}: {ratio:.4}, {} unknowns", answer.unknowns);
+        assert!((ratio - 1.0).abs() < 0.0125, "{friction:?}: {ratio}");
+    }
+}
+
 /// Judge: the patch that moves as a whole, on a finer mesh. That of the coarse one errs by as much.
 #[test]
 fn a_sharp_punch_presses_as_a_patch() {

@@ -4,6 +4,7 @@ use palpate_mechanics::finite_elements::indentation::{
     Base, Block, Indenter, IndenterShape, Relaxing, Side,
 };
 
+use super::tools::ROUNDING;
 use super::{length_below, required_table, some_numbers};
 
 /// A rigid indenter pressed into a block.
@@ -108,6 +109,13 @@ const INDENTER: &[Key] = &[
         "The angle between a cone's axis and its side.",
     )
     .optional("70.3", "it is no cone"),
+    Key::number(
+        "edge_radius_m",
+        ROUNDING,
+        "The radius to which the edge of a flat face, or the apex of a cone, is rounded. The face, its edge and the side are then \
+         one surface.",
+    )
+    .optional("0.0001", "they are sharp"),
     Key::word(
         "face",
         &[
@@ -210,7 +218,26 @@ fn indenter(keys: &Keys<'_>, block: &Block) -> Result<Indenter, Error> {
     if !matches!(end, End::Cone) {
         keys.refuse("half_angle_deg", "no angle, for only a cone has one")?;
     }
+    if matches!(end, End::Sphere) {
+        keys.refuse("edge_radius_m", "no edge, for a sphere has none")?;
+    }
+    let edge_radius = keys.number("edge_radius_m")?.unwrap_or(0.0);
+    if edge_radius > 0.0 {
+        keys.refuse(
+            "side",
+            "no side of its own, for a rounded edge leads there: `face` says what both do",
+        )?;
+    }
+    let radius = length_below(&keys, "radius_m", block.radius, "the radius of the block")?;
     let shape = match end {
+        End::Flat if edge_radius > 0.0 => IndenterShape::RoundedPunch {
+            edge_radius: length_below(
+                &keys,
+                "edge_radius_m",
+                radius,
+                "the radius of the indenter",
+            )?,
+        },
         End::Flat => IndenterShape::Flat {
             side: match side.unwrap_or(Some(Friction::Bonded)) {
                 Some(friction) => Side::Touches(law(friction)),
@@ -222,12 +249,13 @@ fn indenter(keys: &Keys<'_>, block: &Block) -> Result<Indenter, Error> {
             let angle = keys.required_number("half_angle_deg")?;
             IndenterShape::Cone {
                 half_angle: angle.to_radians(),
+                apex_radius: edge_radius,
             }
         }
     };
     Ok(Indenter {
         shape,
-        radius: length_below(&keys, "radius_m", block.radius, "the radius of the block")?,
+        radius,
         face: law(face),
     })
 }

@@ -70,7 +70,8 @@ const SHAPE_MEANINGS: &[Word] = &[
 ];
 
 /// Lengths that a shape may lack [m].
-const ROUNDING: Domain = Domain::quantity("a radius", "m", [Included(0.0), Included(1.0)]);
+pub(super) const ROUNDING: Domain =
+    Domain::quantity("a radius", "m", [Included(0.0), Included(1.0)]);
 const OPENING: Domain = Domain::quantity("a length", "m", [Included(0.0), Included(1.0)]);
 
 /// What lies closer to a direction than this is along it [-].

@@ -3,10 +3,12 @@ use palpate_files::recording::{
     self, IndenterFriction, RecordingHeader, Samples, StimulusKind, Support,
 };
 use palpate_mechanics::contact::{
-    Friction, FrictionLaw, half_space_stiffness, hertz_force, sneddon_force,
+    Friction, FrictionLaw, RoundedProfile, half_space_stiffness, hertz_force, rounded_force,
+    sneddon_force,
 };
 use palpate_mechanics::finite_elements::indentation::{
-    Base, History, IndentationPoint, IndentationProblem, IndenterShape, Side, solve, solve_history,
+    Base, History, IndentationPoint, IndentationProblem, Indenter, IndenterShape, Side, solve,
+    solve_history,
 };
 
 use super::super::problem::{Indentation, Loading, Problem, Ramp};
@@ -95,7 +97,8 @@ fn in_time(
     let (history, wanted) = ramp.history();
     let found = solve_history(
         &mechanical(problem, case),
-        (&problem.material.prony, ramp.method),
+        &problem.material.prony,
+        ramp.method,
         &history,
         problem.accuracy,
         &mut |progress| telling.at(progress),
@@ -211,19 +214,25 @@ fn recording(
     forces: &[f64],
 ) -> Result<Recording, Error> {
     let shape = match case.indenter.shape {
-        IndenterShape::Flat { .. } => recording::IndenterShape::Flat,
+        IndenterShape::Flat { .. } | IndenterShape::RoundedPunch { .. } => {
+            recording::IndenterShape::Flat
+        }
         IndenterShape::Sphere => recording::IndenterShape::Sphere,
         IndenterShape::Cone { .. } => recording::IndenterShape::Cone,
     };
     let half_angle = match case.indenter.shape {
-        IndenterShape::Cone { half_angle } => Some(half_angle.to_degrees()),
-        IndenterShape::Flat { .. } | IndenterShape::Sphere => None,
+        IndenterShape::Cone { half_angle, .. } => Some(half_angle.to_degrees()),
+        _ => None,
     };
     let support = match case.block.base {
         Base::Bonded => Support::Bonded,
         Base::Lubricated => Support::Lubricated,
     };
-    // No header has a coefficient; the source tells it.
+    // No header has a rounded edge or a coefficient; the source tells them.
+    let rounded = match edge_radius(&case.indenter) {
+        Some(radius) => format!(", edge rounded to {} mm", plots::short(1e3 * radius)),
+        None => String::new(),
+    };
     let (friction, source) = match case.indenter.face {
         FrictionLaw::Bonded => (Some(IndenterFriction::Bonded), String::new()),
         FrictionLaw::Frictionless => (Some(IndenterFriction::Frictionless), String::new()),
@@ -243,7 +252,9 @@ fn recording(
         thickness_m: Some(case.block.height),
         specimen_radius_m: Some(case.block.radius),
         support: Some(support),
-        source: Some(format!("palpate solve {VERSION}, finite elements{source}")),
+        source: Some(format!(
+            "palpate solve {VERSION}, finite elements{rounded}{source}"
+        )),
         ..RecordingHeader::default()
     };
     let samples = Samples {
@@ -262,18 +273,23 @@ pub(super) fn mechanical(problem: &Problem, case: &Indentation) -> IndentationPr
     }
 }
 
-/// What the same indenter meets on a half-space at small strain [N]; with Coulomb friction, for which there is no closed
-/// form, what it meets without.
+/// What the same indenter meets on a half-space at small strain [N]; with Coulomb friction, or where it is rounded and sticks,
+/// for which there is no closed form, what it meets without friction.
 fn half_space_force(problem: &Problem, case: &Indentation, depth: f64) -> f64 {
     let (law, radius) = (&problem.material.at_rest, case.indenter.radius);
     let friction = match case.indenter.face {
         FrictionLaw::Bonded => Friction::Bonded,
         FrictionLaw::Frictionless | FrictionLaw::Coulomb(_) => Friction::Frictionless,
     };
+    if let Some(profile) = case.indenter.rounded_profile() {
+        return rounded_force(law, &profile, depth);
+    }
     match case.indenter.shape {
         IndenterShape::Sphere => hertz_force(law, radius, depth),
-        IndenterShape::Flat { .. } => depth * half_space_stiffness(law, radius, friction),
-        IndenterShape::Cone { half_angle } => sneddon_force(law, half_angle, depth),
+        IndenterShape::Flat { .. } | IndenterShape::RoundedPunch { .. } => {
+            depth * half_space_stiffness(law, radius, friction)
+        }
+        IndenterShape::Cone { half_angle, .. } => sneddon_force(law, half_angle, depth),
     }
 }
 
@@ -281,6 +297,9 @@ fn half_space_force(problem: &Problem, case: &Indentation, depth: f64) -> f64 {
 fn half_space(case: &Indentation) -> &'static str {
     match case.indenter.face {
         FrictionLaw::Coulomb(_) => "half-space without friction",
+        FrictionLaw::Bonded if case.indenter.rounded_profile().is_some() => {
+            "half-space without friction"
+        }
         FrictionLaw::Bonded | FrictionLaw::Frictionless => "half-space",
     }
 }
@@ -291,11 +310,19 @@ fn contact_radius(case: &Indentation, depths: &[f64]) -> f64 {
     case.indenter.contact_radius(deepest)
 }
 
+/// The radius of an edge or an apex that is rounded [m].
+fn edge_radius(indenter: &Indenter) -> Option<f64> {
+    match indenter.rounded_profile()? {
+        RoundedProfile::Punch { edge_radius, .. } => Some(edge_radius),
+        RoundedProfile::Cone { apex_radius, .. } => Some(apex_radius),
+    }
+}
+
 fn title(case: &Indentation) -> String {
     let shape = match case.indenter.shape {
         IndenterShape::Sphere => "Sphere",
         IndenterShape::Cone { .. } => "Cone",
-        IndenterShape::Flat { .. } => "Flat punch",
+        IndenterShape::Flat { .. } | IndenterShape::RoundedPunch { .. } => "Flat punch",
     };
     format!(
         "{shape} of radius {} mm",
@@ -310,10 +337,15 @@ fn heading(case: &Indentation) -> String {
         FrictionLaw::Coulomb(coefficient) => format!("has friction {coefficient}"),
     };
     let face = surface(case.indenter.face, "slips");
+    let rounded = match edge_radius(&case.indenter) {
+        Some(radius) => format!("rounded to {} mm ", plots::short(1e3 * radius)),
+        None => String::new(),
+    };
     let how = match case.indenter.shape {
         IndenterShape::Sphere => format!("that {face}"),
-        IndenterShape::Cone { half_angle } => {
-            format!("of {:.1}° that {face}", half_angle.to_degrees())
+        IndenterShape::RoundedPunch { .. } => format!("with its edge {rounded}that {face}"),
+        IndenterShape::Cone { half_angle, .. } => {
+            format!("of {:.1}° {rounded}that {face}", half_angle.to_degrees())
         }
         IndenterShape::Flat { side } => {
             let side = match side {

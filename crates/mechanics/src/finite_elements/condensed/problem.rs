@@ -273,8 +273,8 @@ impl Condensed {
         let width = 3 * loaded.len();
         let mut sides = vec![0.0; self.size * width];
         for (number, &triangle) in loaded.iter().enumerate() {
-            let sides = (sides.as_mut_slice(), width, 3 * number);
-            self.projection.load(triangle, &self.rows, sides);
+            self.projection
+                .load(triangle, &self.rows, &mut sides, width, 3 * number);
         }
         self.factors.solve_many(&mut sides, width);
         let mut means = vec![0.0; 3 * width];

@@ -86,7 +86,9 @@ impl Projection {
         &self,
         triangle: TriangleId,
         rows: &[Option<[usize; 3]>],
-        (sides, width, first): (&mut [f64], usize, usize),
+        sides: &mut [f64],
+        width: usize,
+        first: usize,
     ) {
         for &(node, share) in self.of(triangle) {
             for (axis, row) in rows[node].into_iter().flatten().enumerate() {

@@ -123,11 +123,7 @@ impl HemisphereProblem {
         check_edge(edge)?;
         let disc = QuarterDisc::new(
             self.radius,
-            &Lines::at_pole(
-                self.patch_radius / self.radius,
-                (edge, 1.25),
-                halvings.min(0),
-            ),
+            &Lines::at_pole(self.patch_radius / self.radius, edge, 1.25, halvings.min(0)),
             halvings.max(0).unsigned_abs(),
         );
         let model =

@@ -46,7 +46,7 @@ impl Lines {
     /// Fine along the arc around the edge of a patch in the pole that reaches to the angle `rim` [rad], and below it:
     /// intervals of `edge` [-] of the patch at its edge that grow by `within` [-] toward the pole; `joined` in pairs
     /// where that is −1.
-    pub(in super::super) fn at_pole(rim: f64, (edge, within): (f64, f64), joined: i32) -> Self {
+    pub(in super::super) fn at_pole(rim: f64, edge: f64, within: f64, joined: i32) -> Self {
         let grading = Grading {
             first: edge * rim.min(FRAC_PI_2 - rim),
             growth: 1.25,

@@ -8,9 +8,13 @@
 //! from the place where it last stood: the closest-point return of plasticity, backward in time. It sticks again when
 //! it would slip along its force.
 
-use super::super::supports::{RigidSurface, SurfaceDistance};
+use super::super::rigid_tool::{MeridianDistance, RigidShape};
+use super::super::supports::RigidSurface;
 use super::indenter::{Indenter, IndenterShape, Side};
 use crate::contact::FrictionLaw;
+
+/// Rounding of the mesh's own lines [-].
+const ROUNDING: f64 = 1e-9;
 
 /// A part of an indenter's surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,7 +23,7 @@ pub(super) enum Part {
     Face,
     /// The side of a flat punch.
     Side,
-    /// The sphere or the cone.
+    /// All of a sphere, a cone or a punch with a rounded edge.
     Round,
 }
 
@@ -60,10 +64,13 @@ pub(super) struct Tolerances {
 }
 
 impl Part {
-    fn of(shape: IndenterShape) -> Self {
+    /// The part that a free node comes to.
+    pub(super) fn of(shape: IndenterShape) -> Self {
         match shape {
             IndenterShape::Flat { .. } => Self::Side,
-            IndenterShape::Sphere | IndenterShape::Cone { .. } => Self::Round,
+            IndenterShape::RoundedPunch { .. }
+            | IndenterShape::Sphere
+            | IndenterShape::Cone { .. } => Self::Round,
         }
     }
 }
@@ -73,14 +80,34 @@ impl Indenter {
     pub(super) fn surface(&self, part: Part, height: f64) -> RigidSurface {
         match (part, self.shape) {
             (Part::Face, _) => RigidSurface::Plane { height },
-            (Part::Round, IndenterShape::Cone { half_angle }) => RigidSurface::Cone {
-                apex: height,
-                half_angle,
+            (
+                Part::Round,
+                IndenterShape::Cone {
+                    half_angle,
+                    apex_radius,
+                },
+            ) => RigidSurface::Revolved {
+                shape: RigidShape::Cone {
+                    half_angle,
+                    apex_radius,
+                },
+                height,
             },
-            (Part::Round, _) => RigidSurface::Sphere {
-                center: height + self.radius,
-                radius: self.radius,
+            (Part::Round, IndenterShape::RoundedPunch { edge_radius }) => RigidSurface::Revolved {
+                shape: RigidShape::FlatPunch {
+                    radius: self.radius,
+                    edge_radius,
+                },
+                height,
             },
+            (Part::Round, IndenterShape::Sphere | IndenterShape::Flat { .. }) => {
+                RigidSurface::Revolved {
+                    shape: RigidShape::Sphere {
+                        radius: self.radius,
+                    },
+                    height: height + self.radius,
+                }
+            }
             (Part::Side, _) => RigidSurface::Cylinder {
                 radius: self.radius,
             },
@@ -135,22 +162,24 @@ impl Indenter {
             .filter_map(|part| self.coefficient(part))
     }
 
-    /// Where a place lies beside a part.
-    pub(super) fn beside(&self, part: Part, place: Place) -> SurfaceDistance {
-        self.surface(part, 0.0).beside(place.radius, place.above)
-    }
-
-    /// Whether a node of the untouched surface at `radius` [m] is under a flat face.
-    fn is_under_face(&self, radius: f64) -> bool {
-        // Rounding of the mesh's own lines.
-        matches!(self.shape, IndenterShape::Flat { .. }) && radius <= self.radius * (1.0 + 1e-9)
+    /// Where a place lies relative to a part.
+    pub(super) fn signed_distance(&self, part: Part, place: Place) -> MeridianDistance {
+        self.surface(part, 0.0)
+            .signed_distance(place.radius, place.above)
     }
 
     /// Contact of a node of the untouched surface at `rest`.
     pub(super) fn first_touch(&self, rest: Place) -> ContactStatus {
-        match self.is_under_face(rest.radius) {
-            true => self.touch(Part::Face, rest),
-            false => ContactStatus::Free,
+        match self.shape {
+            IndenterShape::Flat { .. } if rest.radius <= self.radius * (1.0 + ROUNDING) => {
+                self.touch(Part::Face, rest)
+            }
+            IndenterShape::RoundedPunch { edge_radius }
+                if rest.radius <= (self.radius - edge_radius) * (1.0 + ROUNDING) =>
+            {
+                self.touch(Part::Round, rest)
+            }
+            _ => ContactStatus::Free,
         }
     }
 
@@ -172,7 +201,7 @@ impl Indenter {
     pub(super) fn inside(&self, place: Place) -> f64 {
         match Part::of(self.shape) {
             Part::Side if place.above <= 0.0 => f64::NEG_INFINITY,
-            part => -self.beside(part, place).distance,
+            part => -self.signed_distance(part, place).distance,
         }
     }
 
@@ -208,10 +237,12 @@ impl Indenter {
         };
         let slides = matches!(touch, ContactStatus::Sliding { .. });
         // A sharp apex stays where it has gone in.
-        if matches!(self.shape, IndenterShape::Cone { .. }) && place.radius == 0.0 {
+        let is_sharp =
+            matches!(self.shape, IndenterShape::Cone { apex_radius, .. } if apex_radius == 0.0);
+        if is_sharp && place.radius == 0.0 {
             return false;
         }
-        let [push, _] = self.beside(part, place).components(force);
+        let [push, _] = self.signed_distance(part, place).components(force);
         push < 0.0 || (slides && part == Part::Side && place.above < 0.0)
     }
 
@@ -226,8 +257,8 @@ impl Indenter {
     ) -> Option<ContactStatus> {
         let part = touch.part()?;
         let coefficient = self.coefficient_of(touch)?;
-        let beside = self.beside(part, place);
-        let [normal, tangential] = beside.components(force);
+        let found = self.signed_distance(part, place);
+        let [normal, tangential] = found.components(force);
         match touch {
             ContactStatus::Free => None,
             ContactStatus::Stuck { at, .. } => {
@@ -243,7 +274,7 @@ impl Indenter {
             ContactStatus::Sliding { slip, .. } => {
                 let Slip { force_ratio, from } = slip;
                 let moved = [place.radius - from.radius, place.above - from.above];
-                let [_, along] = beside.components(moved);
+                let [_, along] = found.components(moved);
                 let with_force = along * 1_f64.copysign(force_ratio) > tolerances.slip;
                 with_force.then_some(ContactStatus::Stuck { part, at: from })
             }

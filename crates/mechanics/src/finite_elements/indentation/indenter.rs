@@ -1,7 +1,9 @@
 use std::f64::consts::FRAC_2_PI;
 
 use super::super::mismatch::Mismatch;
-use crate::contact::FrictionLaw;
+use super::super::supports::RigidSurface;
+use super::contact::Part;
+use crate::contact::{FrictionLaw, RoundedProfile};
 
 /// What the side of a flat punch does.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,12 +22,19 @@ pub enum IndenterShape {
         /// What its side does.
         side: Side,
     },
+    /// The flat end of a cylinder whose edge is rounded; face, edge and side are one surface.
+    RoundedPunch {
+        /// Radius of the edge [m], above 0 and below that of the cylinder.
+        edge_radius: f64,
+    },
     /// A sphere.
     Sphere,
-    /// A cone with a sharp apex.
+    /// A cone.
     Cone {
         /// Angle between its axis and its side [rad], above 0 and below π/2.
         half_angle: f64,
+        /// Radius to which its apex is rounded [m]; 0 is a sharp apex.
+        apex_radius: f64,
     },
 }
 
@@ -36,26 +45,50 @@ pub struct Indenter {
     pub shape: IndenterShape,
     /// Radius of the cylinder, of the sphere, or of the base of the cone, which tissue must not reach [m].
     pub radius: f64,
-    /// What its face, the sphere or the cone does.
+    /// What its face, or all of what has no sharp edge, does.
     pub face: FrictionLaw,
 }
 
 impl Indenter {
     pub(super) fn check(&self) -> Result<(), Mismatch> {
         let impossible = |coefficient: &f64| !(coefficient.is_finite() && *coefficient >= 0.0);
-        match self.coefficients().find(impossible) {
-            Some(coefficient) => Err(Mismatch::FrictionOutOfRange { coefficient }),
-            None => Ok(()),
+        if let Some(coefficient) = self.coefficients().find(impossible) {
+            return Err(Mismatch::FrictionOutOfRange { coefficient });
+        }
+        match self.surface(Part::of(self.shape), 0.0) {
+            RigidSurface::Revolved { shape, .. } if !shape.exists() => {
+                Err(Mismatch::IndenterOutOfRange { shape })
+            }
+            _ => Ok(()),
         }
     }
 
-    /// Radius of the touched circle at `depth` on a half-space, at small strain [m]: of a sphere [Hertz 1881], of a
-    /// cone [Sneddon 1965].
+    /// Radius of the touched circle at `depth` on a half-space, without friction and at small strain [m]: of a sphere
+    /// [Hertz 1881], of a cone and of what is rounded [Sneddon 1965].
     pub fn contact_radius(&self, depth: f64) -> f64 {
+        match (self.shape, self.rounded_profile()) {
+            (_, Some(profile)) => profile.contact_radius(depth),
+            (IndenterShape::Sphere, None) => (self.radius * depth).sqrt().min(self.radius),
+            (IndenterShape::Cone { half_angle, .. }, None) => FRAC_2_PI * depth * half_angle.tan(),
+            (IndenterShape::Flat { .. } | IndenterShape::RoundedPunch { .. }, None) => self.radius,
+        }
+    }
+
+    /// The profile of a punch or a cone that is rounded; none of another shape.
+    pub fn rounded_profile(&self) -> Option<RoundedProfile> {
         match self.shape {
-            IndenterShape::Flat { .. } => self.radius,
-            IndenterShape::Sphere => (self.radius * depth).sqrt().min(self.radius),
-            IndenterShape::Cone { half_angle } => FRAC_2_PI * depth * half_angle.tan(),
+            IndenterShape::RoundedPunch { edge_radius } => Some(RoundedProfile::Punch {
+                radius: self.radius,
+                edge_radius,
+            }),
+            IndenterShape::Cone {
+                half_angle,
+                apex_radius,
+            } if apex_radius > 0.0 => Some(RoundedProfile::Cone {
+                half_angle,
+                apex_radius,
+            }),
+            _ => None,
         }
     }
 

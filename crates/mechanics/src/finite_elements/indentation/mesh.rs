@@ -46,6 +46,8 @@ impl Block {
 
 /// Smallest elements of the usual mesh, in radii of the contact [-].
 const EDGE: f64 = 0.1;
+/// The same in widths of the ring in which a rounded edge touches [-].
+const ACROSS_EDGE: f64 = 0.3;
 /// Growth of the elements from there [-].
 const GROWTH: f64 = 1.25;
 
@@ -117,8 +119,9 @@ impl Body {
     pub(super) fn hemisphere(settings: &IndentationSettings) -> Self {
         let radius = settings.block.height;
         let rim = settings.indenter.scale(settings.deepest) / radius;
-        let growth = (EDGE, settings.indenter.shape.growth_within());
-        let lines = Lines::at_pole(rim, growth, settings.halvings.min(0));
+        let edge = edge_size(&settings.indenter, settings.deepest);
+        let within = settings.indenter.shape.growth_within();
+        let lines = Lines::at_pole(rim, edge, within, settings.halvings.min(0));
         let halvings = settings.halvings.max(0).unsigned_abs();
         let mut disc = QuarterDisc::new(radius, &lines, halvings);
         for node in &mut disc.mesh.nodes {
@@ -134,11 +137,24 @@ impl Body {
     }
 }
 
+/// Size of the elements at the edge of the contact at the depth `deepest` [m] on the usual mesh, in radii of the contact [-]: of a
+/// punch with a rounded edge several lie across what is touched of that.
+fn edge_size(indenter: &Indenter, deepest: f64) -> f64 {
+    match indenter.shape {
+        IndenterShape::RoundedPunch { edge_radius } => {
+            let contact = indenter.scale(deepest);
+            let rounded = contact - (indenter.radius - edge_radius);
+            EDGE.min(ACROSS_EDGE * rounded / contact)
+        }
+        _ => EDGE,
+    }
+}
+
 impl IndenterShape {
     /// Growth of the elements from the edge of the contact inward [-]: the edge of one that grows passes over all.
     fn growth_within(self) -> f64 {
         match self {
-            Self::Flat { .. } => GROWTH,
+            Self::Flat { .. } | Self::RoundedPunch { .. } => GROWTH,
             Self::Sphere | Self::Cone { .. } => 1.0,
         }
     }
@@ -154,7 +170,7 @@ fn graded_block(
     below: f64,
 ) -> ElementMesh {
     let contact = indenter.scale(deepest);
-    let edge = EDGE * contact;
+    let edge = contact * edge_size(indenter, deepest);
     let grading = Grading {
         first: edge,
         growth: GROWTH,

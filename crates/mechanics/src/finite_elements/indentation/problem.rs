@@ -100,7 +100,8 @@ pub fn solve(
 /// As [`solve`], and when times do not ascend.
 pub fn solve_history(
     problem: &IndentationProblem,
-    (prony, relaxing): (&PronySeries, Relaxing),
+    prony: &PronySeries,
+    relaxing: Relaxing,
     history: &History,
     accuracy: f64,
     progress: &mut dyn FnMut(Progress),
@@ -171,7 +172,9 @@ impl IndentationProblem {
     fn meshes(&self) -> &'static Meshes<'static> {
         match self.indenter.shape {
             IndenterShape::Flat { .. } => &FLAT,
-            IndenterShape::Sphere | IndenterShape::Cone { .. } => &ROUND,
+            IndenterShape::RoundedPunch { .. }
+            | IndenterShape::Sphere
+            | IndenterShape::Cone { .. } => &ROUND,
         }
     }
 
@@ -216,7 +219,9 @@ impl IndentationProblem {
                 let last = FLAT_PARTS.len() - 1;
                 IndentationRun::around_edge(&settings, FLAT_PARTS[mesh.min(last)])
             }
-            IndenterShape::Sphere | IndenterShape::Cone { .. } => IndentationRun::new(&settings),
+            IndenterShape::RoundedPunch { .. }
+            | IndenterShape::Sphere
+            | IndenterShape::Cone { .. } => IndentationRun::new(&settings),
         }
     }
 

@@ -1,12 +1,13 @@
 mod contact_update;
 mod frictional_contact;
+mod press;
 mod supports;
 
 pub use frictional_contact::{ContactNode, FrictionalContact};
 
 use std::sync::Arc;
 
-use super::super::continuation::{Steps, extrapolated};
+use super::super::continuation::{Reached, Steps, extrapolated};
 use super::super::model::{
     FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
 };
@@ -21,6 +22,7 @@ use super::mesh::{Base, Block, Body};
 use super::sensitivities::{Sensitivities, SoughtChange};
 use crate::material::law::Law;
 use crate::{Error, FibreError, PronySeries, Strain};
+use press::SearchMethod;
 
 /// An indentation to be solved on one mesh.
 #[derive(Debug, Clone)]
@@ -99,8 +101,6 @@ pub(super) struct ConvergedIncrement {
 const FIRST_STEP: f64 = 0.1;
 const LONGEST_STEP: f64 = 0.5;
 const SHORTEST_STEP: f64 = 1e-3;
-/// From this step down, an element that gives way is followed downhill [-].
-const DOWNHILL_STEP: f64 = 0.1;
 /// Rounds of Newton's method and changes of contact at one depth.
 const MOST_CHANGES: usize = 24;
 /// The same with Coulomb friction, where nodes stick and slip too.
@@ -122,13 +122,13 @@ const FINISH: SolverControls = SolverControls {
 const LITTLE_EFFORT: usize = 6;
 const MUCH_EFFORT: usize = 12;
 
-/// How an equilibrium is looked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum SearchMethod {
-    /// By Newton's method alone.
-    Straight,
-    /// Downhill in energy, where that fails.
-    Downhill,
+impl ConvergedIncrement {
+    fn reached(&self) -> Reached<'_> {
+        Reached {
+            place: self.depth,
+            unknowns: &self.state.unknowns,
+        }
+    }
 }
 
 impl IndentationRun {
@@ -279,65 +279,6 @@ impl IndentationRun {
         &self.now.state
     }
 
-    /// Goes on to `depth` [m] at `time` [s], linearly and in as many steps as it takes; `at_step` hears
-    /// of each.
-    ///
-    /// # Errors
-    /// When no equilibrium is found on the way, or tissue enters an indenter without a side.
-    pub fn press(
-        &mut self,
-        time: f64,
-        depth: f64,
-        mut at_step: impl FnMut(&IndentationPoint),
-    ) -> Result<IndentationPoint, Error> {
-        let scale = self.scale;
-        let (start, from) = (self.now.time, self.now.depth);
-        let length = (depth - from).abs();
-        self.only_deeper &= depth >= from;
-        let mut gone = 0.0;
-        loop {
-            let left = length - gone;
-            let step = self.next_step(left);
-            let next = if step >= left { length } else { gone + step };
-            let part = if length > 0.0 { next / length } else { 1.0 };
-            let goal = |a: f64, b: f64| if part == 1.0 { b } else { a + part * (b - a) };
-            // Friction has no energy to follow downhill.
-            let way = if step > DOWNHILL_STEP * scale || self.has_friction {
-                SearchMethod::Straight
-            } else {
-                SearchMethod::Downhill
-            };
-            match self.stand_at(goal(start, time), goal(from, depth), way) {
-                Ok((standing, controls)) => {
-                    self.before = Some(std::mem::replace(&mut self.now, standing));
-                    self.check_domain()?;
-                    let point = self.point();
-                    at_step(&point);
-                    gone = next;
-                    self.steps.succeeded(step, controls);
-                    if part == 1.0 {
-                        return Ok(point);
-                    }
-                }
-                Err(failure) => {
-                    if !self.steps.failed(step) {
-                        return Err(Error::NoEquilibrium {
-                            depth: self.now.depth,
-                            failure,
-                        });
-                    }
-                }
-            }
-        }
-    }
-
-    /// The next step [m] when `left` [m] are left.
-    fn next_step(&self, left: f64) -> f64 {
-        // Under a growing load the face sticks and slips at the same places.
-        let one = self.is_linear() && (self.only_deeper || !self.has_friction);
-        if one { left } else { self.steps.step(left) }
-    }
-
     /// Whether nothing depends on the way: small strain and a contact that does not grow.
     fn is_linear(&self) -> bool {
         self.model.law.volume().strain == Strain::Small
@@ -434,8 +375,7 @@ impl IndentationRun {
             if let Some(slopes) = &mut slopes {
                 slopes.solve(&self.model, &supports, &state, &mut self.workspace)?;
             }
-            let statuses = (&mut touch[..], &mut released[..]);
-            if self.update_statuses((depth, &state), statuses, slopes.as_mut())? {
+            if self.update_statuses(depth, &state, &mut touch, &mut released, slopes.as_mut())? {
                 controls = first;
                 continue;
             }
@@ -474,9 +414,7 @@ impl IndentationRun {
             let travelled = self.now.depth - before.depth;
             let ahead = (depth - self.now.depth) / travelled;
             if travelled != 0.0 && ahead > 0.0 {
-                let then = (before.depth, before.state.unknowns.as_slice());
-                let now = (self.now.depth, state.unknowns.as_slice());
-                state.unknowns = extrapolated(now, Some(then), depth);
+                state.unknowns = extrapolated(self.now.reached(), Some(before.reached()), depth);
                 if newton::assemble(&self.model, &supports, &state.unknowns, workspace).is_ok() {
                     return Ok(state);
                 }

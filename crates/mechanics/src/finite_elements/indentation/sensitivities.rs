@@ -65,7 +65,7 @@ impl Sensitivities {
         for (sought, column) in self.sought.iter().zip(&mut self.columns) {
             let (law, parameter) = (&sought.law, sought.parameter);
             let force = sensitivity::residual_sensitivity(model, state, law, parameter);
-            sensitivity::solve(model, supports, (state, &force), column, workspace)?;
+            sensitivity::solve(model, supports, state, &force, column, workspace)?;
         }
         Ok(())
     }

@@ -187,7 +187,7 @@ impl<'a> Contacts<'a> {
         };
         for (point, weight) in at.corner.points.iter().zip(weights) {
             let place = point.position(&places);
-            let beside = tool.beside(&place, position);
+            let beside = tool.signed_distance(&place, position);
             found.gap += weight * beside.distance;
             found.mean += point.weight * place;
             found.normal += weight * beside.normal;
@@ -272,7 +272,7 @@ impl<'a> Contacts<'a> {
             let places = at.corner.places(&model.mesh.nodes, unknowns);
             let (tool, position) = (&self.tools[at.tool], &self.positions[at.tool]);
             let weights = at.corner.points.iter().map(|point| {
-                let beside = tool.beside(&point.position(&places), position);
+                let beside = tool.signed_distance(&point.position(&places), position);
                 let cosine = -beside.normal.dot(&point.normal(&places));
                 let part = ((cosine - FACING[0]) / (FACING[1] - FACING[0])).clamp(0.0, 1.0);
                 point.weight * part * part * (3.0 - 2.0 * part)

@@ -1,6 +1,7 @@
 //! Rigid tools in contact with a solid: their shapes as signed distances, and the forces between them and the boundary.
 
 mod contact;
+mod meridian;
 mod shape;
 mod surface;
 
@@ -8,4 +9,5 @@ pub use contact::ToolLoad;
 pub use shape::{RigidShape, RigidTool};
 
 pub(super) use contact::Contacts;
+pub(super) use meridian::MeridianDistance;
 pub(super) use surface::ContactSurface;

@@ -60,7 +60,7 @@ pub struct RigidTool {
     pub path: Vec<Vec3>,
 }
 
-/// Where a point lies beside a rigid shape.
+/// Where a point lies relative to a rigid shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in super::super) struct RigidDistance {
     /// Signed distance [m], positive outside.
@@ -109,10 +109,12 @@ impl RigidShape {
         }
     }
 
-    /// Where a point of its frame lies beside it.
-    pub(in super::super) fn beside(&self, point: &Vec3) -> RigidDistance {
+    /// Where a point of its frame lies relative to it.
+    pub(in super::super) fn signed_distance(&self, point: &Vec3) -> RigidDistance {
+        if let Some(meridian) = self.meridian(point.x.hypot(point.y), point.z) {
+            return meridian.turned_about_axis(point);
+        }
         match *self {
-            Self::Sphere { radius } => around(point).rounded(radius),
             Self::Cylinder { radius, length } => {
                 let half = 0.5 * length - radius;
                 let on_axis = Vec3::new(point.x.clamp(-half, half), 0.0, 0.0);
@@ -122,38 +124,6 @@ impl RigidShape {
                     found.curvature.fill_column(0, 0.0);
                 }
                 found.rounded(radius)
-            }
-            Self::FlatPunch {
-                radius,
-                edge_radius,
-            } => {
-                let from_axis = point.x.hypot(point.y);
-                let beyond = [from_axis - (radius - edge_radius), edge_radius - point.z];
-                let meridian = match beyond {
-                    [out, below] if out > 0.0 && below > 0.0 => {
-                        let distance = out.hypot(below);
-                        Meridian {
-                            distance,
-                            normal: [out / distance, -below / distance],
-                            curvature: 1.0 / distance,
-                        }
-                    }
-                    [out, below] if out > below => Meridian::straight(out, [1.0, 0.0]),
-                    [_, below] => Meridian::straight(below, [0.0, -1.0]),
-                };
-                meridian.turned_about_axis(point).rounded(edge_radius)
-            }
-            Self::Cone {
-                half_angle,
-                apex_radius,
-            } => {
-                let (sine, cosine) = half_angle.sin_cos();
-                let (out, up) = (point.x.hypot(point.y), point.z - apex_radius);
-                if out * sine + up * cosine < 0.0 {
-                    return around(&Vec3::new(point.x, point.y, up)).rounded(apex_radius);
-                }
-                let side = Meridian::straight(out * cosine - up * sine, [cosine, -sine]);
-                side.turned_about_axis(point).rounded(apex_radius)
             }
             Self::Bar {
                 lengths,
@@ -183,11 +153,9 @@ impl RigidShape {
                 }
                 .rounded(edge_radius)
             }
-            Self::Plate => RigidDistance {
-                distance: -point.z,
-                normal: -Vec3::z(),
-                curvature: Matrix3::zeros(),
-            },
+            Self::Sphere { .. } | Self::FlatPunch { .. } | Self::Cone { .. } | Self::Plate => {
+                unreachable!("a body of revolution")
+            }
         }
     }
 }
@@ -202,9 +170,9 @@ impl RigidTool {
         self.path[part].lerp(&self.path[next], share)
     }
 
-    /// Where a `point` of the body lies beside it when it is at `position` [m].
-    pub(in super::super) fn beside(&self, point: &Vec3, position: &Vec3) -> RigidDistance {
-        let found = self.shape.beside(
+    /// Where a `point` of the body lies relative to it when it is at `position` [m].
+    pub(in super::super) fn signed_distance(&self, point: &Vec3, position: &Vec3) -> RigidDistance {
+        let found = self.shape.signed_distance(
             &self
                 .orientation
                 .inverse_transform_vector(&(point - position)),
@@ -242,44 +210,6 @@ fn around(point: &Vec3) -> RigidDistance {
         distance,
         normal,
         curvature: (Matrix3::identity() - normal * normal.transpose()) / distance,
-    }
-}
-
-/// A distance in a half-plane through the axis of a body of revolution.
-struct Meridian {
-    distance: f64,
-    /// Away from the axis, and along it [-].
-    normal: [f64; 2],
-    /// In the half-plane [1/m].
-    curvature: f64,
-}
-
-impl Meridian {
-    fn straight(distance: f64, normal: [f64; 2]) -> Self {
-        Self {
-            distance,
-            normal,
-            curvature: 0.0,
-        }
-    }
-
-    /// Around the third axis, at `point`.
-    fn turned_about_axis(&self, point: &Vec3) -> RigidDistance {
-        let out = point.x.hypot(point.y);
-        let [away, up] = self.normal;
-        let outward = match out > 0.0 {
-            true => Vec3::new(point.x / out, point.y / out, 0.0),
-            false => Vec3::x(),
-        };
-        let around = Vec3::z().cross(&outward);
-        let along = away * Vec3::z() - up * outward;
-        let hoop = if out > 0.0 { away / out } else { 0.0 };
-        RigidDistance {
-            distance: self.distance,
-            normal: away * outward + up * Vec3::z(),
-            curvature: self.curvature * along * along.transpose()
-                + hoop * around * around.transpose(),
-        }
     }
 }
 
@@ -333,7 +263,7 @@ mod tests {
         for shape in SHAPES {
             let mut compared = 0;
             for point in points() {
-                let at = |by: Vec3| shape.beside(&(point + by));
+                let at = |by: Vec3| shape.signed_distance(&(point + by));
                 let here = at(Vec3::zeros());
                 assert!((here.normal.norm() - 1.0).abs() < 1e-12, "{shape:?}");
                 // Where two parts of the surface are as near there is no derivative.
@@ -371,11 +301,11 @@ mod tests {
     fn the_nearest_point_of_the_surface_is_as_far_as_the_distance() {
         for shape in SHAPES {
             for point in points() {
-                let here = shape.beside(&point);
+                let here = shape.signed_distance(&point);
                 if here.distance < 0.0 {
                     continue;
                 }
-                let foot = shape.beside(&(point - here.distance * here.normal));
+                let foot = shape.signed_distance(&(point - here.distance * here.normal));
                 assert!(foot.distance.abs() < 1e-12, "{shape:?} {point:?}");
             }
         }

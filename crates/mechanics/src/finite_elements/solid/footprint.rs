@@ -138,7 +138,7 @@ impl Footprint {
     /// Whether a `point` of the boundary at rest may touch the `tool`.
     pub(super) fn may_touch(&self, tool: &RigidTool, point: &Vec3) -> bool {
         let mut places = self.positions.iter();
-        places.any(|position| tool.beside(point, position).distance <= self.reach)
+        places.any(|position| tool.signed_distance(point, position).distance <= self.reach)
     }
 }
 
@@ -153,7 +153,7 @@ fn sample(
     let [a, b, c] = triangle;
     let middle = (a + b + c) / 3.0;
     let reach = triangle.iter().map(|x| (x - middle).norm());
-    let distance = tool.beside(&middle, position).distance;
+    let distance = tool.signed_distance(&middle, position).distance;
     if distance > reach.fold(0.0, f64::max) {
         return;
     }

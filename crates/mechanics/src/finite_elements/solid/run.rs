@@ -273,7 +273,9 @@ impl SolidProblem {
         let mut warnings = Vec::new();
         for (number, tool) in self.tools.iter().enumerate() {
             let end = tool.position(tool.path.len() as f64);
-            let depths = others.iter().map(|at| -tool.beside(at, &end).distance);
+            let depths = others
+                .iter()
+                .map(|at| -tool.signed_distance(at, &end).distance);
             let deepest = depths.fold(0.0, f64::max);
             if deepest > 0.0 {
                 warnings.push(format!(

@@ -3,7 +3,9 @@
 //! A linear system whose matrix carries the small pressure block of `assembly` is solved with one
 //! factor: the true residual goes through it again until it is gone.
 
-use super::super::continuation::{Increments, Steps, continue_to, extrapolated};
+use std::ops::ControlFlow;
+
+use super::super::continuation::{Increments, Reached, Steps, continue_to, extrapolated};
 use super::super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
 use super::super::newton::{self, Failure, SolverControls, correct};
 use super::super::rigid_tool::{Contacts, ToolLoad};
@@ -115,6 +117,7 @@ pub(super) fn equilibrium<'a>(
                 });
             }
             at_part(run.reached / whole);
+            ControlFlow::Continue(())
         };
         continue_to(&mut run, &mut steps, 1.0 + part as f64, &mut at_step).map_err(|failure| {
             Error::NoSolid {
@@ -149,11 +152,16 @@ impl Increments for SolidRun<'_, '_> {
     fn advance(&mut self, goal: f64) -> Result<usize, Failure> {
         // A step that was predicted badly is tried again from where the body stands.
         let before = self.before.take();
-        let then = before
-            .as_ref()
-            .map(|(at, unknowns)| (*at, unknowns.as_slice()));
+        let now = Reached {
+            place: self.reached,
+            unknowns: &self.state.unknowns,
+        };
+        let before = before.as_ref().map(|(place, unknowns)| Reached {
+            place: *place,
+            unknowns,
+        });
         let mut trial = FiniteElementState {
-            unknowns: extrapolated((self.reached, &self.state.unknowns), then, goal),
+            unknowns: extrapolated(now, before, goal),
         };
         let mut contacts = self
             .contacts

@@ -6,10 +6,11 @@
 //! that would pull is let go. Force on the tissue: four times the reactions' sum.
 
 use crate::contact::Friction;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::super::cavity::Cavity;
-use super::super::continuation::{Increments, Steps, continue_to, extrapolated};
+use super::super::continuation::{Increments, Reached, Steps, continue_to, extrapolated};
 use super::super::model::{
     FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
 };
@@ -49,6 +50,15 @@ struct ConvergedIncrement {
     state: FiniteElementState,
     /// Where each node of the face was activated [m], (y, z).
     caught: Vec<Option<[f64; 2]>>,
+}
+
+impl ConvergedIncrement {
+    fn reached(&self) -> Reached<'_> {
+        Reached {
+            place: self.depth,
+            unknowns: &self.state.unknowns,
+        }
+    }
 }
 
 impl<'a> Punching<'a> {
@@ -124,10 +134,12 @@ impl<'a> Punching<'a> {
                 tube: self,
                 part: 0.0,
             };
-            continue_to(&mut rising, &mut steps, 1.0, |_| {}).map_err(|failure| Error::NoPath {
-                factor: rising.part,
-                failure,
-            })?;
+            continue_to(&mut rising, &mut steps, 1.0, |_| ControlFlow::Continue(())).map_err(
+                |failure| Error::NoPath {
+                    factor: rising.part,
+                    failure,
+                },
+            )?;
         }
         let place = |node: &usize| self.place(&self.now.state, *node).x;
         self.top = self.face.iter().map(place).fold(f64::MIN, f64::max);
@@ -146,7 +158,10 @@ impl<'a> Punching<'a> {
         mut at_step: impl FnMut(f64),
     ) -> Result<f64, Error> {
         let mut steps = self.steps;
-        let pressed = continue_to(self, &mut steps, depth, |run| at_step(run.now.depth));
+        let pressed = continue_to(self, &mut steps, depth, |run| {
+            at_step(run.now.depth);
+            ControlFlow::Continue(())
+        });
         self.steps = steps;
         pressed.map_err(|failure| Error::NoEquilibrium {
             depth: self.now.depth,
@@ -237,11 +252,9 @@ impl<'a> Punching<'a> {
 
     /// Where the body would be at `depth` if it went on as before.
     fn predict(&self, depth: f64) -> FiniteElementState {
-        let before = self.before.as_ref();
-        let before = before.map(|before| (before.depth, before.state.unknowns.as_slice()));
-        let now = (self.now.depth, self.now.state.unknowns.as_slice());
+        let before = self.before.as_ref().map(ConvergedIncrement::reached);
         FiniteElementState {
-            unknowns: extrapolated(now, before, depth),
+            unknowns: extrapolated(self.now.reached(), before, depth),
         }
     }
 

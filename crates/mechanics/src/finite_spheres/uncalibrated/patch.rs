@@ -7,8 +7,8 @@ use faer::{Accum, Mat, Par};
 use nalgebra::Matrix3;
 
 use super::EnergyRows;
-use crate::finite_spheres::quadrature::gauss_points;
 use crate::finite_spheres::shape_function::{Particles, ShapeFunctions};
+use crate::gauss::gauss_points;
 use crate::{LinearElastic, Vec3};
 
 /// Particles along each edge of the block, whose edges are 1 long.

@@ -3,11 +3,11 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::super::layout::{Layout, Place};
-use super::super::quadrature::gauss_points;
 use super::super::settings::Integration;
 use super::super::shape_function::{Particles, ShapeFunctions};
 use super::region::{TemplatePlace, half_ball_distance, in_half_ball};
 use crate::Vec3;
+use crate::gauss::gauss_points;
 
 /// Radius of a sphere in mean distances of the six nearest particles.
 const SUPPORT: f64 = 2.5;

@@ -12,7 +12,9 @@ use crate::solve::telling::Telling;
 pub(crate) fn with_forces(
     inflated: Solution,
     problem: &Problem,
-    (mechanical, tube, punch): (&TubeProblem, &Tube, &TubeIndent),
+    mechanical: &TubeProblem,
+    tube: &Tube,
+    punch: &TubeIndent,
     telling: &Telling<'_>,
 ) -> Result<Solution, Error> {
     let Figures::Tube(mut figures) = inflated.figures else {

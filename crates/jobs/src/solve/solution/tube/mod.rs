@@ -73,7 +73,7 @@ pub(crate) fn solution(
     };
     match &case.indent {
         Some(indent) => {
-            indented::with_forces(solution, problem, (&mechanical, case, indent), telling)
+            indented::with_forces(solution, problem, &mechanical, case, indent, telling)
         }
         None => Ok(solution),
     }

@@ -23,8 +23,10 @@ impl IndentationRun {
     /// there was one. Fails when tissue went in too deep to know where it entered.
     pub(super) fn update_statuses(
         &self,
-        (depth, state): (f64, &FiniteElementState),
-        (touch, released): (&mut [ContactStatus], &mut [bool]),
+        depth: f64,
+        state: &FiniteElementState,
+        touch: &mut [ContactStatus],
+        released: &mut [bool],
         mut slopes: Option<&mut Sensitivities>,
     ) -> Result<bool, Failure> {
         if self.is_linear() && !self.has_friction {
@@ -94,7 +96,7 @@ impl IndentationRun {
             let place = self.place(state, node, depth);
             let [normal, _] = self
                 .indenter
-                .beside(touch.part()?, place)
+                .signed_distance(touch.part()?, place)
                 .components(self.force_on(node));
             Some(normal)
         })
@@ -105,9 +107,9 @@ impl IndentationRun {
     pub(super) fn slides(&self) -> bool {
         match self.indenter.shape {
             IndenterShape::Flat { side } => side == Side::Touches(FrictionLaw::Frictionless),
-            IndenterShape::Sphere | IndenterShape::Cone { .. } => {
-                self.indenter.face == FrictionLaw::Frictionless
-            }
+            IndenterShape::RoundedPunch { .. }
+            | IndenterShape::Sphere
+            | IndenterShape::Cone { .. } => self.indenter.face == FrictionLaw::Frictionless,
         }
     }
 

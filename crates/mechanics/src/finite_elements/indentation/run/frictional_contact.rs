@@ -26,7 +26,7 @@ pub struct ContactNode {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionalContact {
     /// Radius of the circle that touches [m], with nodes where [`ContactNode::radius`] says: to the last node that touches,
-    /// and of a sphere or a cone half way to the next, so that it is known to half the distance of nodes.
+    /// and of all but a sharp punch half way to the next, so that it is known to half the distance of nodes.
     pub contact_radius: f64,
     /// Radius of the circle in which tissue sticks [m]: half way from the last node that sticks to the first that slips,
     /// from the axis outward; as the radius of the contact where all stick.
@@ -47,8 +47,8 @@ impl IndentationRun {
         let next = next.take_while(|(_, touch)| **touch == ContactStatus::Free);
         let next = next.last().map(|(&node, _)| self.radius_of(node));
         let contact_radius = match (self.indenter.shape, next) {
-            (IndenterShape::Sphere | IndenterShape::Cone { .. }, Some(next))
-                if !nodes.is_empty() =>
+            (shape, Some(next))
+                if !matches!(shape, IndenterShape::Flat { .. }) && !nodes.is_empty() =>
             {
                 0.5 * (last + next)
             }
@@ -74,8 +74,8 @@ impl IndentationRun {
         each.filter_map(|(&node, touch)| {
             let part = touch.part()?;
             let place = self.place(&self.now.state, node, depth);
-            let beside = self.indenter.beside(part, place);
-            let [normal_force, tangential_force] = beside.components(self.force_on(node));
+            let surface = self.indenter.signed_distance(part, place);
+            let [normal_force, tangential_force] = surface.components(self.force_on(node));
             Some(ContactNode {
                 radius: self.radius_of(node),
                 normal_force,
