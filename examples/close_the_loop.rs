@@ -20,8 +20,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let tissue = Tissue::builtin(BuiltinTissue::PigEsophagus);
     let specimen = VirtualSpecimen::of_tissue(&tissue, 1e-3, 5e-3, &mut |_| ())?;
     let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
-    let (device, clock) = ((machine, Imperfections::premium()), Clock::virtual_time());
-    let mut rig = Rig::over(specimen, device, RigSettings::default(), (clock, 1))?;
+    let (imperfections, settings) = (Imperfections::premium(), RigSettings::default());
+    let clock = Clock::virtual_time();
+    let mut rig = Rig::over(specimen, machine, imperfections, settings, clock, 1)?;
     let trajectory = DepthTrajectory::of(RAMP)?;
     rig.approach(&mut |_| true)?;
     rig.recover(&mut |_| true)?;
@@ -44,8 +45,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     block.organ.tissue = scene::TissueChoice::Inline(Box::new(found.tissue(None)?));
     let simulation = Simulation::new(&block)?;
     let tool = &simulation.tools()[0];
-    let trajectory = (&recorded.time[..], &recorded.depth[..]);
-    let motion = simulation.site(tool, None).indented(tool, trajectory)?;
+    let site = simulation.site(tool, None);
+    let motion = site.indented(tool, &recorded.time, &recorded.depth)?;
     let (mut off, mut largest) = (0.0_f64, 0.0_f64);
     play(&simulation, &motion, |frame| -> Result<Flow, Error> {
         let sample = recorded.time.partition_point(|time| *time < frame.time);

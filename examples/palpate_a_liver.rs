@@ -33,7 +33,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let (time, elapsed) = (0.1 * f64::from(k), if k == 0 { 0.0 } else { 0.1 });
         step(
             &simulation,
-            (time, elapsed),
+            time,
+            elapsed,
             &[Some(pose)],
             &mut state,
             &mut workspace,

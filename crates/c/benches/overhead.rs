@@ -45,13 +45,7 @@ fn in_rust(simulation: &Simulation, is_there: bool) -> impl FnMut() -> f64 {
             cut: false,
         });
         let time = 5e-3 * f64::from(number);
-        step(
-            simulation,
-            (time, 5e-3),
-            &[pose],
-            &mut state,
-            &mut workspace,
-        );
+        step(simulation, time, 5e-3, &[pose], &mut state, &mut workspace);
         number += 1;
         state.tools[0].force.z
     }

@@ -120,7 +120,8 @@ impl Own {
         let undone = std::mem::take(&mut self.course.undo) && self.course.state.undo_cut();
         step(
             simulation,
-            (time, time - was),
+            time,
+            time - was,
             &self.poses,
             &mut self.course.state,
             &mut self.workspace,

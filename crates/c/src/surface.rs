@@ -30,7 +30,7 @@ pub struct SurfaceView {
 }
 
 impl SurfaceView {
-    fn new((vertices, triangles): (&[Vec3], &[[NodeId; 3]]), version: u64) -> Self {
+    fn new(vertices: &[Vec3], triangles: &[[NodeId; 3]], version: u64) -> Self {
         Self {
             vertices_m: vertices.as_ptr().cast(),
             vertices: vertices.len(),
@@ -41,7 +41,7 @@ impl SurfaceView {
     }
 
     fn of(mesh: &TriangleMesh) -> Self {
-        Self::new((mesh.vertices(), mesh.triangles()), 0)
+        Self::new(mesh.vertices(), mesh.triangles(), 0)
     }
 }
 
@@ -98,8 +98,7 @@ impl Own {
             Some(cuts) => {
                 // A restored state may have cut other triangles under the same number.
                 let version = u64::from(self.restored) << 32 | cuts.version() & 0xffff_ffff;
-                let shown = (cuts.places(), cuts.mesh().triangles());
-                SurfaceView::new(shown, version + 1)
+                SurfaceView::new(cuts.places(), cuts.mesh().triangles(), version + 1)
             }
             None => SurfaceView::of(&state.deformed),
         }

@@ -50,7 +50,7 @@ fn of_relaxation(criterion: &mut Criterion) {
     } = samples();
     let largest = force_n.iter().copied().fold(0.0, f64::max);
     let course =
-        RelaxationRecord::new((&time_s, &depth_m, &force_n), largest, |depth| depth).unwrap();
+        RelaxationRecord::new(&time_s, &depth_m, &force_n, largest, |depth| depth).unwrap();
     let settings = RelaxationSettings { terms: Some(2) };
     criterion.bench_function("relaxation of two terms (budget 50 ms)", |b| {
         b.iter(|| relaxation(black_box(std::slice::from_ref(&course)), settings).unwrap());

@@ -310,7 +310,7 @@ fn records(pressed: &[Pressed], curve: Option<&UnitCurve>) -> Vec<RelaxationReco
     let largest = pressed.iter().map(|each| each.largest).fold(0.0, f64::max);
     let felt = pressed.iter().filter(|each| each.is_felt());
     let each = felt.filter_map(|each| {
-        let course = RelaxationRecord::new((&each.time, &each.depth, &each.force), largest, shape)?;
+        let course = RelaxationRecord::new(&each.time, &each.depth, &each.force, largest, shape)?;
         Some(course.with_zeros(&each.depth, each.zeros, largest, shape))
     });
     each.collect()

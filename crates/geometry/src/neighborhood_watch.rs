@@ -48,7 +48,8 @@ pub fn follow(
     surface: &Surface,
     field: &PatchField,
     from: &ContactPoint,
-    (before, tip): (&Vec3, &Vec3),
+    before: &Vec3,
+    tip: &Vec3,
 ) -> Option<ContactPoint> {
     let (moved, normal) = ((tip - before).norm(), from.normal);
     let aim = project_contact_point(surface, field.vertex_normals(), from, tip).map_or_else(

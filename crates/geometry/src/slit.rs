@@ -428,15 +428,15 @@ impl<'a> Slit<'a> {
                 });
                 if flattest.fold(f64::INFINITY, f64::min) < FLAT {
                     let is_on = self.on.contains(&vertex);
-                    any |=
-                        open_around(
-                            &mut net.split.vertices,
-                            (vertex, &star),
-                            |target| match is_on {
-                                true => self.sheet.onto(&target),
-                                false => target,
-                            },
-                        );
+                    any |= open_around(
+                        &mut net.split.vertices,
+                        vertex,
+                        &star,
+                        |target| match is_on {
+                            true => self.sheet.onto(&target),
+                            false => target,
+                        },
+                    );
                 }
             }
             if !any {

@@ -221,7 +221,7 @@ pub fn wrap_with_progress(
     let tree = AabbTree::new(&capped.mesh);
     let inner = match settings.keep_inner {
         true => {
-            closing.inner_surfaces(radius, (&capped.mesh, &tree), distance, settings.triangles)?
+            closing.inner_surfaces(radius, &capped.mesh, &tree, distance, settings.triangles)?
         }
         false => Vec::new(),
     };
@@ -241,7 +241,8 @@ pub fn wrap_with_progress(
     let filled = found.filled_voxels as f64 * map.voxel_volume();
     let fitted = fit(
         found.simplified.mesh,
-        (&capped.mesh, &tree),
+        &capped.mesh,
+        &tree,
         distance,
         distance,
     );
@@ -274,7 +275,8 @@ const LEAST_TURN: f64 = 0.5;
 /// turns over or crosses another by it. They are searched from a place that lies outside of the vertex by `from` [m].
 fn fit(
     envelope: TriangleMesh,
-    (input, tree): (&TriangleMesh, &AabbTree),
+    input: &TriangleMesh,
+    tree: &AabbTree,
     distance: f64,
     from: f64,
 ) -> TriangleMesh {

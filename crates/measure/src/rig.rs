@@ -65,9 +65,11 @@ impl Rig {
     /// When a setting is out of range.
     pub fn over(
         specimen: VirtualSpecimen,
-        (machine, imperfections): (Machine, Imperfections),
+        machine: Machine,
+        imperfections: Imperfections,
         settings: RigSettings,
-        (clock, seed): (Clock, u64),
+        clock: Clock,
+        seed: u64,
     ) -> Result<Self, Error> {
         settings.check_direction()?;
         let mut specimen = specimen;

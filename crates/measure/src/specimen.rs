@@ -144,7 +144,8 @@ impl VirtualSpecimen {
     /// punch of `radius` [m].
     pub fn of_response(
         response: &IndentationCurve,
-        (series, after): (PronySeries, f64),
+        series: PronySeries,
+        after: f64,
         radius: f64,
     ) -> Self {
         let at_once = response.scaled(1.0, 1.0 / series.relaxation(after));

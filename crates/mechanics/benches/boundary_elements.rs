@@ -51,10 +51,7 @@ fn kidney(triangles: usize) -> (Surface, Vec<TriangleId>, Vec<TriangleId>) {
 }
 
 /// Solves for `touchable` and prints the times.
-fn response(
-    (surface, held): (&Surface, &[TriangleId]),
-    touchable: &[TriangleId],
-) -> SurfaceResponse {
+fn response(surface: &Surface, held: &[TriangleId], touchable: &[TriangleId]) -> SurfaceResponse {
     let problem = BoundaryProblem {
         surface,
         poissons_ratio: 0.45,
@@ -97,12 +94,12 @@ fn response(
 fn boundary_elements(c: &mut Criterion) {
     let (surface, held, free) = kidney(triangles());
     let some = &free[..500.min(free.len())];
-    drop(response((&surface, &held), &free));
-    let response = response((&surface, &held), some);
+    drop(response(&surface, &held, &free));
+    let response = response(&surface, &held, some);
     let mut group = c.benchmark_group("boundary_elements");
     group.sample_size(50);
     on_line(&mut group, &response);
-    tips(&mut group, (&response, &surface), some);
+    tips(&mut group, &response, &surface, some);
     group.finish();
 }
 
@@ -159,7 +156,8 @@ fn on_line(
 /// Two tips of 2 mm.
 fn tips(
     group: &mut criterion::BenchmarkGroup<'_, criterion::measurement::WallTime>,
-    (response, surface): (&SurfaceResponse, &Surface),
+    response: &SurfaceResponse,
+    surface: &Surface,
     touchable: &[TriangleId],
 ) {
     let start = Instant::now();

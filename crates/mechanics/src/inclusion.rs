@@ -143,7 +143,8 @@ impl InclusionField {
         &self,
         loads: &[Load; LOADS],
         tip: f64,
-        (place, normal): (&Vec3, &Vec3),
+        place: &Vec3,
+        normal: &Vec3,
     ) -> [f64; LOADS] {
         let mut left = [1.0; LOADS];
         for inclusion in &self.inclusions {
@@ -391,7 +392,7 @@ mod tests {
         let felt = |times, load| {
             let field = ball(radius, depth, times);
             let loads = [Load::bump(load), Load::punch(a)];
-            let [load, tip] = field.less(&loads, a, (&place, &Vec3::z()));
+            let [load, tip] = field.less(&loads, a, &place, &Vec3::z());
             load - tip
         };
         let volume = 4.0 / 3.0 * PI * radius.powi(3);
@@ -404,7 +405,7 @@ mod tests {
         assert!(felt(0.1, 1.0) > 0.0 && felt(1.0, 1.0) == 0.0);
         assert!(felt(3.0, 1.63 * a).abs() < 0.01 * found.abs());
         let far = place + 0.045 * Vec3::x();
-        let aside = ball(0.002, 0.01, 3.0).less(&[Load::punch(1e-4)], 1e-4, (&far, &Vec3::z()));
+        let aside = ball(0.002, 0.01, 3.0).less(&[Load::punch(1e-4)], 1e-4, &far, &Vec3::z());
         assert_eq!(aside, [0.0]);
     }
 
@@ -446,7 +447,7 @@ mod tests {
         let field = inclusion(vessel, 10.0);
         let at = |x: f64| {
             let place = Vec3::new(x, 0.0, 0.05);
-            -field.less(&[Load::punch(0.002)], 0.002, (&place, &Vec3::z()))[0]
+            -field.less(&[Load::punch(0.002)], 0.002, &place, &Vec3::z())[0]
         };
         let (middle, end) = (at(0.0), at(0.04));
         assert!(

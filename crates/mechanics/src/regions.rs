@@ -310,7 +310,7 @@ impl RegionMap {
             Mapped::Enclosed(Enclosed { surface, .. }) => {
                 let mesh = surface.mesh();
                 let is_inside = |place: &Vec3| self.height(number, place) <= 0.0;
-                spread((mesh.volume().abs(), about), mesh.vertices(), is_inside)
+                spread(mesh.volume().abs(), about, mesh.vertices(), is_inside)
             }
         }
     }
@@ -387,12 +387,13 @@ fn border(shape: &InclusionShape) -> Vec<Vec3> {
 pub(crate) fn places_in_shape(shape: &InclusionShape, about: f64) -> Option<(Vec<Vec3>, f64)> {
     let [volume, _] = shape.volume_and_area();
     let is_inside = |place: &Vec3| shape.holds([place.x, place.y, place.z]);
-    spread((volume, about), &border(shape), is_inside)
+    spread(volume, about, &border(shape), is_inside)
 }
 
 /// About so many places [m] of a body of a `volume` [m³] between points of its `border`, and the volume of each [m³].
 fn spread(
-    (volume, about): (f64, f64),
+    volume: f64,
+    about: f64,
     border: &[Vec3],
     is_inside: impl Fn(&Vec3) -> bool,
 ) -> Option<(Vec<Vec3>, f64)> {

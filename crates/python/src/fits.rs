@@ -11,7 +11,8 @@ use crate::numbers;
 /// A recording that was fitted, with its file: arrays by their names, those of laws under `laws`.
 pub(crate) fn samples<'py>(
     py: Python<'py>,
-    (file, fit): (String, DrawnFit),
+    file: String,
+    fit: DrawnFit,
 ) -> PyResult<Bound<'py, PyDict>> {
     let laws = PyDict::new(py);
     for law in fit.laws {

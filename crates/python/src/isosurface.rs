@@ -38,7 +38,6 @@ use palpate_jobs::label;
 ///     By the label's name, or its number where it has none or shares it with another.
 #[pyfunction]
 #[pyo3(signature = (path, labels=None, *, triangles=20_000, smoothing=60, progress=None))]
-#[expect(clippy::too_many_arguments, reason = "they are named in Python")]
 pub(crate) fn isosurface<'py>(
     py: Python<'py>,
     path: PathBuf,

@@ -147,7 +147,9 @@ pub(crate) fn _characterize<'py>(
     })?;
     let each = fits.into_iter().map(|specimen| {
         let recordings = specimen.into_iter();
-        recordings.map(|own| fits::samples(py, own)).collect()
+        recordings
+            .map(|(file, fit)| fits::samples(py, file, fit))
+            .collect()
     });
     Ok((answer, tissues, each.collect::<PyResult<_>>()?))
 }

@@ -70,7 +70,6 @@ impl Recording {
     ///     The unit of the force, where its name does not say it.
     #[classmethod]
     #[pyo3(signature = (path, time=None, depth=None, force=None, depth_unit=None, force_unit=None))]
-    #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
     fn read(
         _class: &Bound<'_, PyType>,
         path: PathBuf,

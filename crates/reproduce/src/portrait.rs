@@ -81,7 +81,7 @@ impl Painter {
             reach: (high - low).norm(),
         };
         self.renderer
-            .draw(&self.gpu, &view, (&bodies, &[]), &self.target);
+            .draw(&self.gpu, &view, &bodies, &[], &self.target);
         Ok(png(&self.target.read(&self.gpu)?)?)
     }
 }

@@ -93,7 +93,8 @@ fn cleaned(
 /// Elastic force [N] over depth [m] under the probe, of `law` with this `modulus` [Pa] and these shapes [-].
 pub(super) fn elastic(
     law: SoughtLaw,
-    (modulus, shape): (f64, &[f64]),
+    modulus: f64,
+    shape: &[f64],
 ) -> Result<IndentationCurve, Error> {
     let mut curves = Curves::new(Body::under_punch(RADIUS), law, 8.0 * RADIUS);
     let unit = curves.of(f64::INFINITY, shape)?;

@@ -53,8 +53,15 @@ fn benches(criterion: &mut Criterion) {
             while number < 200 {
                 let time = number as f64 * simulation.step();
                 let poses = [Some(pose(number))];
-                let moment = (time, simulation.step());
-                touch(&simulation, moment, &poses, &mut state, &mut workspace);
+                let elapsed = simulation.step();
+                touch(
+                    &simulation,
+                    time,
+                    elapsed,
+                    &poses,
+                    &mut state,
+                    &mut workspace,
+                );
                 number += 1;
             }
             assert!(state.tools[0].grip_force > 0.0, "nothing is held");
@@ -62,10 +69,17 @@ fn benches(criterion: &mut Criterion) {
             criterion.bench_function(&format!("touch, {nodes} nodes, {beside}"), |bencher| {
                 bencher.iter(|| {
                     let time = number as f64 * simulation.step();
-                    let moment = (time, simulation.step());
+                    let elapsed = simulation.step();
                     let poses = [Some(pose(number))];
                     let begin = Instant::now();
-                    touch(&simulation, moment, &poses, &mut state, &mut workspace);
+                    touch(
+                        &simulation,
+                        time,
+                        elapsed,
+                        &poses,
+                        &mut state,
+                        &mut workspace,
+                    );
                     times.push(begin.elapsed());
                     number += 1;
                     black_box(state.tools[0].force)

@@ -85,7 +85,8 @@ fn report(simulations: &[(&str, Simulation)], track: &[Vec3]) {
             let start = Instant::now();
             step(
                 simulation,
-                (0.0, 0.005),
+                0.0,
+                0.005,
                 &pose(tip),
                 &mut state,
                 &mut workspace,
@@ -128,7 +129,7 @@ fn one_step(c: &mut Criterion) {
         group.bench_function(*name, |b| {
             b.iter(|| {
                 let poses = pose(black_box(&track[next.next().unwrap()]));
-                step(simulation, (0.0, 0.005), &poses, &mut state, &mut workspace);
+                step(simulation, 0.0, 0.005, &poses, &mut state, &mut workspace);
                 state.tools[0].force
             });
         });

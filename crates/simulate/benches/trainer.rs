@@ -22,7 +22,7 @@ use palpate_simulate::{Simulation, SimulationState, SimulationWorkspace, step};
 const CASES: [(usize, usize); 2] = [(3_726, 1_500), (21_146, 4_000)];
 
 /// Boundary elements, for they are ready sooner; what a step does with either response is the same.
-fn simulation((shown, mechanical): (usize, usize)) -> Simulation {
+fn simulation(shown: usize, mechanical: usize) -> Simulation {
     let tool = |name: &str, kind: &str| {
         format!(
             "[[tool]]\nname = \"{name}\"\nkind = \"{kind}\"\n\
@@ -70,21 +70,23 @@ fn poses(number: usize) -> [Option<Pose>; 3] {
 }
 
 fn benches(criterion: &mut Criterion) {
-    for case in CASES {
-        let simulation = simulation(case);
+    for (shown, mechanical) in CASES {
+        let simulation = simulation(shown, mechanical);
         // The organ's shape in every step, and as often as a display shows it, which is how it is touched.
-        for (shown, period) in [
+        for (shaped, period) in [
             ("shaped in every step", 0.0),
             ("shaped 60 times a second", 1.0 / 60.0),
         ] {
-            go_on(criterion, (case, shown), &simulation, period);
+            go_on(criterion, shown, mechanical, shaped, &simulation, period);
         }
     }
 }
 
 fn go_on(
     criterion: &mut Criterion,
-    (case, shown): ((usize, usize), &str),
+    shown: usize,
+    mechanical: usize,
+    shaped: &str,
     simulation: &Simulation,
     period: f64,
 ) {
@@ -96,7 +98,8 @@ fn go_on(
         let poses = poses(number);
         step(
             simulation,
-            (time, simulation.step()),
+            time,
+            simulation.step(),
             &poses,
             state,
             workspace,
@@ -109,13 +112,11 @@ fn go_on(
     let holds = state.tools.iter().filter(|tool| tool.grip_force > 0.0);
     let cuts = state.cuts.as_ref().unwrap();
     eprintln!(
-        "{} shown on {}: {} graspers hold, {:.1} mm are cut",
-        case.0,
-        case.1,
+        "{shown} shown on {mechanical}: {} graspers hold, {:.1} mm are cut",
         holds.count(),
         1e3 * cuts.length()
     );
-    let name = format!("trainer {} on {}, {shown}", case.0, case.1);
+    let name = format!("trainer {shown} on {mechanical}, {shaped}");
     criterion.bench_function(&name, |bencher| {
         bencher.iter(|| {
             go_on(&mut state, &mut workspace);

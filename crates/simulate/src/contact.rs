@@ -151,7 +151,7 @@ impl Clearance {
             None => {
                 let (nearest, signed) = ground.surface.signed_distance(ground.tree, tip);
                 (self.tip, self.room) = (*tip, signed - tool.overhang() - ROUNDING);
-                begin(ground, tool, tip, (nearest, signed))
+                begin(ground, tool, tip, nearest, signed)
             }
         }
     }
@@ -174,12 +174,16 @@ fn detect_after(
     tip: &Vec3,
 ) -> Option<Contact> {
     let anew = || {
-        let found = ground.surface.signed_distance(ground.tree, tip);
-        begin(ground, tool, tip, found)
+        let (nearest, signed) = ground.surface.signed_distance(ground.tree, tip);
+        begin(ground, tool, tip, nearest, signed)
     };
-    let way = (&last.tip, tip);
-    let Some(contact_point) = follow(ground.surface, ground.patches, &last.contact_point, way)
-    else {
+    let Some(contact_point) = follow(
+        ground.surface,
+        ground.patches,
+        &last.contact_point,
+        &last.tip,
+        tip,
+    ) else {
         return anew();
     };
     let (below, signed) = depth_of_tip(ground, &contact_point, tip);
@@ -203,12 +207,7 @@ fn detect_after(
         slides: last.slides,
     };
     if tool.slides() || !last.is_pressed {
-        contact.place = place(
-            ground,
-            tool,
-            (&contact_point, depth),
-            Some(&last.place.frame),
-        );
+        contact.place = place(ground, tool, &contact_point, depth, Some(&last.place.frame));
     }
     match tool.bond {
         Friction::Frictionless => {}
@@ -283,7 +282,8 @@ fn begin(
     ground: &RestSurface<'_>,
     tool: &Tool,
     tip: &Vec3,
-    (nearest, signed): (Nearest, f64),
+    nearest: Nearest,
+    signed: f64,
 ) -> Option<Contact> {
     let depth = tool.overhang() - signed;
     if depth <= 0.0 {
@@ -305,7 +305,7 @@ fn begin(
         project_contact_point(ground.surface, normals, &found, tip).unwrap_or(found);
     Some(Contact {
         contact_point,
-        place: place(ground, tool, (&contact_point, depth), None),
+        place: place(ground, tool, &contact_point, depth, None),
         tip: *tip,
         signed,
         depth,
@@ -321,7 +321,8 @@ fn begin(
 pub(crate) fn place(
     ground: &RestSurface<'_>,
     tool: &Tool,
-    (contact_point, depth): (&ContactPoint, f64),
+    contact_point: &ContactPoint,
+    depth: f64,
     last: Option<&Matrix3<f64>>,
 ) -> LocalContact {
     let patch = ground.patches.at(

@@ -47,7 +47,7 @@ fn press(
         return;
     }
     if let Some((place, displaced)) = own.grip.shown_place() {
-        return move_near(simulation, (number, &displaced), &place, state, workspace);
+        return move_near(simulation, number, &displaced, &place, state, workspace);
     }
     let (Some(contact), Some(pose)) = (&own.contact, &own.pose) else {
         return;
@@ -55,13 +55,14 @@ fn press(
     let place = contact.place;
     let moved = contact.displacement(tool, &Vec3::from(pose.position_m));
     let tip = place.frame * moved;
-    move_near(simulation, (number, &tip), &place, state, workspace);
+    move_near(simulation, number, &tip, &place, state, workspace);
 }
 
 /// Moves the vertices near a place whose tip, that of tool `number`, has moved it by `tip` [m].
 fn move_near(
     simulation: &Simulation,
-    (number, tip): (usize, &Vec3),
+    number: usize,
+    tip: &Vec3,
     place: &LocalContact,
     state: &mut SimulationState,
     workspace: &mut SimulationWorkspace,
@@ -75,9 +76,7 @@ fn move_near(
         let node = workspace.near[index];
         let rest = simulation.surface.mesh().vertices()[node.index()];
         let model = &mut workspace.models[number];
-        let by = tool
-            .model
-            .displacement((place, &response), model, tip, &rest);
+        let by = tool.model.displacement(place, &response, model, tip, &rest);
         let from = state.deformed.vertices()[node.index()];
         if by.iter().all(|component| component.is_finite()) {
             state.deformed.move_vertex(node, from + by);

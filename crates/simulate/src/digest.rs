@@ -46,7 +46,8 @@ impl SceneDigest {
     pub(crate) fn of<'a>(
         scene: &Scene,
         surface: &Surface,
-        (tissue, felt): (&Tissue, &[Tissue]),
+        tissue: &Tissue,
+        felt: &[Tissue],
         enclosed: &[Surface],
         neighbours: impl Iterator<Item = (&'a Surface, Option<&'a Neighbour>)>,
     ) -> Self {

@@ -39,7 +39,7 @@ const LEAST_LEFT: f64 = 0.01;
 /// When the middle of one is not in the organ.
 pub fn check_estimated_inclusions(scene: &Scene, surface: &Surface) -> Result<(), Error> {
     let tree = AabbTree::new(surface.mesh());
-    check(&scene.organ.estimated_inclusions, (surface, &tree))
+    check(&scene.organ.estimated_inclusions, surface, &tree)
 }
 
 /// Those in tissue of the law `around`, for compliances that are scaled to the Young's modulus `unit` [Pa].
@@ -48,10 +48,12 @@ pub fn check_estimated_inclusions(scene: &Scene, surface: &Surface) -> Result<()
 /// When the middle of one is not in the organ.
 pub(crate) fn field(
     inclusions: &[EstimatedInclusion],
-    organ: (&Surface, &AabbTree),
-    (around, unit): (&LinearElastic, f64),
+    surface: &Surface,
+    tree: &AabbTree,
+    around: &LinearElastic,
+    unit: f64,
 ) -> Result<InclusionField, Error> {
-    check(inclusions, organ)?;
+    check(inclusions, surface, tree)?;
     let shapes = inclusions.iter();
     let shapes = shapes.map(|inclusion| (&inclusion.shape, inclusion.stiffness_ratio));
     Ok(InclusionField::of_shapes(shapes, around, unit))
@@ -59,7 +61,8 @@ pub(crate) fn field(
 
 fn check(
     inclusions: &[EstimatedInclusion],
-    (surface, tree): (&Surface, &AabbTree),
+    surface: &Surface,
+    tree: &AabbTree,
 ) -> Result<(), Error> {
     for inclusion in inclusions {
         let (_, outside) = surface.signed_distance(tree, &Vec3::from(inclusion.middle()));
@@ -89,7 +92,7 @@ pub(crate) fn stiffen(
         return;
     }
     let (point, normal) = (contact.point(), contact.rest_normal());
-    let exchange = TipExchange::unsolved(field, tool.tip, (&point, &normal));
+    let exchange = TipExchange::unsolved(field, tool.tip, &point, &normal);
     // What is more than a linear tip's is a nonlinear law's, which the inclusion has as well.
     let most = 2.0 * radius * law.youngs_modulus() / (1.0 - law.poissons_ratio().powi(2));
     let stiffness = normal.dot(&(state.stiffness * normal)).clamp(0.0, most);

@@ -52,7 +52,8 @@ impl Site {
     pub fn indented(
         &self,
         tool: &Tool,
-        (times, depths): (&[f64], &[f64]),
+        times: &[f64],
+        depths: &[f64],
     ) -> Result<Motion, palpate_files::Error> {
         let row = |(time_s, depth): (&f64, &f64)| MotionRow {
             time_s: *time_s,

@@ -28,7 +28,7 @@
 //! let surface = simulation.surface();
 //! let tip = surface.mesh().vertices()[0] - 0.004 * surface.vertex_normals()[0];
 //! let pose = Pose { position_m: tip.into(), orientation: None, grip: 0.0, cut: false };
-//! step(&simulation, (0.0, 0.0), &[Some(pose)], &mut state, &mut workspace);
+//! step(&simulation, 0.0, 0.0, &[Some(pose)], &mut state, &mut workspace);
 //! assert!(state.tools[0].force.norm() > 0.02); // [N]
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -135,14 +135,14 @@ pub(crate) fn press(simulation: &Simulation, number: usize, state: &mut Simulati
         let Some(mut found) = found.filter(|found| last.is_some() || found.depth <= travel) else {
             continue;
         };
-        own.stop((tool, &tip), neighbour.stiffness, &mut found);
+        own.stop(tool, &tip, neighbour.stiffness, &mut found);
         *contact = Some(found);
     }
     own.force += own.stopped.force;
 }
 
 impl ToolState {
-    fn stop(&mut self, (tool, tip): (&Tool, &Vec3), stiffness: f64, contact: &mut Contact) {
+    fn stop(&mut self, tool: &Tool, tip: &Vec3, stiffness: f64, contact: &mut Contact) {
         let frame = contact.frame();
         let mut force = frame * (-stiffness * contact.displacement(tool, tip));
         contact.slide(tool, &mut force);

@@ -89,7 +89,8 @@ pub fn play<E: From<Error>>(
         let start = Instant::now();
         step(
             simulation,
-            (time, time - before),
+            time,
+            time - before,
             &poses,
             &mut state,
             &mut workspace,

@@ -191,7 +191,8 @@ impl Replay {
         }
         step(
             &course.simulation,
-            (time, before.map_or(0.0, |before| time - before)),
+            time,
+            before.map_or(0.0, |before| time - before),
             &self.poses,
             &mut self.state,
             &mut self.workspace,

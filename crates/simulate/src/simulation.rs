@@ -94,8 +94,8 @@ impl Simulation {
             ModelKind::Hybrid | ModelKind::Nonlinear => &scene.organ.layers,
         };
         let is_of_one_tissue = is_of_one_tissue(scene);
-        let parts = (layers, &scene.organ.inclusions[..]);
-        let regions = Regions::read(parts, (&surface, &tree), (&tissue, &material))?;
+        let inclusions = &scene.organ.inclusions;
+        let regions = Regions::read(layers, inclusions, &surface, &tree, &tissue, &material)?;
         warnings.extend_from_slice(&regions.warnings);
         warnings.extend(not_felt(scene, &regions));
         let mut enclosed: Vec<Surface> = regions.enclosed().cloned().collect();
@@ -163,8 +163,10 @@ impl Simulation {
         };
         let estimated = estimated_inclusions::field(
             &scene.organ.estimated_inclusions,
-            (&surface, &tree),
-            (&material.at_rest, surface_material.at_rest.youngs_modulus()),
+            &surface,
+            &tree,
+            &material.at_rest,
+            surface_material.at_rest.youngs_modulus(),
         )?;
         let global = match kind {
             ModelKind::Local | ModelKind::Nonlinear => None,
@@ -216,21 +218,28 @@ impl Simulation {
         }
         let nonlinear = match regions {
             Some(regions) if is_nonlinear => {
-                let (shown, organ) = ((&surface, &tree), (&organ_surface, regions));
                 let beside = Beside {
                     tools: &tools,
                     soft: &soft,
                     neighbours: &neighbours,
                 };
-                let (organ, more) = NonlinearOrgan::new(scene, shown, organ, beside, watch)?;
+                let (organ, more) = NonlinearOrgan::new(
+                    scene,
+                    &surface,
+                    &tree,
+                    &organ_surface,
+                    regions,
+                    beside,
+                    watch,
+                )?;
                 warnings.extend(more);
                 Some(Arc::new(organ))
             }
             _ => None,
         };
         if kind == ModelKind::Local {
-            let organ = (scene, &surface);
-            match surround(&mut tools, organ, &material.at_rest, resources.memory) {
+            let (law, memory) = (&material.at_rest, resources.memory);
+            match surround(&mut tools, scene, &surface, law, memory) {
                 Ok(warning) => warnings.extend(warning),
                 Err(error) => warnings.push(format!(
                     "the organ's size is felt as that of a hemisphere of its volume, for boundary elements have no \
@@ -257,7 +266,8 @@ impl Simulation {
             scene_digest: SceneDigest::of(
                 scene,
                 &organ_surface,
-                (&tissue, &felt),
+                &tissue,
+                &felt,
                 &enclosed,
                 neighbours
                     .iter()
@@ -291,8 +301,8 @@ impl Simulation {
         inclusions: &[EstimatedInclusion],
     ) -> Result<InclusionField, Error> {
         let unit = self.material.at_rest.youngs_modulus();
-        let organ = (&self.surface, &self.tree);
-        let field = estimated_inclusions::field(inclusions, organ, (&self.tissue_at_rest, unit))?;
+        let law = &self.tissue_at_rest;
+        let field = estimated_inclusions::field(inclusions, &self.surface, &self.tree, law, unit)?;
         Ok(field.joined(&self.unsolved))
     }
 

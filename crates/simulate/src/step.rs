@@ -23,20 +23,22 @@ pub const TRUSTED_DEPTH: f64 = 0.010;
 /// yet). A first step has an `elapsed` of zero: whatever depth there is then comes as a jump.
 pub fn step(
     simulation: &Simulation,
-    moment: (f64, f64),
+    time: f64,
+    elapsed: f64,
     poses: &[Option<Pose>],
     state: &mut SimulationState,
     workspace: &mut SimulationWorkspace,
 ) {
-    touch(simulation, moment, poses, state, workspace);
-    shape(simulation, moment.0, state, workspace);
+    touch(simulation, time, elapsed, poses, state, workspace);
+    shape(simulation, time, state, workspace);
 }
 
 /// The part of [`step`] that finds the forces: [`ToolState::force`] and [`ToolState::stiffness`] are those of the step
 /// after it. [`shape`] completes the step, after the forces are handed over.
 pub fn touch(
     simulation: &Simulation,
-    (time, elapsed): (f64, f64),
+    time: f64,
+    elapsed: f64,
     poses: &[Option<Pose>],
     state: &mut SimulationState,
     workspace: &mut SimulationWorkspace,
@@ -127,7 +129,7 @@ fn move_surface(
     if let (Some(global), Some(workspace)) = (&simulation.global, &mut workspace.global) {
         global.deform(simulation, time, state, workspace);
     } else if let (Some(organ), Some(workspace)) = (state.bent_organ(), &mut workspace.nonlinear) {
-        organ.deform((simulation, time), state, workspace);
+        organ.deform(simulation, time, state, workspace);
     } else {
         deform::deform(simulation, time, state, workspace);
     }
@@ -142,7 +144,7 @@ fn at_rest(
 ) -> Option<Vec3> {
     let tip = Vec3::from(pose?.position_m);
     match &simulation.nonlinear {
-        Some(organ) => organ.carry_back(simulation, (number, &tip), state),
+        Some(organ) => organ.carry_back(simulation, number, &tip, state),
         None => Some(tip),
     }
 }
@@ -233,7 +235,7 @@ pub(crate) fn respond(
         &mut state.body,
         &mut workspace.nonlinear,
     ) {
-        return organ.press(simulation, elapsed, (&mut state.tools, body), workspace);
+        return organ.press(simulation, elapsed, &mut state.tools, body, workspace);
     }
     let tools = simulation.tools.iter().zip(&mut state.tools);
     for ((tool, state), workspace) in tools.zip(&mut workspace.models) {
@@ -405,7 +407,7 @@ fn show_cuts(simulation: &Simulation, time: f64, state: &mut SimulationState) {
     if cuts.is_behind() || due && cuts.are_there() {
         state.cuts_shown_at = time;
         let rims = state.body.iter().flat_map(Body::rims);
-        cuts.follow(simulation, (state.deformed.vertices(), rims), model.width);
+        cuts.follow(simulation, state.deformed.vertices(), rims, model.width);
     }
 }
 

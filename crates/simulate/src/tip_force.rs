@@ -20,7 +20,8 @@ impl Tool {
     pub(crate) fn force_in_series(
         &self,
         law: &TipLaw,
-        (displaced, compliance): (&Vec3, &Matrix3<f64>),
+        displaced: &Vec3,
+        compliance: &Matrix3<f64>,
         over: Option<(TipExchange, &LinearElastic)>,
     ) -> (TipForce, Matrix3<f64>) {
         let Some((exchange, around)) = over else {

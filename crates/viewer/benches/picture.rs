@@ -58,7 +58,7 @@ fn picture(c: &mut Criterion) {
     let scene = Scene::parse(text, "liver.toml").unwrap();
     let (low, high) = surface.mesh().bounds();
     let above = [0.5 * (low.x + high.x), 0.5 * (low.y + high.y), high.z];
-    let tool = ToolPicture::new(&scene.tools[0], (above, [0.0, 0.0, 0.0, 1.0]));
+    let tool = ToolPicture::new(&scene.tools[0], above, [0.0, 0.0, 0.0, 1.0]);
     let mut group = c.benchmark_group("picture 1280x800");
     group.sample_size(30);
     let looks = |relief, scattering, shadows| Looks {
@@ -86,12 +86,7 @@ fn picture(c: &mut Criterion) {
         };
         group.bench_function(name, |b| {
             b.iter(|| {
-                renderer.draw(
-                    &gpu,
-                    &view,
-                    (&[&body], std::slice::from_ref(&tool)),
-                    &target,
-                );
+                renderer.draw(&gpu, &view, &[&body], std::slice::from_ref(&tool), &target);
                 gpu.wait().unwrap();
             });
         });

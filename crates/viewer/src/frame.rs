@@ -121,7 +121,7 @@ impl Studio {
         let bodies: Vec<&Body> = self.organ.bodies().chain(&self.neighbours).collect();
         let tools = tool_pictures(&self.tools, state);
         self.renderer
-            .measure(&self.gpu, &self.view, (&bodies, &tools), target);
+            .measure(&self.gpu, &self.view, &bodies, &tools, target);
         target.read(&self.gpu)
     }
 
@@ -159,8 +159,8 @@ impl Studio {
         let vertices = single_precision(state.deformed.vertices());
         match opening {
             Some(opening) => {
-                let uncut = (&self.surface, vertices.as_slice());
-                self.organ.open(&self.gpu, opening, uncut);
+                self.organ
+                    .open(&self.gpu, opening, &self.surface, &vertices);
             }
             None => self
                 .organ
@@ -177,7 +177,7 @@ impl Studio {
             .collect();
         let tools = tool_pictures(&self.tools, state);
         self.renderer
-            .draw(&self.gpu, &self.view, (&bodies, &tools), &self.target);
+            .draw(&self.gpu, &self.view, &bodies, &tools, &self.target);
         self.target.read(&self.gpu)
     }
 }
@@ -199,8 +199,7 @@ pub fn tool_pictures(tools: &[SeenTool], state: &SimulationState) -> Vec<ToolPic
         .filter(|((_, own), _)| own.pose.is_some())
         .map(|(((tool, look), own), number)| {
             let row = &own.row;
-            let at = (row.position_m, row.orientation);
-            let picture = ToolPicture::new(tool, at)
+            let picture = ToolPicture::new(tool, row.position_m, row.orientation)
                 .looking_like(look.as_ref())
                 .gripping(row.grip)
                 .labelled(Label::Tool(number));

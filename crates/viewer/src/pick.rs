@@ -14,7 +14,8 @@ pub struct Picked {
 /// What is seen at a place of the picture: (0, 0) is its upper left corner and (1, 1) its lower right one.
 /// `tree` is that of the surface's mesh.
 pub fn pick(
-    (surface, tree): (&Surface, &AabbTree),
+    surface: &Surface,
+    tree: &AabbTree,
     camera: &Camera,
     place: (f64, f64),
     aspect: f64,

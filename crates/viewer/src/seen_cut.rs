@@ -56,8 +56,8 @@ pub(crate) struct CutLayers {
 }
 
 impl CutLayers {
-    /// Those of `simulation`, or one of this depth and width [m] where nothing cuts.
-    pub(crate) fn of(simulation: &Simulation, (depth, width): (f64, f64)) -> Self {
+    /// Those of `simulation`, or one of this `depth` and `width` [m] where nothing cuts.
+    pub(crate) fn of(simulation: &Simulation, depth: f64, width: f64) -> Self {
         let mut depths = simulation.cut_depths();
         if depths.is_empty() {
             depths.push(depth);
@@ -151,7 +151,8 @@ impl SeenCut {
         &mut self,
         gpu: &Gpu,
         opening: &OpenedSnapshot,
-        (surface, moved): (&Surface, &[[f32; 3]]),
+        surface: &Surface,
+        moved: &[[f32; 3]],
         open: &[f32],
     ) {
         let is_other = self.parts != opening.parts;
@@ -196,7 +197,7 @@ impl SeenCut {
                     .sum()
             })
             .collect();
-        self.outer.replace(gpu, (&rest, &triangles), &mixed);
+        self.outer.replace(gpu, &rest, &triangles, &mixed);
         self.make_wall(gpu, opening, &rest);
         self.make_inner(gpu, surface);
     }
@@ -229,7 +230,7 @@ impl SeenCut {
                 triangles.extend([[b, a, c], [b, c, d]]);
             }
         }
-        self.wall.replace(gpu, (&vertices, &triangles), &open);
+        self.wall.replace(gpu, &vertices, &triangles, &open);
     }
 
     /// The triangles of the uncut surface around the slits.
@@ -254,8 +255,7 @@ impl SeenCut {
         let rest: Vec<Vec3> = nodes.map(|node| mesh.vertices()[node.index()]).collect();
         let open = vec![UNDER; rest.len()];
         for layer in &mut self.inner {
-            let made = (rest.as_slice(), self.inner_triangles.as_slice());
-            layer.body.replace(gpu, made, &open);
+            layer.body.replace(gpu, &rest, &self.inner_triangles, &open);
         }
     }
 

@@ -9,7 +9,8 @@ use crate::seen_cut::{CutLayers, SeenCut};
 use crate::{Error, Gpu};
 
 /// How deep and how wide a cut is that somebody shows on an organ which nothing cuts [m].
-const CUT: (f64, f64) = (0.0015, 0.0015);
+const CUT_DEPTH: f64 = 0.0015;
+const CUT_WIDTH: f64 = 0.0015;
 
 /// The organ that is touched, as it is drawn: with the simulation's vertices, with finer triangles around
 /// the tips, or with what was cut.
@@ -38,7 +39,7 @@ impl SeenOrgan {
         let mut organ = Self {
             body: Body::with_ambient_light(gpu, surface.mesh(), &open, tint),
             cut: None,
-            layers: CutLayers::of(simulation, CUT),
+            layers: CutLayers::of(simulation, CUT_DEPTH, CUT_WIDTH),
             is_open: false,
             enhanced: None,
             tint,
@@ -80,12 +81,13 @@ impl SeenOrgan {
         &mut self,
         gpu: &Gpu,
         opening: &OpenedSnapshot,
-        (surface, vertices): (&Surface, &[[f32; 3]]),
+        surface: &Surface,
+        vertices: &[[f32; 3]],
     ) {
         let cut = self
             .cut
             .get_or_insert_with(|| SeenCut::new(gpu, surface, &self.layers, self.tint));
-        cut.follow(gpu, opening, (surface, vertices), &self.open);
+        cut.follow(gpu, opening, surface, vertices, &self.open);
         self.is_open = true;
     }
 

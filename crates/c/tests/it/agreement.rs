@@ -32,7 +32,8 @@ fn assert_same(scene: &str, poses: &[Vec<ToolPose>]) -> u32 {
         let given: Vec<_> = poses.iter().map(in_rust).collect();
         step(
             &simulation,
-            (time, time - before),
+            time,
+            time - before,
             &given,
             &mut state,
             &mut workspace,

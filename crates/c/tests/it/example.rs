@@ -65,10 +65,10 @@ pub(super) fn expected() -> String {
     let (mut before, mut forces) = (0.0, Vec::new());
     for k in 0..=400 {
         let time = 0.1 * f64::from(k);
-        let times = (time, time - before);
         step(
             &simulation,
-            times,
+            time,
+            time - before,
             &[Some(pose)],
             &mut state,
             &mut workspace,

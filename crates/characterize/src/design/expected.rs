@@ -1,6 +1,6 @@
 use super::{Guess, Instrument, Presses};
 use crate::Error;
-use crate::inverse::{Body, Correlations, Curves, Indentation, UnitCurve, expected_law};
+use crate::inverse::{Body, Correlations, Curves, Felt, Indentation, UnitCurve, expected_law};
 use crate::viscoelastic::{RelaxationRecord, expected_relaxation};
 
 /// A parameter as a characterization is expected to state it.
@@ -106,14 +106,12 @@ impl Expecting {
         let weights: Vec<f64> = depths.iter().flat_map(|_| &shares).copied().collect();
         let of_noise = |noise: f64| -> Vec<f64> { weights.iter().map(|w| w / noise).collect() };
         let curves = Curves::new(Body::under_punch(presses.radius), *law, deepest);
-        let known = (&indentations[..], series);
-        let (errors, correlations) = expected_law(
-            &curves,
-            &curve,
-            *modulus,
-            known,
-            &of_noise(instrument.noise),
-        );
+        let felt = Felt {
+            indentations: &indentations,
+            series,
+        };
+        let (errors, correlations) =
+            expected_law(&curves, &curve, *modulus, felt, &of_noise(instrument.noise));
         let own = law.parameters(*modulus, shape);
         let mut all: Vec<ExpectedParameter> = own
             .iter()
@@ -132,7 +130,7 @@ impl Expecting {
             let shape = |depth: f64| curve.force.force(depth);
             let records = indentations.iter().filter_map(|each| {
                 let course =
-                    RelaxationRecord::new((each.time, each.depth, each.force), largest, shape)?;
+                    RelaxationRecord::new(each.time, each.depth, each.force, largest, shape)?;
                 Some(course.with_zeros(each.depth, each.zeros, largest, shape))
             });
             let records: Vec<RelaxationRecord> = records.collect();

@@ -40,8 +40,10 @@ pub(super) const MOST_RADII: f64 = 5.5;
 /// When a parameter is not one of the guesses, or no protocol keeps within the limits.
 pub fn design(
     guesses: &[Expecting],
-    (instrument, limits): (&Instrument, &Limits),
-    (wanted, criterion): (&[String], Criterion),
+    instrument: &Instrument,
+    limits: &Limits,
+    wanted: &[String],
+    criterion: Criterion,
     at_part: &mut dyn FnMut(f64),
 ) -> Result<Designed, Error> {
     let all = candidates(limits);
@@ -57,8 +59,7 @@ pub fn design(
         }
         compared += 1;
         let most = best.as_ref().map_or(f64::INFINITY, |own| own.0);
-        if let Some((score, worst)) =
-            score(guesses, (presses, instrument), (wanted, criterion), most)?
+        if let Some((score, worst)) = score(guesses, presses, instrument, wanted, criterion, most)?
         {
             best = Some((score, worst, presses.clone()));
         }
@@ -76,8 +77,10 @@ pub fn design(
 /// The score of a protocol and its worst interval; none where it is not below `most`.
 fn score(
     guesses: &[Expecting],
-    (presses, instrument): (&Presses, &Instrument),
-    (wanted, criterion): (&[String], Criterion),
+    presses: &Presses,
+    instrument: &Instrument,
+    wanted: &[String],
+    criterion: Criterion,
     most: f64,
 ) -> Result<Option<(f64, f64)>, Error> {
     let (mut worst, mut sum) = (0.0_f64, 0.0);

@@ -38,7 +38,8 @@ impl Spread {
 /// to. A block should hold several correlation times. `recordings` are the lengths of the recordings.
 pub fn block_bootstrap(
     fit: &Fit,
-    (recordings, block): (&[usize], usize),
+    recordings: &[usize],
+    block: usize,
     draws: Draws,
     settings: &Settings,
     evaluate: impl FnMut(&[f64], &mut [f64], &mut DMatrix<f64>) -> Option<()>,

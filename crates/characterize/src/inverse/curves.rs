@@ -52,6 +52,17 @@ impl UnitCurve {
     }
 }
 
+/// What a run of finite elements presses.
+#[derive(Debug, Clone, Copy)]
+struct PressedPiece {
+    /// The tissue.
+    block: Block,
+    /// What presses it.
+    indenter: Indenter,
+    /// What it lies on, where that gives way.
+    base: Option<ElasticBase>,
+}
+
 /// Where unit curves come from: what has been solved is kept, what has been tabulated is not solved.
 #[derive(Debug, Clone)]
 pub struct Curves {
@@ -179,10 +190,17 @@ impl Curves {
             return Ok(known);
         }
         let curve = match self.body {
-            Body::Block { block, indenter } => self.solve_block((block, indenter), None, shape)?,
-            Body::Layer {
+            Body::Block { block, indenter }
+            | Body::Layer {
                 block, indenter, ..
-            } => self.solve_block((block, indenter), self.base(modulus), shape)?,
+            } => {
+                let piece = PressedPiece {
+                    block,
+                    indenter,
+                    base: self.base(modulus),
+                };
+                self.solve_block(piece, shape)?
+            }
             Body::Tube {
                 tube,
                 radius,
@@ -350,15 +368,11 @@ impl Curves {
         all.map(|x| x * self.body.radius()).collect()
     }
 
-    fn solve_block(
-        &mut self,
-        piece: (Block, Indenter),
-        base: Option<ElasticBase>,
-        shape: &[f64],
-    ) -> Result<UnitCurve, Error> {
-        let mesh_error = self.mesh_error(piece, base)?;
+    fn solve_block(&mut self, piece: PressedPiece, shape: &[f64]) -> Result<UnitCurve, Error> {
+        let base = piece.base;
+        let mesh_error = self.mesh_error(piece)?;
         let depths = self.depths();
-        let points = self.run((piece, base), self.law.unit(shape)?, 0)?;
+        let points = self.run(piece, self.law.unit(shape)?, 0)?;
         let right = |place: usize| mesh_error.correction[place];
         let forces: Vec<f64> = points
             .iter()
@@ -396,20 +410,20 @@ impl Curves {
     /// Forces at all depths on one mesh, each with its changes with the parameters of the law.
     fn run(
         &mut self,
-        ((block, indenter), base): ((Block, Indenter), Option<ElasticBase>),
+        piece: PressedPiece,
         law: Arc<dyn Law>,
         halvings: i32,
     ) -> Result<Vec<(f64, Vec<f64>)>, Error> {
         self.solves += 1;
         let settings = IndentationSettings {
-            block,
-            indenter,
+            block: piece.block,
+            indenter: piece.indenter,
             law,
             prony: PronySeries::default(),
             deepest: self.deepest,
             halvings,
         };
-        let run = match base {
+        let run = match piece.base {
             Some(base) => IndentationRun::on_base(&settings, base),
             None => IndentationRun::new(&settings),
         };
@@ -425,12 +439,8 @@ impl Curves {
 
     /// How much too stiff the coarsest mesh is: tabulated, or from neo-Hookean tissue on a mesh with every element
     /// halved, for it is about alike for every law.
-    fn mesh_error(
-        &mut self,
-        piece: (Block, Indenter),
-        base: Option<ElasticBase>,
-    ) -> Result<MeshError, Error> {
-        let stiffness = base.map_or(0.0, |base| base.stiffness.ln());
+    fn mesh_error(&mut self, piece: PressedPiece) -> Result<MeshError, Error> {
+        let stiffness = piece.base.map_or(0.0, |base| base.stiffness.ln());
         let known = self.mesh_error.as_ref();
         if known.is_none_or(|(of, _)| (of - stiffness).abs() > ALIKE_BASES) {
             let depths = self.depths();
@@ -444,8 +454,8 @@ impl Curves {
                 }
             } else {
                 let law = SoughtLaw::NeoHookean.unit(&[])?;
-                let coarse = self.run((piece, base), law.clone(), 0)?;
-                MeshError::of_two(&coarse, &self.run((piece, base), law, 1)?)
+                let coarse = self.run(piece, law.clone(), 0)?;
+                MeshError::of_two(&coarse, &self.run(piece, law, 1)?)
             };
             self.mesh_error = Some((stiffness, found));
         }

@@ -64,7 +64,8 @@ impl ElasticForce {
         &self,
         time: Option<&[f64]>,
         depth: &[f64],
-        (series, known): (&PronySeries, &Correlations),
+        series: &PronySeries,
+        known: &Correlations,
     ) -> Vec<[f64; 2]> {
         let elastic: Vec<f64> = depth.iter().map(|d| self.force.force(*d)).collect();
         let terms = match time {

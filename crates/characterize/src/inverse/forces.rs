@@ -63,7 +63,8 @@ impl<'a> Indentation<'a> {
 /// Forces [N] of a unit curve times `modulus` [Pa] in an indentation, and their change with the modulus, each
 /// shape, and the ratio ρᵢ = gᵢ/(1 − Σ g) and the logarithm of the time of each term.
 pub(super) fn forces(
-    (time, depth): (&[f64], &[f64]),
+    time: &[f64],
+    depth: &[f64],
     curve: &UnitCurve,
     modulus: f64,
     series: &PronySeries,
@@ -82,8 +83,8 @@ pub(super) fn forces(
     let mut of_modulus = unit.clone();
     if let Some(base) = curve.base.as_ref().filter(|base| base.is_absolute) {
         // Under a layer that is stiffer the same base is softer beside it.
-        let course = (time, depth.iter().copied());
-        let softer = relaxed(course, &base.by_stiffness, 1.0, series);
+        let depth = depth.iter().copied();
+        let softer = relaxed(time, depth, &base.by_stiffness, 1.0, series);
         of_modulus
             .iter_mut()
             .zip(softer)
@@ -91,8 +92,8 @@ pub(super) fn forces(
     }
     let mut columns = vec![of_modulus];
     for by_shape in &curve.by_shape {
-        let course = (time, depth.iter().copied());
-        columns.push(relaxed(course, by_shape, modulus, series));
+        let depth = depth.iter().copied();
+        columns.push(relaxed(time, depth, by_shape, modulus, series));
     }
     for ((g, _), (values, slopes)) in series.terms().iter().zip(&branches) {
         let ratio = lost
@@ -116,7 +117,8 @@ pub(super) fn write(columns: &[Vec<f64>], start: usize, jacobian: &mut DMatrix<f
 
 /// Forces [N] of an elastic `curve` times `modulus` [Pa] over some depths.
 fn relaxed(
-    (time, depth): (&[f64], impl Iterator<Item = f64>),
+    time: &[f64],
+    depth: impl Iterator<Item = f64>,
     curve: &IndentationCurve,
     modulus: f64,
     series: &PronySeries,
@@ -154,7 +156,8 @@ pub(super) struct Bounds {
 pub(super) fn systematic(
     indentations: &[Indentation<'_>],
     curve: &UnitCurve,
-    (modulus, series): (f64, &PronySeries),
+    modulus: f64,
+    series: &PronySeries,
     bounds: Bounds,
 ) -> Vec<Vec<f64>> {
     let samples: usize = indentations.iter().map(|each| each.time.len()).sum();
@@ -169,7 +172,7 @@ pub(super) fn systematic(
         let start = scale.len();
         let of = |by: f64| {
             let depth = each.depth.iter().map(|d| (d + by).max(0.0));
-            relaxed((each.time, depth), &curve.force, modulus, series)
+            relaxed(each.time, depth, &curve.force, modulus, series)
         };
         let force = of(0.0);
         let mut own = |change: Vec<f64>| {
@@ -197,11 +200,11 @@ pub(super) fn systematic(
         );
         scale.extend(force.iter().map(|f| even * bounds.model * f));
         if let Some(base) = curve.base.as_ref().filter(|base| base.error > 0.0) {
-            let course = (each.time, each.depth.iter().copied());
-            let by = relaxed(course, &base.by_stiffness, modulus, series);
+            let depth = each.depth.iter().copied();
+            let by = relaxed(each.time, depth, &base.by_stiffness, modulus, series);
             of_base.extend(by.into_iter().map(|by| base.error * by));
         }
-        let more = kept_of_earlier(each, curve, (modulus, series));
+        let more = kept_of_earlier(each, curve, modulus, series);
         history.extend(more.iter().map(|more| even * bounds.earlier * more));
     }
     let is_there = |column: &Vec<f64>| column.iter().any(|change| *change != 0.0);
@@ -215,7 +218,8 @@ pub(super) fn systematic(
 fn kept_of_earlier(
     each: &Indentation<'_>,
     curve: &UnitCurve,
-    (modulus, series): (f64, &PronySeries),
+    modulus: f64,
+    series: &PronySeries,
 ) -> Vec<f64> {
     let elastic = each.depth.iter().map(|&d| modulus * curve.force.force(d));
     let elastic: Vec<f64> = elastic.collect();

@@ -77,6 +77,15 @@ impl LawFit {
     }
 }
 
+/// What was felt of a tissue whose relaxation is known.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Felt<'a> {
+    /// What was done to it, and its forces.
+    pub(crate) indentations: &'a [Indentation<'a>],
+    /// How it relaxes.
+    pub(crate) series: &'a PronySeries,
+}
+
 /// Relative change of the parameters below which a fit has arrived [-]: less than the elements are off.
 pub(super) const SETTINGS: Settings = Settings {
     tolerance: 1e-4,
@@ -99,8 +108,12 @@ pub fn law_fit(
     indentations: &[Indentation<'_>],
     series: &PronySeries,
 ) -> Result<LawFit, Error> {
-    let mut modulus = start(curves, indentations, series)?;
-    let mut found = from(curves, indentations, series, modulus)?;
+    let felt = Felt {
+        indentations,
+        series,
+    };
+    let mut modulus = start(curves, felt)?;
+    let mut found = from(curves, felt, modulus)?;
     // Under pressure the curve is that of one modulus.
     for _ in 0..ROUNDS {
         let change = (found.modulus() / modulus - 1.0).abs();
@@ -108,21 +121,17 @@ pub fn law_fit(
             break;
         }
         modulus = found.modulus();
-        found = from(curves, indentations, series, modulus)?;
+        found = from(curves, felt, modulus)?;
     }
     Ok(found)
 }
 
 /// The modulus [Pa] with which the force of the first shapes is nearest: force is linear in it.
-fn start(
-    curves: &mut Curves,
-    indentations: &[Indentation<'_>],
-    series: &PronySeries,
-) -> Result<f64, Error> {
+fn start(curves: &mut Curves, felt: Felt<'_>) -> Result<f64, Error> {
     let curve = curves.of(f64::INFINITY, &curves.law().start())?;
     let (mut products, mut squares) = (0.0, 0.0);
-    for each in indentations {
-        let (unit, _) = forces::forces((each.time, each.depth), &curve, 1.0, series);
+    for each in felt.indentations {
+        let (unit, _) = forces::forces(each.time, each.depth, &curve, 1.0, felt.series);
         for (unit, force) in unit.iter().zip(each.force) {
             products += unit * force;
             squares += unit * unit;
@@ -141,19 +150,14 @@ const ROUNDS_OF_SHAPE: usize = 12;
 const HALVINGS: usize = 4;
 
 /// With curves between those that were solved, until one that is solved at the fit's own shape is as it was predicted.
-fn from(
-    curves: &mut Curves,
-    indentations: &[Indentation<'_>],
-    series: &PronySeries,
-    modulus: f64,
-) -> Result<LawFit, Error> {
+fn from(curves: &mut Curves, felt: Felt<'_>, modulus: f64) -> Result<LawFit, Error> {
     let count = curves.law().count();
     let rounds = ROUNDS_OF_SHAPE * count.max(2).saturating_sub(1);
-    let mut start = parameters(curves.law(), series, modulus);
+    let mut start = parameters(curves.law(), felt.series, modulus);
     let mut iterations = Vec::new();
     curves.of(modulus, &curves.law().start())?;
     for _ in 0..rounds {
-        let (mut fit, others) = least_minimum(curves, modulus, &start, (indentations, series))?;
+        let (mut fit, others) = least_minimum(curves, modulus, &start, felt)?;
         // A later round begins where the one before it ended.
         let again = usize::from(!iterations.is_empty());
         iterations.extend(fit.iterations.drain(again..));
@@ -170,7 +174,7 @@ fn from(
             fit.iterations = iterations;
             return Ok(LawFit {
                 others,
-                ..found(fit, (curves, &solved), (indentations, series))
+                ..found(fit, curves, &solved, felt)
             });
         }
         start = fit.parameters;
@@ -196,12 +200,12 @@ fn least_minimum(
     curves: &Curves,
     modulus: f64,
     start: &[Parameter],
-    felt: (&[Indentation<'_>], &PronySeries),
+    felt: Felt<'_>,
 ) -> Result<(Fit, Vec<OtherMinimum>), Error> {
     let count = curves.law().count();
     let is_of_one = curves.depend_on_modulus();
     let one = |start: &[Parameter]| {
-        fitted((start, count), felt, |own, shape| {
+        fitted(start, count, felt, |own, shape| {
             curves.predicted(if is_of_one { modulus } else { own }, shape)
         })
     };
@@ -219,20 +223,14 @@ fn least_minimum(
 }
 
 /// A fit with the forces of the curve that was solved at its shape.
-pub(super) fn found(
-    mut fit: Fit,
-    (curves, curve): (&Curves, &UnitCurve),
-    felt: (&[Indentation<'_>], &PronySeries),
-) -> LawFit {
+pub(super) fn found(mut fit: Fit, curves: &Curves, curve: &UnitCurve, felt: Felt<'_>) -> LawFit {
     let modulus = fit.parameters[0].value;
-    let derivatives = (&mut fit.residuals[..], &mut fit.jacobian);
-    let forces = write(curve, felt, modulus, derivatives);
+    let forces = write(curve, felt, modulus, &mut fit.residuals, &mut fit.jacobian);
     // The columns of what was fixed were not asked for.
     for parameter in fit.parameters.iter_mut().skip(curves.law().count()) {
         parameter.fixed = false;
     }
-    let (indentations, series) = felt;
-    let left = 1.0 - series.terms().iter().map(|(g, _)| g).sum::<f64>();
+    let left = 1.0 - felt.series.terms().iter().map(|(g, _)| g).sum::<f64>();
     let product_error = curves.product_share() * QUASI_LINEAR * (1.0 - left);
     let bounds = Bounds {
         model: curve.discretisation + product_error,
@@ -241,7 +239,7 @@ pub(super) fn found(
     };
     LawFit {
         law: curves.law(),
-        systematic: forces::systematic(indentations, curve, (modulus, series), bounds),
+        systematic: forces::systematic(felt.indentations, curve, modulus, felt.series, bounds),
         product_error,
         fit,
         forces,
@@ -272,14 +270,15 @@ fn solved_toward(curves: &mut Curves, modulus: f64, shape: &[f64]) -> Result<Uni
 
 /// The fit of the parameters of a law, so many as `count`, a modulus and shapes, whose curves `of` gives from both.
 fn fitted(
-    (start, count): (&[Parameter], usize),
-    felt: (&[Indentation<'_>], &PronySeries),
+    start: &[Parameter],
+    count: usize,
+    felt: Felt<'_>,
     of: impl Fn(f64, &[f64]) -> Option<UnitCurve>,
 ) -> Result<Fit, Error> {
-    let samples = felt.0.iter().map(|each| each.time.len()).sum();
+    let samples = felt.indentations.iter().map(|each| each.time.len()).sum();
     let evaluate = |values: &[f64], residuals: &mut [f64], jacobian: &mut DMatrix<f64>| {
         let curve = of(values[0], &values[1..count])?;
-        write(&curve, felt, values[0], (residuals, jacobian));
+        write(&curve, felt, values[0], residuals, jacobian);
         residuals.iter().all(|r| r.is_finite()).then_some(())
     };
     least_squares_with_jacobian(start, samples, &SETTINGS, evaluate)
@@ -288,13 +287,14 @@ fn fitted(
 /// Forces [N] of a curve in each indentation; writes residuals and derivatives.
 fn write(
     curve: &UnitCurve,
-    (indentations, series): (&[Indentation<'_>], &PronySeries),
+    felt: Felt<'_>,
     modulus: f64,
-    (residuals, jacobian): (&mut [f64], &mut DMatrix<f64>),
+    residuals: &mut [f64],
+    jacobian: &mut DMatrix<f64>,
 ) -> Vec<Vec<f64>> {
     let mut start = 0;
-    let each = indentations.iter().map(|each| {
-        let (forces, columns) = forces::forces((each.time, each.depth), curve, modulus, series);
+    let each = felt.indentations.iter().map(|each| {
+        let (forces, columns) = forces::forces(each.time, each.depth, curve, modulus, felt.series);
         forces::write(&columns, start, jacobian);
         for (row, force) in forces.iter().enumerate() {
             residuals[start + row] = force - each.force[row];

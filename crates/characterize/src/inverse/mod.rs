@@ -38,6 +38,7 @@ pub(crate) use expected::expected_law;
 pub use fitted_force::{ElasticForce, standard_errors};
 pub use forces::{Indentation, ZeroErrors};
 pub use law::{LawParameter, ShapeRange, SoughtLaw, Terms};
+pub(crate) use law_fit::Felt;
 pub use law_fit::{LawFit, OtherMinimum, law_fit};
 pub use organ::{FarField, Organ};
 pub use repeated::{LEAST_DRAWS, NoiseEffect, Repeated, repeated};

@@ -94,7 +94,7 @@ impl Organ {
         let radius = indenter.contact_radius(deepest);
         let place = self.place(indenter.radius, radius)?;
         let (center, inward) = (place.center, place.inward);
-        let (contact, of_curvature) = self.contact(indenter, &place, (radius, deepest))?;
+        let (contact, of_curvature) = self.contact(indenter, &place, radius, deepest)?;
         let half = HALF * radius;
         let law = Arc::new(LinearElastic::new(YOUNG, RATIO)?);
         let under = |center: Vec3, inward: Vec3| MovedPatch {
@@ -166,7 +166,8 @@ impl Organ {
         &self,
         indenter: &Indenter,
         place: &Place,
-        (radius, deepest): (f64, f64),
+        radius: f64,
+        deepest: f64,
     ) -> Result<(Option<CurvedContact>, f64), Error> {
         let of_patch = |size: f64| {
             let field = PatchField::new(&self.surface, size * radius);

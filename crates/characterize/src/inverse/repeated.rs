@@ -75,7 +75,7 @@ pub fn repeated(
     let mut bootstrap = None;
     if lengths.iter().any(|&length| length > block) {
         let evaluate = |p: &[f64], r: &mut [f64], j: &mut DMatrix<f64>| model.evaluate(p, r, j);
-        let drawn = block_bootstrap(&own, (&lengths, block), draws, &SETTINGS, evaluate);
+        let drawn = block_bootstrap(&own, &lengths, block, draws, &SETTINGS, evaluate);
         if drawn.values.is_empty() {
             return Err(Error::NoStart {
                 parameters: own.parameters,
@@ -166,8 +166,8 @@ impl OwnModel<'_> {
         let series = PronySeries::new(&pairs).ok()?;
         let mut start = 0;
         for each in self.indentations {
-            let course = (each.time, each.depth);
-            let (forces, mut columns) = forces::forces(course, &curve, own.modulus, &series);
+            let (forces, mut columns) =
+                forces::forces(each.time, each.depth, &curve, own.modulus, &series);
             for row in 0..forces.len() {
                 residuals[start + row] = forces[row] - each.force[row];
                 let of_shape: Vec<f64> = (0..count).map(|place| columns[place][row]).collect();

@@ -21,7 +21,7 @@ pub fn springs_force(
 ) -> Option<Vec<f64>> {
     let all = springs.values().map(|parameter| parameter.value);
     let mut forces = vec![0.0; times.len()];
-    respond(&all, (times, depths), &mut |row, _, by| {
+    respond(&all, times, depths, &mut |row, _, by| {
         forces[row] += by.force;
     })?;
     Some(forces)
@@ -40,7 +40,8 @@ pub(super) struct Share {
 /// `values`, its share. None where a spring is too fast.
 pub(super) fn respond(
     values: &[f64],
-    (times, depths): (&[f64], &[f64]),
+    times: &[f64],
+    depths: &[f64],
     add: &mut impl FnMut(usize, usize, Share),
 ) -> Option<()> {
     let (factor, exponent) = (values[0], values[1]);
@@ -190,10 +191,12 @@ mod tests {
             .iter()
             .map(|t| 8e-3 * t.min(1.0).min(0.1 * (14.0 - t)).max(0.0))
             .collect();
-        let course = (&times[..], &depths[..]);
         let forces = |values: &[f64]| {
             let mut forces = vec![0.0; times.len()];
-            respond(values, course, &mut |row, _, by| forces[row] += by.force).unwrap();
+            respond(values, &times, &depths, &mut |row, _, by| {
+                forces[row] += by.force
+            })
+            .unwrap();
             forces
         };
         let mut changes = vec![[0.0; 8]; times.len()];
@@ -201,7 +204,7 @@ mod tests {
             let count = if first == 0 { STATIC } else { OF_BRANCH };
             changes[row][first..first + count].copy_from_slice(&share.by[..count]);
         };
-        respond(&values, course, &mut add).unwrap();
+        respond(&values, &times, &depths, &mut add).unwrap();
         for place in 0..values.len() {
             let step = 1e-5 * values[place];
             let beside = [step, -step].map(|by| {

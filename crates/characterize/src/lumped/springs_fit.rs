@@ -172,7 +172,7 @@ fn fitted(indentations: &[Indentation<'_>], parameters: &[Parameter]) -> Result<
             for (row, force) in each.force.iter().enumerate() {
                 residuals[start + row] = -force;
             }
-            respond(values, (each.time, each.depth), &mut |row, first, share| {
+            respond(values, each.time, each.depth, &mut |row, first, share| {
                 residuals[start + row] += share.force;
                 let count = if first == 0 { STATIC } else { OF_BRANCH };
                 for (place, change) in share.by.iter().take(count).enumerate() {

@@ -136,7 +136,7 @@ impl Fitted {
         let shape = |depth: f64| curve.force(depth);
         let largest = samples.force.iter().copied().fold(0.0, f64::max);
         let (time, depth, force) = (&samples.time, &samples.depth, &samples.force);
-        let record = RelaxationRecord::new((time, depth, force), largest, shape)?;
+        let record = RelaxationRecord::new(time, depth, force, largest, shape)?;
         let record = record.with_zeros(depth, samples.zeros, largest, shape);
         let start = before.map(|own| &own.pressed);
         let pressed = PressedRelaxation::of(&record, start, afresh).ok()?;

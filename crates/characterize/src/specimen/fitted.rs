@@ -65,13 +65,7 @@ impl Characterization {
         for found in self.laws.iter().filter_map(|(_, law)| law.as_ref().ok()) {
             let LawFit { law, fit, .. } = &found.found;
             let forces = found.found.forces.concat();
-            add(
-                &mut all,
-                (*law, &found.found.systematic),
-                &forces,
-                fit,
-                level,
-            );
+            add(&mut all, *law, &found.found.systematic, &forces, fit, level);
         }
         for found in self
             .uniaxial
@@ -84,7 +78,7 @@ impl Characterization {
             let measured = measured.flat_map(|own| own.stresses);
             let residuals = &found.fit.residuals;
             let values: Vec<f64> = measured.zip(residuals).map(|(own, r)| own + r).collect();
-            add(&mut all, (found.law, &[]), &values, &found.fit, level);
+            add(&mut all, found.law, &[], &values, &found.fit, level);
         }
         self.relax(recordings, &mut all);
         all
@@ -118,7 +112,8 @@ impl Characterization {
 /// Hands each recording its part of the `values` of a law, with what is `systematic` in its errors.
 fn add(
     all: &mut [FittedRecording],
-    (law, systematic): (SoughtLaw, &[Vec<f64>]),
+    law: SoughtLaw,
+    systematic: &[Vec<f64>],
     values: &[f64],
     fit: &Fit,
     level: f64,

@@ -32,7 +32,9 @@ impl RelaxationRecord {
     /// nothing is pressed or felt. `largest_force` [N] is one for all courses of a fit: a sensor's noise is
     /// as many newtons in each.
     pub fn new(
-        (time, depth, force): (&[f64], &[f64], &[f64]),
+        time: &[f64],
+        depth: &[f64],
+        force: &[f64],
         largest_force: f64,
         shape: impl Fn(f64) -> f64,
     ) -> Option<Self> {

@@ -82,7 +82,7 @@ fn specimen(seed: u64) -> Guess {
     }
 }
 
-fn recording(truth: &Guess, presses: &Presses, (place, seed): (usize, u64)) -> Recording {
+fn recording(truth: &Guess, presses: &Presses, place: usize, seed: u64) -> Recording {
     let mut random = Random::new(seed);
     let body = Body::under_punch(presses.radius);
     let mut curves = Curves::new(body, truth.law, presses.deepest());
@@ -121,7 +121,7 @@ fn found(truth: &Guess, presses: &Presses, seed: u64) -> Vec<(f64, bool)> {
     };
     let recordings: Vec<_> = (0..presses.depths.len())
         .map(|place| {
-            let one = recording(truth, presses, (place, 100 * seed + place as u64));
+            let one = recording(truth, presses, place, 100 * seed + place as u64);
             clean(&one, &settings).unwrap()
         })
         .collect();
@@ -175,8 +175,15 @@ fn designed(wanted: &[String]) -> Designed {
         other(1.0, 0.7),
         other(1.0, 1.4),
     ];
-    let asked = (wanted, Criterion::Minimax);
-    design(&guesses, (&instrument(), &limits()), asked, &mut |_| ()).unwrap()
+    design(
+        &guesses,
+        &instrument(),
+        &limits(),
+        wanted,
+        Criterion::Minimax,
+        &mut |_| (),
+    )
+    .unwrap()
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
@@ -310,11 +317,12 @@ fn what_no_protocol_can_do_is_refused() {
     let base = Expecting::new(guess(), 6.0).unwrap();
     let asked = |limits: &Limits, name: &str| {
         let wanted = [name.to_owned()];
-        let wanted = (&wanted[..], Criterion::Determinant);
         let found = design(
             std::slice::from_ref(&base),
-            (&instrument(), limits),
-            wanted,
+            &instrument(),
+            limits,
+            &wanted,
+            Criterion::Determinant,
             &mut |_| (),
         );
         found.unwrap_err().to_string()
@@ -337,11 +345,12 @@ fn each_criterion_is_best_in_its_own_sense() {
     let base = Expecting::new(guess(), 6.0).unwrap();
     let wanted = wanted();
     let of = |criterion| {
-        let asked = (&wanted[..], criterion);
         design(
             std::slice::from_ref(&base),
-            (&instrument(), &limits()),
-            asked,
+            &instrument(),
+            &limits(),
+            &wanted,
+            criterion,
             &mut |_| (),
         )
         .unwrap()

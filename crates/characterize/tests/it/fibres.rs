@@ -85,7 +85,8 @@ impl Piece {
     /// A recording of so many samples of 1 cm² and 1 cm; a displacement a row, and what `noise` adds to the stress [Pa].
     fn recording(
         &self,
-        (p, samples): (&Truth, u32),
+        p: &Truth,
+        samples: u32,
         more: &str,
         noise: &mut dyn FnMut() -> f64,
     ) -> CleanRecording {
@@ -126,7 +127,7 @@ const STRIPS: [Piece; 3] = [strip(0.0, 0.25), strip(45.0, 0.25), strip(90.0, 0.3
 
 fn quiet(pieces: &[Piece], p: &Truth, more: &str) -> Vec<CleanRecording> {
     let each = pieces.iter();
-    each.map(|own| own.recording((p, 60), more, &mut || 0.0))
+    each.map(|own| own.recording(p, 60, more, &mut || 0.0))
         .collect()
 }
 
@@ -220,7 +221,7 @@ fn aligned_fibres_are_found_where_nothing_is_stated() {
     let truth = [1500.0, 8000.0, 2.0, 0.0, 0.0];
     let mut random = Random::new(3);
     let mut noise = || 100.0 * random.normal();
-    let strips = STRIPS.map(|own| own.recording((&truth, 200), "", &mut noise));
+    let strips = STRIPS.map(|own| own.recording(&truth, 200, "", &mut noise));
     let all = found(&strips, &[LAW]);
     let own = fit(&all);
     println!("{:?} {:?}", own.parameters, all.identifiability);
@@ -326,7 +327,7 @@ fn coverage(specimens: u64, pieces: &[Piece], known: Stated) -> [[usize; 2]; 5] 
         let more = known(&truth);
         let recordings = pieces.iter();
         let recordings: Vec<_> = recordings
-            .map(|own| own.recording((&truth, 200), &more, &mut noise))
+            .map(|own| own.recording(&truth, 200, &more, &mut noise))
             .collect();
         let all = found(&recordings, &[LAW]);
         let own = fit(&all);

@@ -145,7 +145,7 @@ fn forces_of_a_found_law_and_their_errors_are_those_of_its_parameters() {
     let known = law.correlations();
     let elastic = law.elastic();
     let evaluated = |elastic: &ElasticForce, series: &PronySeries, known: &Correlations| {
-        elastic.evaluate(Some(&time), &depth, (series, known))
+        elastic.evaluate(Some(&time), &depth, series, known)
     };
     let forces = evaluated(&elastic, series, &known);
     let largest = forces.iter().map(|own| own[0]).fold(0.0, f64::max);

@@ -241,7 +241,7 @@ impl Correlated {
 }
 
 /// How often 1.96 standard errors hold stiffness and phase [-].
-fn held(noise: Correlated, (rate, frequency, duration): (f64, f64, f64), count: u64) -> [f64; 2] {
+fn held(noise: Correlated, rate: f64, frequency: f64, duration: f64, count: u64) -> [f64; 2] {
     let depth = depth(move |t| (TAU * frequency * t).sin());
     let mut held = [0, 0];
     for seed in 0..count {
@@ -266,7 +266,7 @@ fn held(noise: Correlated, (rate, frequency, duration): (f64, f64, f64), count: 
 #[test]
 fn intervals_hold_the_truth_in_correlated_noise() {
     for noise in [Correlated::FirstOrder(0.1), Correlated::OneOverF] {
-        let [stiffness, phase] = held(noise, (100.0, 1.0, 14.0), 50);
+        let [stiffness, phase] = held(noise, 100.0, 1.0, 14.0, 50);
         println!("{noise:?}: stiffness {stiffness:.3}, phase {phase:.3}");
         for part in [stiffness, phase] {
             assert!(part >= 0.86, "{noise:?}: {part}");
@@ -279,7 +279,7 @@ fn intervals_hold_the_truth_in_correlated_noise() {
 #[ignore = "slow: a minute"]
 fn more_intervals_hold_the_truth_in_correlated_noise() {
     for noise in [Correlated::FirstOrder(0.1), Correlated::OneOverF] {
-        let [stiffness, phase] = held(noise, (100.0, 1.0, 14.0), 150);
+        let [stiffness, phase] = held(noise, 100.0, 1.0, 14.0, 150);
         println!("{noise:?}: stiffness {stiffness:.3}, phase {phase:.3}");
         for part in [stiffness, phase] {
             assert!((0.90..=0.99).contains(&part), "{noise:?}: {part}");
@@ -304,7 +304,8 @@ fn intervals_hold_the_truth_in_all_correlated_noise() {
             (500.0, 5.0, 10.0),
             (200.0, 5.0, 40.0),
         ] {
-            let [stiffness, phase] = held(noise, swing, 300);
+            let (rate, frequency, duration) = swing;
+            let [stiffness, phase] = held(noise, rate, frequency, duration, 300);
             println!("{noise:?} {swing:?}: stiffness {stiffness:.3}, phase {phase:.3}");
             for part in [stiffness, phase] {
                 assert!((0.90..=0.99).contains(&part), "{noise:?} {swing:?}: {part}");

@@ -25,7 +25,7 @@ fn course(exponent: f64, ramp: f64, rate: f64, noise: f64, seed: u64) -> Relaxat
     for force in &mut forces {
         *force += noise * largest * random.normal();
     }
-    RelaxationRecord::new((&times, &depths, &forces), largest, |d| d).unwrap()
+    RelaxationRecord::new(&times, &depths, &forces, largest, |d| d).unwrap()
 }
 
 /// Judge: multiplied out, with G at 30 times. Rounding, which grows as times come close.
@@ -131,7 +131,7 @@ fn a_ramp_that_is_no_power_is_no_relaxation() {
         let forces = IndentationCurve::through(&known, &elastic).relaxed(&series, &times, &depths);
         let mut random = Random::new(4);
         let forces: Vec<f64> = forces.iter().map(|f| f + 3e-4 * random.normal()).collect();
-        let course = RelaxationRecord::new((&times, &depths, &forces), 1.0, |d| d).unwrap();
+        let course = RelaxationRecord::new(&times, &depths, &forces, 1.0, |d| d).unwrap();
         let found = relaxation(&[course], RelaxationSettings::default()).unwrap();
         println!(
             "{ramp}: {:?} {:?} {:?}",

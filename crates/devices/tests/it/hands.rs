@@ -68,13 +68,14 @@ impl<'l> Ticked<'l> {
         controller: impl Controller + 'static,
     ) -> Self {
         let settings = ServoSettings::default();
-        Self::with(device, library, (Box::new(controller), settings))
+        Self::with(device, library, Box::new(controller), settings)
     }
 
     pub(crate) fn with(
         device: Box<dyn Device>,
         library: Option<&'l StandInLibrary>,
-        (controller, settings): (Box<dyn Controller>, ServoSettings),
+        controller: Box<dyn Controller>,
+        settings: ServoSettings,
     ) -> Self {
         let (servo, reader) = ServoLoop::new(device, controller, settings).unwrap();
         let host = match (servo.scheduler(), library) {
@@ -188,7 +189,7 @@ impl<'l> Commanded<'l> {
         };
         let (force, mut read) = latest::channel(&Vec3::zeros());
         let controller = move |_: &DeviceState, _: f64| *read.latest();
-        let servo = Ticked::with(device, library, (Box::new(controller), settings));
+        let servo = Ticked::with(device, library, Box::new(controller), settings);
         Self { servo, force }
     }
 

@@ -8,7 +8,7 @@ use crate::hands::Ticked;
 use crate::libraries::{carry_pressing, library, pressed};
 
 /// What becomes of a `switch` that is set to `value` while a hand presses.
-fn after(kind: Kind, (switch, value): (&'static str, i32), expected: Fault) {
+fn after(kind: Kind, switch: &'static str, value: i32, expected: Fault) {
     let (library, places) = library(kind);
     let (mut servo, _) = pressed(&library, kind.open(0, &places).unwrap());
     library.set(switch, value);
@@ -73,8 +73,8 @@ fn of_open_haptics() {
         (("stand_in_calibration", 0x5002), Fault::Uncalibrated),
         (("stand_in_nan", 1), Fault::NonFiniteState),
     ];
-    for (switch, expected) in table {
-        after(Kind::OpenHaptics, switch, expected);
+    for ((switch, value), expected) in table {
+        after(Kind::OpenHaptics, switch, value, expected);
     }
 }
 
@@ -98,8 +98,8 @@ fn of_force_dimension() {
         ),
         (("stand_in_nan", 1), Fault::NonFiniteState),
     ];
-    for (switch, expected) in table {
-        after(Kind::ForceDimension, switch, expected);
+    for ((switch, value), expected) in table {
+        after(Kind::ForceDimension, switch, value, expected);
     }
 }
 

@@ -29,7 +29,7 @@ pub(super) fn parse(
     let header = RecordingHeader::from_keys(&keys)?;
     let names = [depth.choose(&table)?, force.choose(&table)?];
     let (units, has_unit_row) = foreign_units::displacement_and_force(&table, names, columns)?;
-    let (samples, still) = samples(&table, (names, units, has_unit_row), speed)?;
+    let (samples, still) = samples(&table, names, units, has_unit_row, speed)?;
     let mut remarks = vec![format!(
         "the time is the way over the stated speed of {} mm/s; the depth was taken from `{}` in {}, the force from `{}` in {}; \
          name the columns if that is wrong",
@@ -48,13 +48,12 @@ pub(super) fn parse(
     Ok(Some(recording))
 }
 
-/// The names of distance and force, their units, and whether a row states these.
-type Columns<'c> = ([&'c str; 2], [&'static Unit; 2], bool);
-
-/// The samples, and how many rows were left out.
+/// The samples, and how many rows were left out; names and units are those of distance and force.
 fn samples(
     table: &TableText<'_>,
-    ([depth, force], [length, load], has_unit_row): Columns<'_>,
+    [depth, force]: [&str; 2],
+    [length, load]: [&'static Unit; 2],
+    has_unit_row: bool,
     speed: f64,
 ) -> Result<(Samples, usize), Error> {
     let si = |name: &str| Unit::named(name).expect("SI units are in the table");

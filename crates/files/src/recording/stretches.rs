@@ -37,7 +37,7 @@ pub(super) fn parse(
         let wanted = [length, stress];
         let (table, has_all) = foreign_table::find(text, path, &wanted)?;
         if has_all {
-            return stressed(&table, (path, columns), wanted, &axial).map(Some);
+            return stressed(&table, path, columns, wanted, &axial).map(Some);
         }
     }
     clamped(text, path, columns)
@@ -53,7 +53,8 @@ struct Axial {
 /// The recording of a cube of one metre.
 fn stressed(
     table: &TableText<'_>,
-    (path, columns): (&Path, &ForeignColumns),
+    path: &Path,
+    columns: &ForeignColumns,
     wanted: [Wanted<'_>; 2],
     axial: &Axial,
 ) -> Result<Recording, Error> {

@@ -143,7 +143,8 @@ impl EstimatedInclusion {
     /// That of the `number`th table, from 0, of a `list`; none of a table without a `stiffness_ratio`.
     pub(super) fn from_keys(
         keys: &Keys<'_>,
-        (list, number): (&str, usize),
+        list: &str,
+        number: usize,
     ) -> Result<Option<Self>, Error> {
         let Some(stiffness_ratio) = keys.number("stiffness_ratio")? else {
             return Ok(None);

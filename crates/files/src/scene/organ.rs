@@ -177,18 +177,18 @@ impl Parts {
         let mut layers: Vec<Layer> = layers
             .iter()
             .enumerate()
-            .map(|(number, keys)| Layer::from_keys(keys, number, (folder, around)))
+            .map(|(number, keys)| Layer::from_keys(keys, number, folder, around))
             .collect::<Result<_, _>>()?;
         let (mut inclusions, mut estimated) = (Vec::new(), Vec::new());
         for (number, keys) in keys.tables("inclusion")?.iter().enumerate() {
-            match EstimatedInclusion::from_keys(keys, ("inclusion", number))? {
+            match EstimatedInclusion::from_keys(keys, "inclusion", number)? {
                 Some(own) => estimated.push(own),
                 None => inclusions.push(Inclusion::from_keys(keys, number, folder)?),
             }
         }
         let mut key = "layer";
         for (number, keys) in keys.tables("region")?.iter().enumerate() {
-            if let Some(own) = EstimatedInclusion::from_keys(keys, ("region", number))? {
+            if let Some(own) = EstimatedInclusion::from_keys(keys, "region", number)? {
                 estimated.push(own);
                 continue;
             }
@@ -275,7 +275,8 @@ impl Layer {
     fn from_keys(
         keys: &Keys<'_>,
         number: usize,
-        (folder, around): (&Path, &TissueChoice),
+        folder: &Path,
+        around: &TissueChoice,
     ) -> Result<Self, Error> {
         let name = keys.text("name")?;
         let has_own = keys.contains("tissue") || keys.contains("builtin_tissue");

@@ -94,7 +94,7 @@ impl Session {
         let mut line = String::new();
         for row in &self.rows {
             line.clear();
-            row.print_with((&self.tools[row.tool], self.has_torques), &mut line)
+            row.print_with(&self.tools[row.tool], self.has_torques, &mut line)
                 .expect("a string takes every text");
             digest.add(&line);
         }

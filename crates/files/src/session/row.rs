@@ -82,13 +82,14 @@ impl SessionRow {
     /// Adds the row to a text. The same numbers are always the same text: each is printed with the
     /// fewest digits that read back to it.
     pub(super) fn print(&self, tool: &str, text: &mut String) -> fmt::Result {
-        self.print_with((tool, true), text)
+        self.print_with(tool, true, text)
     }
 
     /// The same with or without torques.
     pub(super) fn print_with(
         &self,
-        (tool, has_torques): (&str, bool),
+        tool: &str,
+        has_torques: bool,
         text: &mut String,
     ) -> fmt::Result {
         write!(text, "{:?},{}", self.time_s, field(tool))?;

@@ -121,7 +121,7 @@ impl CutSurface {
                 if split::is_near_end(net, triangle, edge, part, limits) {
                     None
                 } else {
-                    split::split_edge(net, surface, (triangle, edge), part, limits)
+                    split::split_edge(net, surface, triangle, edge, part, limits)
                 }
             }
         };

@@ -39,7 +39,8 @@ pub(super) fn is_near_end(
 pub(super) fn split_edge(
     net: &mut Net,
     surface: &Surface,
-    (triangle, edge): (TriangleId, usize),
+    triangle: TriangleId,
+    edge: usize,
     part: f64,
     limits: &Limits,
 ) -> Option<Corner> {
@@ -134,7 +135,7 @@ pub(super) fn insert(
         let place = if part < 0.5 { edge } else { (edge + 1) % 3 };
         return Some(Corner { triangle, place });
     }
-    split_edge(net, surface, (triangle, edge), part, limits)
+    split_edge(net, surface, triangle, edge, part, limits)
 }
 
 /// Splits a triangle into three at `place` [m], unless that makes slivers.

@@ -49,7 +49,7 @@ fn open(bisection: &mut Bisection, node: u32, shell: Option<&SearchedSurface<'_>
         .map(|&t| bisection.nodes(t))
         .collect();
     let start = bisection.vertices[node as usize];
-    open_around(&mut bisection.vertices, (node, &star), |target| {
+    open_around(&mut bisection.vertices, node, &star, |target| {
         shell.map_or(target, |shell| shell.slide(&start, &target))
     })
 }
@@ -58,7 +58,8 @@ fn open(bisection: &mut Bisection, node: u32, shell: Option<&SearchedSurface<'_>
 /// there was such a place.
 pub(crate) fn open_around(
     vertices: &mut [Vec3],
-    (node, star): (u32, &[[u32; 4]]),
+    node: u32,
+    star: &[[u32; 4]],
     onto: impl Fn(Vec3) -> Vec3,
 ) -> bool {
     let start = vertices[node as usize];

@@ -28,8 +28,8 @@ pub fn follow_sharp_edges(
     following.snap_corners();
     let mut edges = following.edges.clone();
     edges.retain(|edge| following.crosses(*edge));
-    for round in ROUNDS {
-        edges = following.resolve(edges, round);
+    for (farthest, floor) in ROUNDS {
+        edges = following.resolve(edges, farthest, floor);
         following.relax();
     }
     following.into_mesh()
@@ -151,11 +151,7 @@ impl<'a> Following<'a> {
     }
 
     /// Moves ends of the edges that cross a sharp edge, those with the least way first, and cuts the others. Which edges still cross.
-    fn resolve(
-        &mut self,
-        mut edges: Vec<[u32; 2]>,
-        (farthest, floor): (f64, f64),
-    ) -> Vec<[u32; 2]> {
+    fn resolve(&mut self, mut edges: Vec<[u32; 2]>, farthest: f64, floor: f64) -> Vec<[u32; 2]> {
         let mut ways = Vec::new();
         for &edge in &edges {
             let [from, to] = edge.map(|node| self.net.vertices[node as usize]);
@@ -213,7 +209,7 @@ impl<'a> Following<'a> {
                 let star = self.net.star(node);
                 let start = self.net.vertices[node as usize];
                 let shell = self.on_boundary[node as usize].then_some(self.shell);
-                any |= open_around(&mut self.net.vertices, (node, &star), |target| {
+                any |= open_around(&mut self.net.vertices, node, &star, |target| {
                     shell.map_or(target, |shell| shell.slide(&start, &target))
                 });
             }

@@ -32,7 +32,8 @@ impl Closing<'_> {
     pub(super) fn inner_surfaces(
         &self,
         radius: f64,
-        input: (&TriangleMesh, &AabbTree),
+        input: &TriangleMesh,
+        tree: &AabbTree,
         distance: f64,
         triangles: usize,
     ) -> Result<Vec<Surface>, WrapError> {
@@ -47,7 +48,7 @@ impl Closing<'_> {
             let map = within(&grid, &set, f64::from(ONE_SIDE) * grid.spacing, true);
             let found = isosurface(&map, 1, &settings)?.simplified.mesh;
             // Seen from inside the region.
-            Ok(Surface::new(fit(found, input, distance, -distance))?)
+            Ok(Surface::new(fit(found, input, tree, distance, -distance))?)
         };
         regions.iter().map(surface).collect()
     }

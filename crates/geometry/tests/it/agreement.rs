@@ -17,7 +17,7 @@ fn closest_point_is_that_of_parry() {
         let mut random = Random(1);
         for _ in 0..tries(20_000) {
             let point = random.around(surface.mesh());
-            compare_nearest((&surface, &tree), &judge, &point);
+            compare_nearest(&surface, &tree, &judge, &point);
         }
     }
 }
@@ -31,14 +31,14 @@ fn real_organs_have_the_distances_of_parry() {
         let mut random = Random(2);
         for _ in 0..tries(2_000) {
             let point = random.around(surface.mesh());
-            compare_nearest((&surface, &tree), &judge, &point);
+            compare_nearest(&surface, &tree, &judge, &point);
         }
         println!("{name}: {} triangles", surface.mesh().triangles().len());
     }
 }
 
 /// The nearest distance, its sign, and that the answer is consistent in itself.
-fn compare_nearest((surface, tree): (&Surface, &AabbTree), judge: &TriMesh, point: &Vec3) {
+fn compare_nearest(surface: &Surface, tree: &AabbTree, judge: &TriMesh, point: &Vec3) {
     let mesh = surface.mesh();
     let (nearest, signed) = surface.signed_distance(tree, point);
     let theirs = judge.project_local_point(parry_vector(point), false);

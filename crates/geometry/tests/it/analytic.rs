@@ -176,7 +176,7 @@ fn contact_point_on_sphere_is_radial() {
                 depth: 0.0,
             };
             let tip = direction * (RADIUS - depth);
-            let contact_point = follow(&surface, &field, &from, (&near, &tip)).unwrap();
+            let contact_point = follow(&surface, &field, &from, &near, &tip).unwrap();
             let aside = contact_point.point - direction * contact_point.point.dot(&direction);
             worst = worst.max(aside.norm());
             // A mesh of n triangles lies below the sphere by up to its sagitta, 5 R/n on this grid.

@@ -136,7 +136,8 @@ struct Slide {
 /// Slides a tip at `depth` [m] from a random place in a random direction by steps of 0.1 mm, as long as
 /// the depth stays below `deepest` radii of curvature.
 fn slide(
-    (surface, field): (&Surface, &PatchField),
+    surface: &Surface,
+    field: &PatchField,
     random: &mut Random,
     depth: f64,
     deepest: f64,
@@ -166,7 +167,7 @@ fn slide(
         }
         direction = (direction - here.normal * here.normal.dot(&direction)).normalize();
         let next = tip + 1e-4 * direction;
-        let Some(found) = follow(surface, field, &contact_point, (&tip, &next)) else {
+        let Some(found) = follow(surface, field, &contact_point, &tip, &next) else {
             panic!("lost the contact at {tip}");
         };
         let ratio = (found.point - contact_point.point).norm() / (next - tip).norm();
@@ -200,7 +201,7 @@ fn slide_has_no_leaps() {
         for depth in [1e-3, 2e-3, 3e-3] {
             let (mut ratio, mut after, mut steps) = (0.0f64, 0.0f64, 0);
             for _ in 0..tries(300) {
-                let slide = slide((&surface, &field), &mut random, depth, deepest);
+                let slide = slide(&surface, &field, &mut random, depth, deepest);
                 ratio = ratio.max(slide.ratio);
                 after = after.max(slide.after_shrinking);
                 steps += slide.steps;

@@ -62,7 +62,7 @@ impl FoundLaw {
         };
         let series = PronySeries::new(&self.series)?;
         let known = self.covariance.correlations();
-        Ok(force.evaluate(time, course, (&series, &known)))
+        Ok(force.evaluate(time, course, &series, &known))
     }
 
     fn check(&self, time: &[f64], course: &[f64]) -> Result<(), Error> {

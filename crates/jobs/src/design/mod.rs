@@ -112,8 +112,10 @@ pub fn design(request: &Request, watch: &dyn Watch) -> Result<Designed, Error> {
     };
     let found = best(
         &guesses,
-        (&start.instrument, &limits),
-        (&wanted, request.criterion),
+        &start.instrument,
+        &limits,
+        &wanted,
+        request.criterion,
         &mut |part| watch.at(part),
     )?;
     let (before, ..) = first.expected(&start.before, &start.instrument)?;

@@ -29,7 +29,8 @@ const METHOD: &str = "finite elements under a punch 2";
 /// before.
 pub(crate) fn of_tissue(
     tissue: &Tissue,
-    (radius, deepest): (f64, f64),
+    radius: f64,
+    deepest: f64,
     at_step: &mut dyn FnMut(f64),
 ) -> Result<VirtualSpecimen, Error> {
     let linear = tissue.elasticity.law() == LawName::Linear;

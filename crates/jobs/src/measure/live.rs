@@ -58,8 +58,10 @@ impl LiveMeasuring {
     /// One stimulus; none when it was stopped before anything was recorded.
     pub(super) fn record(
         &mut self,
-        (trajectory, header): (&DepthTrajectory, RecordingHeader),
-        (file, online): (&Path, &mut Option<Estimating>),
+        trajectory: &DepthTrajectory,
+        header: RecordingHeader,
+        file: &Path,
+        online: &mut Option<Estimating>,
         watch: &dyn Watch,
     ) -> Result<Option<Recorded>, Error> {
         self.number += 1;

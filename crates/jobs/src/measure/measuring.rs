@@ -98,14 +98,14 @@ impl Measuring {
                     AnyRig::Virtual(rig) => {
                         let header = rig.describe(trajectory, *repeat);
                         let mut online = Estimating::of(&header, trajectory, target);
-                        let done = record(rig, (trajectory, header), (file, &mut online), watch);
+                        let done = record(rig, trajectory, header, file, &mut online, watch);
                         (done, online)
                     }
                     AnyRig::Live(live) => {
                         let settings = &self.plan.settings;
                         let header = settings.describe(live.header(), trajectory, *repeat);
                         let mut online = Estimating::of(&header, trajectory, target);
-                        let done = live.record((trajectory, header), (file, &mut online), watch);
+                        let done = live.record(trajectory, header, file, &mut online, watch);
                         (done, online)
                     }
                 };
@@ -187,8 +187,10 @@ fn unique(name: String, taken: &[String]) -> String {
 /// One stimulus; none when Ctrl-C came before it.
 fn record(
     rig: &mut Rig,
-    (trajectory, header): (&DepthTrajectory, RecordingHeader),
-    (file, online): (&Path, &mut Option<Estimating>),
+    trajectory: &DepthTrajectory,
+    header: RecordingHeader,
+    file: &Path,
+    online: &mut Option<Estimating>,
     watch: &dyn Watch,
 ) -> Result<Option<Recorded>, Error> {
     let go_on = &mut |_: &RigSample| !watch.is_asked_to_stop();

@@ -199,12 +199,12 @@ impl Plan {
         let (settings, seed) = (self.settings, self.seed.wrapping_add(place as u64));
         let rig = match (specimen, self.open_device()?, &self.sensor) {
             (OnRig::Virtual(specimen), Some(device), _) => {
-                Rig::on(device, *specimen, settings, (clock, seed))
+                Rig::on(device, *specimen, settings, clock, seed)
             }
             (OnRig::Virtual(specimen), None, _) => {
                 let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
-                let device = (machine, Imperfections::premium());
-                Rig::over(*specimen, device, settings, (clock, seed))
+                let imperfections = Imperfections::premium();
+                Rig::over(*specimen, machine, imperfections, settings, clock, seed)
             }
             (OnRig::Real(header), Some(device), Some(sensor)) => {
                 Rig::with_sensor(device, sensor.open()?, *header, settings, clock)

@@ -22,8 +22,8 @@ pub(crate) fn of(
     let (mut specimen, warnings) = match &measured.tissue {
         MeasuredTissue::Tissue(choice) => {
             let tissue = choice.read()?;
-            let under = (measured.indenter_radius_m, deepest);
-            let specimen = kept::of_tissue(&tissue, under, at_step)?;
+            let radius = measured.indenter_radius_m;
+            let specimen = kept::of_tissue(&tissue, radius, deepest, at_step)?;
             (specimen, [tissue.source.warnings, tissue.warnings].concat())
         }
         MeasuredTissue::Published(organ) => published(*organ, measured.indenter_radius_m)?,
@@ -80,7 +80,7 @@ fn published(organ: PublishedOrgan, radius: f64) -> Result<(VirtualSpecimen, Vec
     let name = organ.to_string();
     let (depths, forces): (Vec<f64>, Vec<f64>) = mean_forces(&name).unzip();
     let response = IndentationCurve::through(&depths, &forces);
-    let mut specimen = VirtualSpecimen::of_response(&response, (material.prony, STEADY), radius);
+    let mut specimen = VirtualSpecimen::of_response(&response, material.prony, STEADY, radius);
     specimen.header.organ = Some(name.clone());
     let warnings = vec![format!(
         "{name}: the mean forces of table 5-1 are taken for what is left after {STEADY} s, and the relaxation is \

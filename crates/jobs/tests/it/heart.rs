@@ -13,7 +13,7 @@ use crate::online::{LIVER, rig, solved, trajectory};
 /// Of c10 and the terms of as many `seeds`: intervals of `characterize` that contain the truth, from `presses` each over a
 /// beating heart, and intervals.
 fn held_in_recordings(seeds: u64, presses: u64) -> [[usize; 2]; 5] {
-    let solved = solved();
+    let (tissue, curve) = solved();
     let settings = CharacterizeSettings {
         laws: vec![SoughtLaw::NeoHookean],
         draws: None,
@@ -22,7 +22,7 @@ fn held_in_recordings(seeds: u64, presses: u64) -> [[usize; 2]; 5] {
     let mut held = [[0; 2]; 5];
     for seed in 0..seeds {
         let factor = 0.6 + 0.008 * seed as f64;
-        let mut rig = rig(&solved, (factor, true), seed);
+        let mut rig = rig(&tissue, &curve, factor, true, seed);
         let recordings: Vec<CleanRecording> = (0..presses)
             .map(|repeat| {
                 let mut samples = Samples::default();

@@ -29,8 +29,10 @@ pub(crate) fn solved() -> (Tissue, IndentationCurve) {
 
 /// The rig over a specimen as stiff as `factor` says, alive or not; it has found the tissue.
 pub(crate) fn rig(
-    (tissue, curve): &(Tissue, IndentationCurve),
-    (factor, alive): (f64, bool),
+    tissue: &Tissue,
+    curve: &IndentationCurve,
+    factor: f64,
+    alive: bool,
     seed: u64,
 ) -> Rig {
     let mut specimen = VirtualSpecimen::of_solved(tissue, RADIUS, curve.clone()).unwrap();
@@ -39,12 +41,19 @@ pub(crate) fn rig(
         specimen = specimen.alive(seed);
     }
     let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
-    let device = (machine, Imperfections::premium());
     let settings = RigSettings {
         breath_motion: if alive { BREATH_MOTION } else { 0.0 },
         ..RigSettings::default()
     };
-    let mut rig = Rig::over(specimen, device, settings, (Clock::virtual_time(), seed)).unwrap();
+    let mut rig = Rig::over(
+        specimen,
+        machine,
+        Imperfections::premium(),
+        settings,
+        Clock::virtual_time(),
+        seed,
+    )
+    .unwrap();
     assert_eq!(rig.approach(&mut |_| true).unwrap(), Ended::Whole);
     rig.recover(&mut |_| true).unwrap();
     rig
@@ -62,11 +71,13 @@ pub(crate) fn trajectory() -> DepthTrajectory {
 
 /// Estimates at each of [`TIMES`] of a specimen as stiff as `factor` says, alive or not.
 fn estimates(
-    solved: &(Tissue, IndentationCurve),
-    (factor, alive): (f64, bool),
+    tissue: &Tissue,
+    curve: &IndentationCurve,
+    factor: f64,
+    alive: bool,
     seed: u64,
 ) -> Vec<OnlineEstimate> {
-    let mut rig = rig(solved, (factor, alive), seed);
+    let mut rig = rig(tissue, curve, factor, alive, seed);
     let mut online = OnlineEstimator::new(OnlineSettings {
         header: rig.header().clone(),
         contact: OnlineContact::Sought,
@@ -104,12 +115,12 @@ fn estimates(
 
 /// Of each parameter at each time: intervals that contain the truth, and intervals.
 fn held(seeds: u64, alive: bool) -> Vec<[[usize; 2]; 5]> {
-    let solved = solved();
+    let (tissue, curve) = solved();
     let mut held = vec![[[0; 2]; 5]; TIMES.len()];
     let mut halves: Vec<[Vec<f64>; 5]> = vec![Default::default(); TIMES.len()];
     for seed in 0..seeds {
         let factor = 0.6 + 0.008 * seed as f64;
-        let found = estimates(&solved, (factor, alive), seed);
+        let found = estimates(&tissue, &curve, factor, alive, seed);
         assert_eq!(found.len(), TIMES.len());
         for (place, estimate) in found.iter().enumerate() {
             for (k, own) in estimate.parameters.iter().enumerate() {

@@ -26,7 +26,8 @@ impl Rig {
         device: Box<dyn Device>,
         specimen: VirtualSpecimen,
         settings: RigSettings,
-        (clock, seed): (Clock, u64),
+        clock: Clock,
+        seed: u64,
     ) -> Result<Self, Error> {
         settings.check_direction()?;
         let mut specimen = specimen;

@@ -71,8 +71,14 @@ fn pressed(mut rig: Rig) -> Result<Vec<RigSample>, Error> {
 
 fn on_table(imperfections: Imperfections) -> Rig {
     let device = Box::new(OnTable::new(imperfections));
-    let clock = (Clock::virtual_time(), 7);
-    Rig::on(device, soft(), RigSettings::default(), clock).unwrap()
+    Rig::on(
+        device,
+        soft(),
+        RigSettings::default(),
+        Clock::virtual_time(),
+        7,
+    )
+    .unwrap()
 }
 
 /// Tissue that touches the machine is felt at once, displayed tissue two ticks later: at the ramp's 8 mm/s that is
@@ -153,8 +159,8 @@ fn by_service() -> (HaplyStandIn, Rig) {
     let device = HaplyDevice::open(service.address(), 0).unwrap();
     // A machine that is busy elsewhere is no fault here.
     let device = device.with_timeout(std::time::Duration::from_secs(5));
-    let clock = (Clock::virtual_time(), 7);
-    let rig = Rig::on(Box::new(device), soft(), RigSettings::default(), clock).unwrap();
+    let clock = Clock::virtual_time();
+    let rig = Rig::on(Box::new(device), soft(), RigSettings::default(), clock, 7).unwrap();
     (service, rig)
 }
 
@@ -199,8 +205,8 @@ fn a_rig_keeps_the_walls_of_its_device() {
         device,
         force: force.clone(),
     };
-    let clock = (Clock::virtual_time(), 7);
-    let mut rig = Rig::on(Box::new(device), soft(), RigSettings::default(), clock).unwrap();
+    let clock = Clock::virtual_time();
+    let mut rig = Rig::on(Box::new(device), soft(), RigSettings::default(), clock, 7).unwrap();
     let mut highest: f64 = 0.0;
     for _ in 0..700 {
         rig.limp(&mut |sample| {

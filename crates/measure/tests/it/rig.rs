@@ -43,8 +43,8 @@ pub(crate) fn rig_on(
     seed: u64,
 ) -> Rig {
     let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
-    let device = (machine, imperfections);
-    Rig::over(specimen, device, settings, (Clock::virtual_time(), seed)).unwrap()
+    let clock = Clock::virtual_time();
+    Rig::over(specimen, machine, imperfections, settings, clock, seed).unwrap()
 }
 
 fn ramp(depth_m: f64, ramp_s: f64, hold_s: f64) -> DepthTrajectory {

@@ -60,8 +60,8 @@ impl Pressed {
             force: force.clone(),
             hangs: hangs.clone(),
         };
-        let clock = (Clock::real(), 1);
-        let rig = Rig::on(Box::new(device), soft(), RigSettings::default(), clock).unwrap();
+        let clock = Clock::real();
+        let rig = Rig::on(Box::new(device), soft(), RigSettings::default(), clock, 1).unwrap();
         let live = LiveRig::start_until(rig, is_ended).unwrap();
         let pressed = Self { live, force, hangs };
         pressed.wait(|force| force > 0.05);

@@ -103,7 +103,7 @@ impl BoundaryProblem<'_> {
             Sampling::Centroids,
         )?;
         let system = zeros(self.size() * self.size())?;
-        let solved = self.fill(&influences, &held, (system, &mut parts), progress);
+        let solved = self.fill(&influences, &held, system, &mut parts, progress);
         match solved {
             ControlFlow::Continue(()) => SurfaceResponse::new(parts),
             ControlFlow::Break(()) => Err(Error::BrokenOff),
@@ -119,7 +119,8 @@ impl BoundaryProblem<'_> {
         &self,
         influences: &Influences<'_>,
         held: &[bool],
-        (mut system, parts): (Vec<T>, &mut ResponseParts<T>),
+        mut system: Vec<T>,
+        parts: &mut ResponseParts<T>,
         progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         let size = self.size() as f64;

@@ -31,7 +31,7 @@ impl Carrier {
         let tree = AabbTree::new(interpolation.surface().mesh());
         let mut carrier = Self::default();
         for (place, normal) in finer.mesh().vertices().iter().zip(finer.vertex_normals()) {
-            let at = interpolation.nearest_facing(&tree, (place, normal));
+            let at = interpolation.nearest_facing(&tree, place, normal);
             carrier.push(interpolation, &at, *place);
         }
         carrier
@@ -54,8 +54,7 @@ impl Carrier {
     pub fn carry(&self, field: &SurfaceField, displacements: &mut [Vec3]) {
         assert_eq!(displacements.len(), self.places.len(), "one per point");
         for (row, displacement) in displacements.iter_mut().enumerate() {
-            let point = (&self.places[row], &self.normals[row]);
-            *displacement = field.at(point, (&self.weights, row));
+            *displacement = field.at(&self.places[row], &self.normals[row], &self.weights, row);
         }
     }
 

@@ -80,15 +80,11 @@ impl SurfaceField {
         let mut weights = Weights::default();
         interpolation.write_row(at, &mut weights);
         let (place, normal) = (interpolation.place(at), interpolation.normal(at));
-        self.at((&place, &normal), (&weights, 0))
+        self.at(&place, &normal, &weights, 0)
     }
 
     /// Displacement [m] of a point at `place` [m] with the unit `normal` [-], `row` of `weights`.
-    pub(super) fn at(
-        &self,
-        (place, normal): (&Vec3, &Vec3),
-        (weights, row): (&Weights, usize),
-    ) -> Vec3 {
+    pub(super) fn at(&self, place: &Vec3, normal: &Vec3, weights: &Weights, row: usize) -> Vec3 {
         weights.sum(row, &self.residual) + self.of_dimples(place, normal)
     }
 

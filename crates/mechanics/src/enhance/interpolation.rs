@@ -116,7 +116,7 @@ impl Interpolation {
 
     /// The point nearest to `place` [m] on a triangle that does not face away from the unit `normal` [-];
     /// `tree` is around the coarse surface. Allocates nothing.
-    pub fn nearest_facing(&self, tree: &AabbTree, (place, normal): (&Vec3, &Vec3)) -> SurfacePoint {
+    pub fn nearest_facing(&self, tree: &AabbTree, place: &Vec3, normal: &Vec3) -> SurfacePoint {
         let mesh = self.surface.mesh();
         let faces_alike = |triangle: TriangleId| mesh.area_vector(triangle).dot(normal) > 0.0;
         let nearest = tree.nearest(mesh, place);

@@ -117,6 +117,6 @@ impl EnhancementModel {
         let facing = normals
             .map(|(node, share)| finer.vertex_normals()[node.index()] * share)
             .sum();
-        self.interpolation.nearest_facing(tree, (place, &facing))
+        self.interpolation.nearest_facing(tree, place, &facing)
     }
 }

@@ -118,7 +118,9 @@ pub(super) fn constants(poissons_ratio: f64) -> ExteriorConstants {
 impl Calibration {
     /// `solve` gives the stiffness [E h] of the shells under a cap; `shells` is their number.
     pub(super) fn new(
-        (law, bond, form): (LinearElastic, Friction, Form),
+        law: LinearElastic,
+        bond: Friction,
+        form: Form,
         shells: usize,
         mut solve: impl FnMut(CapShape) -> Matrix3<f64>,
     ) -> Self {

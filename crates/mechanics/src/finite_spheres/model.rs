@@ -110,8 +110,8 @@ impl FiniteSphereModel {
             law.poissons_ratio().min(LARGEST_CALIBRATED_RATIO),
         )?;
         let mut workspace = FiniteSphereWorkspace::new(&settings, &layout, &quadrature);
-        let problem = (solved, bond, settings.form);
-        let calibration = Calibration::new(problem, layout.shells, |cap| {
+        let shells = layout.shells;
+        let calibration = Calibration::new(solved, bond, settings.form, shells, |cap| {
             workspace.place(&layout, cap);
             workspace.assemble(&quadrature, &solved);
             workspace.solve();
@@ -286,7 +286,8 @@ impl FiniteSphereModel {
     /// `response` must be the last that `workspace` was used for.
     pub fn displacement(
         &self,
-        (contact, response): (&LocalContact, &Response),
+        contact: &LocalContact,
+        response: &Response,
         workspace: &mut FiniteSphereWorkspace,
         tip: &Vec3,
         x: &Vec3,

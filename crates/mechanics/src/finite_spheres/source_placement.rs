@@ -36,7 +36,7 @@ impl SourcePlacement {
             surface_places,
         };
         for triangle in surface.mesh().triangle_ids() {
-            placement.project(surface, tree, layout, (triangle, spacing));
+            placement.project(surface, tree, layout, triangle, spacing);
         }
         placement
     }
@@ -46,7 +46,8 @@ impl SourcePlacement {
         surface: &Surface,
         tree: &AabbTree,
         layout: &Layout,
-        (triangle, spacing): (TriangleId, f64),
+        triangle: TriangleId,
+        spacing: f64,
     ) {
         let frame = TriangleFrame::new(surface, triangle);
         self.directions.push(frame.directions);

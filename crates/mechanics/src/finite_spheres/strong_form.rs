@@ -32,6 +32,15 @@ pub(super) struct StrongForm {
     force_rows: Vec<Matrix3<f64>>,
 }
 
+/// Lamé's moduli of the tissue over E.
+#[derive(Debug, Clone, Copy)]
+struct Moduli {
+    /// λ over E [-].
+    lame: f64,
+    /// μ over E [-].
+    shear: f64,
+}
+
 impl StrongForm {
     pub(super) fn new(layout: &Layout) -> Self {
         let count = layout.places.len();
@@ -55,7 +64,10 @@ impl StrongForm {
         law: &LinearElastic,
     ) {
         let scale = 1.0 / law.youngs_modulus();
-        let moduli = (law.lame_modulus() * scale, law.shear_modulus() * scale);
+        let moduli = Moduli {
+            lame: law.lame_modulus() * scale,
+            shear: law.shear_modulus() * scale,
+        };
         self.system.clear();
         for node in 0..solution.particles.positions.len() {
             let here = solution.particles.positions[node];
@@ -101,7 +113,7 @@ impl StrongForm {
         solution: &Solution,
         quadrature: &Quadrature,
         cap: CapShape,
-        moduli: (f64, f64),
+        moduli: Moduli,
     ) {
         self.force_rows.fill(Matrix3::zeros());
         let outermost = self.layout.shells as f64;
@@ -144,13 +156,15 @@ impl StrongForm {
 }
 
 /// Column k: σ(u) n for u = φ e_k, with ∇φ given.
-fn traction(gradient: &Vec3, normal: &Vec3, (lame, shear): (f64, f64)) -> Matrix3<f64> {
+fn traction(gradient: &Vec3, normal: &Vec3, moduli: Moduli) -> Matrix3<f64> {
+    let Moduli { lame, shear } = moduli;
     lame * normal * gradient.transpose()
         + shear * gradient * normal.transpose()
         + Matrix3::from_diagonal_element(shear * gradient.dot(normal))
 }
 
 /// Column k: ∇·σ(u) for u = φ e_k, with the Hessian of φ given.
-fn divergence_of_stress(hessian: &Matrix3<f64>, (lame, shear): (f64, f64)) -> Matrix3<f64> {
+fn divergence_of_stress(hessian: &Matrix3<f64>, moduli: Moduli) -> Matrix3<f64> {
+    let Moduli { lame, shear } = moduli;
     (lame + shear) * hessian + Matrix3::from_diagonal_element(shear * hessian.trace())
 }

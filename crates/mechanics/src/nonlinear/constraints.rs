@@ -127,7 +127,7 @@ impl Constraints {
         for i in 0..tools {
             for j in 0..tools {
                 *self.problem.at(i, j) =
-                    self.tools.own[(i, j)] + self.tools.shared(couplings, (i, j));
+                    self.tools.own[(i, j)] + self.tools.shared(couplings, i, j);
             }
         }
         for row in tools..first {

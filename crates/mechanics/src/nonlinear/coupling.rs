@@ -102,11 +102,7 @@ impl Rows {
     }
 
     /// How far a unit force of row `from` moves row `to` [m/N]: Wᵀ Z.
-    pub(super) fn shared(
-        &self,
-        couplings: &[Option<Coupling<'_>>],
-        (to, from): (usize, usize),
-    ) -> f64 {
+    pub(super) fn shared(&self, couplings: &[Option<Coupling<'_>>], to: usize, from: usize) -> f64 {
         let row = &self.rows[to];
         let coupling = couplings[row.tool].as_ref();
         coupling.map_or(0.0, |coupling| {

@@ -57,7 +57,8 @@ impl EmbeddedPoints {
     pub(super) fn new(
         mesh: &TetrahedronMesh,
         elements: &[u32],
-        (points, range): (&[Vec3], Range<usize>),
+        points: &[Vec3],
+        range: Range<usize>,
     ) -> Result<Self, Error> {
         let faces = faces(mesh).into_iter();
         let faces: Vec<Face> = faces

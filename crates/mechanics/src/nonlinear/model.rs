@@ -278,7 +278,7 @@ impl NonlinearModel {
         points: &[Vec3],
         tetrahedra: Range<usize>,
     ) -> Result<EmbeddedPoints, Error> {
-        EmbeddedPoints::new(&self.mesh, &self.elements, (points, tetrahedra))
+        EmbeddedPoints::new(&self.mesh, &self.elements, points, tetrahedra)
     }
 
     /// What a force on the weighted mean of `nodes` moves it by [m/N], by the factors of the stiffness at rest, turned as

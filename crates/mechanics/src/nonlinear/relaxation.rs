@@ -90,7 +90,8 @@ impl Relaxation {
     /// and point here is at.
     pub(super) fn carry(
         &self,
-        (from, before): (&Self, &[Remembered<f32>]),
+        from: &Self,
+        before: &[Remembered<f32>],
         memory: &mut [Remembered<f32>],
         place: impl Fn(usize, usize) -> Option<(usize, usize)>,
     ) {

@@ -63,8 +63,10 @@ impl StateTransfer {
     /// When a state or the workspace is that of another model or of fewer tools.
     pub fn transfer(
         &self,
-        (from, before): (&NonlinearModel, &NonlinearState),
-        (to, state): (&NonlinearModel, &mut NonlinearState),
+        from: &NonlinearModel,
+        before: &NonlinearState,
+        to: &NonlinearModel,
+        state: &mut NonlinearState,
         workspace: &mut Workspace,
     ) {
         state.reset(to);
@@ -76,10 +78,12 @@ impl StateTransfer {
         state.is_smooth = false;
         workspace.turn(to, state);
         if let (Some(own), Some(others)) = (&to.relaxation, &from.relaxation) {
-            let stress = (others, &before.stress[..]);
-            own.carry(stress, &mut state.stress, |element, point| {
-                self.stress[POINTS * element + point]
-            });
+            own.carry(
+                others,
+                &before.stress,
+                &mut state.stress,
+                |element, point| self.stress[POINTS * element + point],
+            );
         }
         let [halves_before, halves] = [from, to].map(|model| model.boundary_points().len());
         for (own, other) in &self.boundary {

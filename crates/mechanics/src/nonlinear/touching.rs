@@ -208,7 +208,7 @@ impl TouchingBoundary {
     fn find_overlaps(&mut self, model: &NonlinearModel) {
         let rest = NonlinearState::at_rest(model, 0);
         let mut allowed = vec![0.0_f64; self.allowed.len()];
-        TouchingSearch::new(self).find_all(self, (model, &rest), |found| {
+        TouchingSearch::new(self).find_all(self, model, &rest, |found| {
             allowed[found.point] = found.distance.min(0.0);
         });
         self.allowed = allowed;

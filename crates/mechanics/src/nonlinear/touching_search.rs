@@ -92,12 +92,13 @@ impl TouchingSearch {
     pub fn find(
         &mut self,
         boundary: &TouchingBoundary,
-        (model, state): (&NonlinearModel, &NonlinearState),
+        model: &NonlinearModel,
+        state: &NonlinearState,
         mut visit: impl FnMut(f64, UnilateralContact),
     ) -> f64 {
         let (near, deepest) = (NEAR * boundary.edge, DEEPEST * boundary.edge);
         let mut lost = 0.0_f64;
-        self.find_all(boundary, (model, state), |found| {
+        self.find_all(boundary, model, state, |found| {
             let gap = found.distance - boundary.allowed[found.point];
             if gap < -deepest {
                 lost = lost.max(-gap);
@@ -128,10 +129,11 @@ impl TouchingSearch {
     pub(super) fn find_all(
         &mut self,
         boundary: &TouchingBoundary,
-        (model, state): (&NonlinearModel, &NonlinearState),
+        model: &NonlinearModel,
+        state: &NonlinearState,
         mut visit: impl FnMut(Found),
     ) {
-        self.go_to(boundary, (model, state));
+        self.go_to(boundary, model, state);
         if self.until.iter().all(|until| *until > self.travelled) {
             return;
         }
@@ -151,7 +153,8 @@ impl TouchingSearch {
     fn go_to(
         &mut self,
         boundary: &TouchingBoundary,
-        (model, state): (&NonlinearModel, &NonlinearState),
+        model: &NonlinearModel,
+        state: &NonlinearState,
     ) {
         let mut farthest = 0.0_f64;
         for (number, &node) in boundary.nodes.iter().enumerate() {

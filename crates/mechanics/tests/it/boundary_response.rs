@@ -119,7 +119,8 @@ fn solve_again(
 fn pressed<T: Precision>(
     response: &SurfaceResponse<T>,
     moved: &[(TriangleId, Vec3)],
-    (bond, reciprocity): (Friction, Reciprocity),
+    bond: Friction,
+    reciprocity: Reciprocity,
 ) -> Vec<Vec3> {
     let moved: Vec<_> = moved
         .iter()
@@ -176,9 +177,9 @@ fn an_update_is_a_new_solution() {
             .zip(&moved)
             .map(|(traction, (id, _))| traction * panels[id.index()].area)
             .collect();
-        let how = (Friction::Bonded, Reciprocity::AsSolved);
-        let off = difference(&pressed(&double, &moved, how), &expected);
-        let rounded = difference(&pressed(&single, &moved, how), &expected);
+        let (bond, reciprocity) = (Friction::Bonded, Reciprocity::AsSolved);
+        let off = difference(&pressed(&double, &moved, bond, reciprocity), &expected);
+        let rounded = difference(&pressed(&single, &moved, bond, reciprocity), &expected);
         println!("{} triangles: {off:.1e}, single {rounded:.1e}", moved.len());
         assert!(off < 1e-10, "{}: {off}", moved.len());
         assert!(rounded < 1e-5, "{}: {rounded}", moved.len());
@@ -246,7 +247,7 @@ fn reciprocity_changes_the_force_little() {
             let moved: Vec<_> = patch.iter().map(|&id| (id, -1e-3 * normal)).collect();
             for bond in [Friction::Bonded, Friction::Frictionless] {
                 let along = |reciprocity| -> f64 {
-                    let forces = pressed(&response, &moved, (bond, reciprocity));
+                    let forces = pressed(&response, &moved, bond, reciprocity);
                     forces.iter().sum::<Vec3>().dot(&normal)
                 };
                 let change = along(Reciprocity::Imposed) / along(Reciprocity::AsSolved) - 1.0;
@@ -266,7 +267,7 @@ fn the_field_goes_through_the_patch() {
     let depth = Vec3::new(0.0, 0.0, -1e-3);
     let patch = solid.near(solid.free[100], 40);
     let moved: Vec<_> = patch.iter().map(|&id| (id, depth)).collect();
-    let forces = pressed(&response, &moved, (Friction::Bonded, Reciprocity::AsSolved));
+    let forces = pressed(&response, &moved, Friction::Bonded, Reciprocity::AsSolved);
     let mut field = vec![0.0; 3 * response.parts().triangles];
     let touched = moved
         .iter()
@@ -321,7 +322,7 @@ fn cube_force(triangles: usize, nu: f64) -> f64 {
     patch.retain(|&id| inside(&solid.centroid(id)));
     let response = solid.response::<f32>(&patch);
     let moved: Vec<_> = patch.iter().map(|&id| (id, -Vec3::z())).collect();
-    let forces = pressed(&response, &moved, (Friction::Bonded, Reciprocity::Imposed));
+    let forces = pressed(&response, &moved, Friction::Bonded, Reciprocity::Imposed);
     let force = -forces.iter().sum::<Vec3>().z;
     println!(
         "nu {nu}, {triangles} triangles, {} in contact: {force:.4}",

@@ -10,7 +10,7 @@ use palpate_mechanics::surface_response::TipField;
 use palpate_mechanics::{LinearElastic, Vec3};
 
 use crate::boundary_response::Held;
-use crate::tip_field::{stiffness, under};
+use crate::tip_field::{FlatTip, stiffness, under};
 
 pub(crate) const LENGTH: f64 = 0.04;
 pub(crate) const NU: f64 = 0.45;
@@ -81,7 +81,12 @@ fn by_boundary_elements(inner: f64, outer: f64, parts: [usize; 3]) -> f64 {
     let field = TipField::new(&response, &solid.surface, PUNCH).unwrap();
     let (triangle, at) = under(&solid.surface, &place);
     let load = field.at(&solid.surface, triangle, &at);
-    let found = stiffness(&load, &Vec3::x(), (PUNCH, NU, Friction::Frictionless));
+    let tip = FlatTip {
+        a: PUNCH,
+        nu: NU,
+        bond: Friction::Frictionless,
+    };
+    let found = stiffness(&load, &Vec3::x(), tip);
     println!(
         "{} triangles: {found:.3e}",
         solid.surface.mesh().triangles().len()

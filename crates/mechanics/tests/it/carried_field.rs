@@ -22,7 +22,8 @@ const EVERY: [Smoothing; 3] = [
 fn carried(
     interpolation: &Interpolation,
     carrier: &Carrier,
-    (moved, presses): (&[Vec3], &[Press]),
+    moved: &[Vec3],
+    presses: &[Press],
 ) -> Vec<Vec3> {
     let mut field = SurfaceField::default();
     field.update(interpolation, moved, presses);
@@ -63,7 +64,8 @@ fn moving_least_squares_carry_a_linear_field() {
     let found = carried(
         &interpolation,
         &carrier,
-        (&sampled(&interpolation, linear), &[]),
+        &sampled(&interpolation, linear),
+        &[],
     );
     let mut looked_at = 0;
     for (place, found) in carrier.places().iter().zip(&found) {
@@ -90,7 +92,8 @@ fn a_rotation_is_carried_with_the_second_order() {
             let found = carried(
                 &interpolation,
                 &carrier,
-                (&sampled(&interpolation, rotate), &[]),
+                &sampled(&interpolation, rotate),
+                &[],
             );
             let pairs = carrier.places().iter().zip(&found);
             let off = pairs.map(|(place, found)| (found - rotate(place)).norm());
@@ -113,7 +116,8 @@ fn a_rotation_is_carried_with_the_second_order() {
 fn pressed(
     interpolation: &Interpolation,
     at: SurfacePoint,
-    (tip, depth): (Tip, f64),
+    tip: Tip,
+    depth: f64,
 ) -> (Vec<Vec3>, Press) {
     let (middle, normal) = (interpolation.place(&at), interpolation.normal(&at));
     let displacement = -depth * normal;
@@ -148,7 +152,7 @@ fn the_dimple_is_as_deep_as_the_tip() {
                 triangle,
                 barycentric: barycentric.map(|part| part / sum),
             };
-            let (moved, press) = pressed(&interpolation, at, (TIPS[number % 2], DEPTH));
+            let (moved, press) = pressed(&interpolation, at, TIPS[number % 2], DEPTH);
             let mut field = SurfaceField::default();
             for with in [true, false] {
                 let presses = if with { &[press][..] } else { &[] };
@@ -181,8 +185,8 @@ fn two_tips_have_their_own_depths() {
     let far =
         |id: &TriangleId| (interpolation.place(&SurfacePoint::centroid(*id)) - place).norm() > 8e-3;
     let other = SurfacePoint::centroid(mesh.triangle_ids().find(far).unwrap());
-    let (one, first) = pressed(&interpolation, first, (TIPS[0], DEPTH));
-    let (two, second) = pressed(&interpolation, other, (TIPS[1], 0.5 * DEPTH));
+    let (one, first) = pressed(&interpolation, first, TIPS[0], DEPTH);
+    let (two, second) = pressed(&interpolation, other, TIPS[1], 0.5 * DEPTH);
     let both: Vec<_> = one.iter().zip(&two).map(|(one, two)| one + two).collect();
     let mut field = SurfaceField::default();
     field.update(&interpolation, &both, &[first, second]);
@@ -208,9 +212,9 @@ fn the_dimple_has_the_form_of_the_half_space() {
             barycentric: nearest.on.barycentric,
         };
         for tip in TIPS {
-            let (moved, press) = pressed(&interpolation, at, (tip, DEPTH));
+            let (moved, press) = pressed(&interpolation, at, tip, DEPTH);
             let missed = |presses: &[Press]| {
-                let found = carried(&interpolation, &carrier, (&moved, presses));
+                let found = carried(&interpolation, &carrier, &moved, presses);
                 let radius = tip.contact_radius(DEPTH);
                 let pairs = carrier.places().iter().zip(&found);
                 let near = pairs.filter(|(place, _)| (**place - top).norm() < 0.03);
@@ -257,9 +261,9 @@ fn a_thin_wall_does_not_leak() {
             .triangle_ids()
             .find(|&id| outer(&place(id), &facing(id)) && place(id).z.abs() < 2e-3);
         let at = SurfacePoint::centroid(middle.unwrap());
-        let (_, press) = pressed(&interpolation, at, (TIPS[0], DEPTH));
+        let (_, press) = pressed(&interpolation, at, TIPS[0], DEPTH);
         let [bare, found] =
-            [&[][..], &[press]].map(|presses| carried(&interpolation, &carrier, (&moved, presses)));
+            [&[][..], &[press]].map(|presses| carried(&interpolation, &carrier, &moved, presses));
         let (mut inner, mut largest) = (0, 0.0_f64);
         let vertices = finer.mesh().vertices().iter().zip(finer.vertex_normals());
         for (row, (place, normal)) in vertices.enumerate() {
@@ -291,10 +295,10 @@ fn a_sliding_dimple_does_not_leap() {
                 triangle: nearest.triangle,
                 barycentric: nearest.on.barycentric,
             };
-            let (moved, press) = pressed(&interpolation, at, (TIPS[1], DEPTH));
+            let (moved, press) = pressed(&interpolation, at, TIPS[1], DEPTH);
             (
                 nearest.triangle,
-                carried(&interpolation, &carrier, (&moved, &[press])),
+                carried(&interpolation, &carrier, &moved, &[press]),
             )
         };
         let largest = |steps: usize| {
@@ -327,7 +331,8 @@ fn an_enhanced_step_allocates_nothing() {
     let (moved, press) = pressed(
         interpolation,
         SurfacePoint::centroid(TriangleId(0)),
-        (TIPS[0], DEPTH),
+        TIPS[0],
+        DEPTH,
     );
     let carrier = Carrier::of_vertices(interpolation);
     let (mut patch, mut field) = (EnhancedPatch::default(), SurfaceField::default());
@@ -366,7 +371,7 @@ fn real_kidney_has_no_spikes() {
             .collect();
         let largest = values.iter().map(Vec3::norm).fold(0.0, f64::max);
         let carrier = Carrier::of_vertices(&interpolation);
-        let found = carried(&interpolation, &carrier, (&values, &[]));
+        let found = carried(&interpolation, &carrier, &values, &[]);
         let reached = found.iter().map(Vec3::norm).fold(0.0, f64::max) / largest;
         println!("{smoothing:?}: {reached:.2} of the largest value");
         assert!(reached < 1.5, "{smoothing:?}: {reached}");

@@ -15,7 +15,7 @@ use palpate_mechanics::{Error, LinearElastic, Vec3};
 use crate::boundary_response::Held;
 use crate::boundary_tubes::{LENGTH, NU, PUNCH, by_finite_elements, tube};
 use crate::contacts::RADIUS;
-use crate::tip_field::{stiffness, under};
+use crate::tip_field::{FlatTip, stiffness, under};
 
 fn problem<'a>(solid: &'a Held, touchable: &'a [TriangleId], edge: f64) -> CondensedProblem<'a> {
     CondensedProblem {
@@ -40,14 +40,18 @@ fn hemisphere(nu: f64, triangles: usize) -> Held {
 
 /// Force per depth over E [m] of a tip of radius `a` [m] at `place`, along `normal`.
 fn felt<T: Precision>(
-    (solid, response): (&Held, &SurfaceResponse<T>),
-    (place, normal): (&Vec3, &Vec3),
-    (a, bond): (f64, Friction),
+    solid: &Held,
+    response: &SurfaceResponse<T>,
+    place: &Vec3,
+    normal: &Vec3,
+    a: f64,
+    bond: Friction,
 ) -> f64 {
     let field = TipField::new(response, &solid.surface, a).unwrap();
     let (triangle, at) = under(&solid.surface, place);
     let load = field.at(&solid.surface, triangle, &at);
-    stiffness(&load, normal, (a, solid.nu, bond))
+    let nu = solid.nu;
+    stiffness(&load, normal, FlatTip { a, nu, bond })
 }
 
 /// Judges: fine axisymmetric elements, and boundary elements of the same triangles. Tolerances: 5 %, which is
@@ -73,9 +77,8 @@ fn a_tip_on_a_thick_body_feels_the_same() {
                 depth: 1.0,
             };
             let expected = judge.solve_on(0.02, 0).unwrap().force;
-            let at = (&place, &normal);
-            let found = felt((&solid, &by_tetrahedra), at, (a, bond)) / expected;
-            let other = felt((&solid, &by_boundary), at, (a, bond)) / expected;
+            let found = felt(&solid, &by_tetrahedra, &place, &normal, a, bond) / expected;
+            let other = felt(&solid, &by_boundary, &place, &normal, a, bond) / expected;
             println!("nu {nu}, a {a}, {bond:?}: {found:.4}, boundary elements {other:.4}");
             assert!((found - 1.0).abs() < 0.05, "{found}");
             assert!((found / other - 1.0).abs() < 0.02, "{found} {other}");
@@ -125,9 +128,12 @@ fn a_turned_solid_feels_the_same() {
         let touchable = solid.near_point(&place, 60);
         let response = response::<f32>(&problem(&solid, &touchable, 0.0125));
         felt(
-            (&solid, &response),
-            (&place, &place.normalize()),
-            (5e-3, Friction::Frictionless),
+            &solid,
+            &response,
+            &place,
+            &place.normalize(),
+            5e-3,
+            Friction::Frictionless,
         )
     };
     let [still, turned] = [nalgebra::Rotation3::identity(), about].map(felt_when);
@@ -185,14 +191,14 @@ fn a_solution_tells_how_far_it_is_and_can_be_cancelled() {
 }
 
 /// Error against `tube::indent` of a punch on the side of a tube, `parts` as of [`tube`].
-fn tube_error([inner, outer]: [f64; 2], expected: f64, (parts, edge): ([usize; 3], f64)) -> f64 {
+fn tube_error([inner, outer]: [f64; 2], expected: f64, parts: [usize; 3], edge: f64) -> f64 {
     let surface = tube(inner, outer, parts);
     let solid = Held::new(surface, NU, |x| x.z.abs() > 0.5 * LENGTH * (1.0 - 1e-9));
     let place = outer * Vec3::x();
     let touchable = solid.near_point(&place, 100);
     let response = response::<f32>(&problem(&solid, &touchable, edge));
-    let at = (&place, &Vec3::x());
-    let found = felt((&solid, &response), at, (PUNCH, Friction::Frictionless));
+    let slip = Friction::Frictionless;
+    let found = felt(&solid, &response, &place, &Vec3::x(), PUNCH, slip);
     let error = found / expected - 1.0;
     println!(
         "{inner} {outer}, {} triangles, edge {edge}: {:+.1} %",
@@ -206,7 +212,7 @@ fn tube_error([inner, outer]: [f64; 2], expected: f64, (parts, edge): ([usize; 3
 /// thirds of the wall, on which boundary elements are off by 9 %.
 #[test]
 fn a_wall_bends_as_it_should() {
-    let error = tube_error([5e-3, 8e-3], 1.142e-3, ([24, 24, 2], 2.1e-3));
+    let error = tube_error([5e-3, 8e-3], 1.142e-3, [24, 24, 2], 2.1e-3);
     assert!(error.abs() < 0.06, "{error}");
 }
 
@@ -223,7 +229,7 @@ fn walls_thick_and_thin_are_met() {
     ] {
         let expected = by_finite_elements(radii[0], radii[1]);
         let edge = 0.7 * (radii[1] - radii[0]);
-        let error = tube_error(radii, expected, ([36, 36, 2], edge));
+        let error = tube_error(radii, expected, [36, 36, 2], edge);
         assert!(error.abs() < allowed, "{radii:?}: {error}");
     }
 }

@@ -37,7 +37,7 @@ fn beyond_the_shells_is_what_half_a_ball_lacks() {
     }
 }
 
-fn ratio(a: f64, nu: f64, (patch, bond): (Patch, Friction), (edge, halvings): (f64, u32)) -> f64 {
+fn ratio(a: f64, nu: f64, patch: Patch, bond: Friction, edge: f64, halvings: u32) -> f64 {
     let law = tissue(nu);
     let problem = HemisphereProblem {
         radius: 1.0,
@@ -57,10 +57,11 @@ fn ratio(a: f64, nu: f64, (patch, bond): (Patch, Friction), (edge, halvings): (f
 /// force.
 #[test]
 fn the_organs_size_is_what_a_hemisphere_takes_away() {
-    let slip = (Patch::Slip, Friction::Frictionless);
+    let (patch, bond) = (Patch::Slip, Friction::Frictionless);
     for row in EXTERIOR_CONSTANTS {
         let nu = row.poissons_ratio;
-        let found = limit(|halvings| 20.0 * (1.0 - 1.0 / ratio(0.05, nu, slip, (EDGE, halvings))));
+        let found =
+            limit(|halvings| 20.0 * (1.0 - 1.0 / ratio(0.05, nu, patch, bond, EDGE, halvings)));
         println!("nu {nu}: k_o {found:.4}");
         assert!((found - row.organ_size).abs() < 3e-3, "{row:?}");
     }
@@ -72,12 +73,12 @@ fn the_organs_size_is_what_a_hemisphere_takes_away() {
 fn one_constant_serves_all_tips() {
     for (place, row) in EXTERIOR_CONSTANTS.iter().enumerate() {
         let mut worst: f64 = 0.0;
-        for kind in [
+        for (patch, bond) in [
             (Patch::Slip, Friction::Frictionless),
             (Patch::Bonded, Friction::Bonded),
         ] {
             for a in [0.02, 0.1] {
-                let found = ratio(a, row.poissons_ratio, kind, (0.01, 0));
+                let found = ratio(a, row.poissons_ratio, patch, bond, 0.01, 0);
                 worst = worst.max((found * (1.0 - row.organ_size * a) - 1.0).abs());
             }
         }
@@ -92,18 +93,18 @@ fn one_constant_serves_all_tips() {
 fn the_local_model_has_the_force_of_finite_elements() {
     let mut worst: f64 = 0.0;
     for nu in [0.0, 0.2, 0.3, 0.35, 0.45] {
-        for kind in [
+        for (patch, bond) in [
             (Patch::Slip, Friction::Frictionless),
             (Patch::Bonded, Friction::Bonded),
         ] {
-            let model = model(FiniteSphereSettings::default(), nu, kind.1);
+            let model = model(FiniteSphereSettings::default(), nu, bond);
             for a in [2e-3, 5e-3] {
-                let exact = ratio(a / RADIUS, nu, kind, (0.01, 0))
-                    * half_space_stiffness(&tissue(nu), a, kind.1);
+                let exact = ratio(a / RADIUS, nu, patch, bond, 0.01, 0)
+                    * half_space_stiffness(&tissue(nu), a, bond);
                 let contact = bare_contact(Vector3::new(1.0, 0.0, 1.0) / RADIUS, a, RADIUS);
                 let found = model.respond(&contact, &mut model.workspace()).stiffness[(2, 2)];
                 let off = found / exact - 1.0;
-                println!("nu {nu}, {:?}, {a} m: {:+.2} %", kind.1, 100.0 * off);
+                println!("nu {nu}, {:?}, {a} m: {:+.2} %", bond, 100.0 * off);
                 worst = worst.max(off.abs());
             }
         }

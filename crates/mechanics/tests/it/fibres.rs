@@ -230,7 +230,7 @@ fn distorted_elements_stretch_a_bar_with_fibres() {
 
 /// Pressure [Pa] of an endless tube in plane strain whose inner radius is `now`, from the stresses by stretches, by Gauss's
 /// rule of three points on `parts` parts of the wall: p = ∫ (σ_θ − σ_r) dr/r.
-fn pressure(p: &[f64; 5], (inner, outer): (f64, f64), now: f64, parts: u32) -> f64 {
+fn pressure(p: &[f64; 5], inner: f64, outer: f64, now: f64, parts: u32) -> f64 {
     let spread = now * now - inner * inner;
     let width = (outer - inner) / f64::from(parts);
     let points = [(-0.6_f64.sqrt(), 5.0), (0.0, 8.0), (0.6_f64.sqrt(), 5.0)];
@@ -250,7 +250,7 @@ fn pressure(p: &[f64; 5], (inner, outer): (f64, f64), now: f64, parts: u32) -> f
 /// Judge: the integral of equilibrium over the wall.
 #[test]
 fn a_thick_tube_follows_the_integral_of_equilibrium() {
-    let radii = (0.005, 0.0075);
+    let (inner, outer) = (0.005, 0.0075);
     for (p, pressures) in [
         (&LAWS[2], &[100.0, 1000.0, 4000.0]),
         (&LAWS[3], &[50.0, 300.0, 600.0]),
@@ -259,20 +259,20 @@ fn a_thick_tube_follows_the_integral_of_equilibrium() {
         let problem = TubeProblem {
             tube: Tube {
                 length: 0.001,
-                inner_radius: radii.0,
-                outer_radius: radii.1,
+                inner_radius: inner,
+                outer_radius: outer,
             },
             law: Arc::new(law(p)),
             ends: Ends::Guided,
         };
         let found = inflate(&problem, pressures, 1e-3, &mut |_| {}).unwrap();
         for (asked, moved) in pressures.iter().zip(&found.answer.inner_displacements) {
-            let now = radii.0 + moved.unwrap();
-            let [coarse, exact] = [32, 64].map(|parts| pressure(p, radii, now, parts));
+            let now = inner + moved.unwrap();
+            let [coarse, exact] = [32, 64].map(|parts| pressure(p, inner, outer, now, parts));
             println!("{p:?}: {asked} Pa, {now}, by the integral {exact}");
             assert!((coarse / exact - 1.0).abs() < 1e-6, "{coarse} {exact}");
             // 0.1 % of the displacement was asked for, times d ln p/d ln u of the integral.
-            let more = pressure(p, radii, radii.0 + 1.001 * moved.unwrap(), 64);
+            let more = pressure(p, inner, outer, inner + 1.001 * moved.unwrap(), 64);
             let allowed = 1.1 * (more / exact - 1.0);
             assert!((exact / asked - 1.0).abs() < allowed, "{asked} {exact}");
         }

@@ -34,8 +34,8 @@ impl Shown {
     }
 
     fn at(&mut self, tip: &Vec3, x: &Vec3) -> Vec3 {
-        let found = (&self.contact, &self.response);
-        self.model.displacement(found, &mut self.workspace, tip, x)
+        self.model
+            .displacement(&self.contact, &self.response, &mut self.workspace, tip, x)
     }
 
     /// The point of the surface at `distance` [m] along the azimuth `turn`.
@@ -193,7 +193,7 @@ fn nothing_is_shown_much_farther_than_its_tip() {
             for _ in 0..100 {
                 let tip = random.vector();
                 let x = 2.0 * model.shown_radius(TIP) * random.vector();
-                let moved = model.displacement((&contact, &response), &mut workspace, &tip, &x);
+                let moved = model.displacement(&contact, &response, &mut workspace, &tip, &x);
                 let ratio = moved.norm() / tip.norm();
                 if ratio > farthest.0 {
                     farthest = (ratio, format!("{tip:?} {x:?} {contact:?} {response:?}"));

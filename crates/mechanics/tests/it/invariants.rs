@@ -103,7 +103,7 @@ fn the_same_contacts_give_the_same_bits() {
                 let response = model.respond(&contact, &mut workspace);
                 bits.extend(response.stiffness.iter().map(|v| v.to_bits()));
                 let (tip, x) = (1e-3 * random.vector(), 5e-3 * random.vector());
-                let moved = model.displacement((&contact, &response), &mut workspace, &tip, &x);
+                let moved = model.displacement(&contact, &response, &mut workspace, &tip, &x);
                 bits.extend(moved.iter().map(|v| v.to_bits()));
             }
             bits

@@ -74,7 +74,7 @@ fn a_step_allocates_nothing() {
                 let response = model.respond(&contact, &mut workspace);
                 points
                     .iter()
-                    .map(|x| model.displacement((&contact, &response), &mut workspace, &tip, x))
+                    .map(|x| model.displacement(&contact, &response, &mut workspace, &tip, x))
                     .sum()
             });
             assert!(sum.norm().is_finite());

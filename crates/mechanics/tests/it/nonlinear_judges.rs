@@ -118,7 +118,9 @@ impl Moved {
     fn instants(
         &mut self,
         case: &Case,
-        (steps, iterations, more): (usize, usize, usize),
+        steps: usize,
+        iterations: usize,
+        more: usize,
         places: &[Vec3],
     ) -> Vec<Instant> {
         let all = 0..self.model.mesh().tetrahedra().len();
@@ -187,7 +189,7 @@ fn errors(case: &Case, moduli: Moduli<f64>, iterations: usize, speeds: &[f64]) -
         .step_by(7)
         .copied()
         .collect();
-    let exact = judge.instants(case, (40, 12, 6), &places);
+    let exact = judge.instants(case, 40, 12, 6, &places);
     let largest_force = exact.iter().map(|one| one.force.norm()).fold(0.0, f64::max);
     let all = exact.iter().flat_map(|one| &one.field);
     let largest_way = all.map(|u| u.norm()).fold(0.0, f64::max);
@@ -196,7 +198,7 @@ fn errors(case: &Case, moduli: Moduli<f64>, iterations: usize, speeds: &[f64]) -
         .map(|speed| {
             let steps = (case.way.norm() / (speed * STEP)).ceil() as usize;
             let mut model = Moved::new(case, case.across[0], moduli);
-            let found = model.instants(case, (steps, iterations, 0), &places);
+            let found = model.instants(case, steps, iterations, 0, &places);
             let mut errors = [0.0_f64; 3];
             for (found, exact) in found.iter().zip(&exact) {
                 let force = (found.force - exact.force).norm() / largest_force;

@@ -134,7 +134,7 @@ fn found(cells: [usize; 3], c10: &Tissue, way: Vec3) -> Vec3 {
 fn small_moves_of_layers_and_inclusions_are_those_of_finite_elements() {
     let [pressed, pulled] = SMALL;
     for (case, way) in CASES.iter().zip([pulled, pressed]) {
-        as_finite_elements(case, way, ([8, 8, 4], 0.05));
+        as_finite_elements(case, way, [8, 8, 4], 0.05);
     }
 }
 
@@ -144,9 +144,9 @@ fn small_moves_of_layers_and_inclusions_are_those_of_finite_elements() {
 fn more_small_moves_are_those_of_finite_elements() {
     let [layer, ball] = &CASES;
     let [pressed, pulled] = SMALL;
-    as_finite_elements(layer, pressed, ([8, 8, 4], 0.05));
-    as_finite_elements(ball, pulled, ([8, 8, 4], 0.07));
-    as_finite_elements(ball, pulled, ([10, 10, 5], 0.05));
+    as_finite_elements(layer, pressed, [8, 8, 4], 0.05);
+    as_finite_elements(ball, pulled, [8, 8, 4], 0.07);
+    as_finite_elements(ball, pulled, [10, 10, 5], 0.05);
 }
 
 const SMALL: [Vec3; 2] = [Vec3::new(0.0, 0.0, -3e-4), Vec3::new(3e-4, 0.0, 0.0)];
@@ -154,7 +154,8 @@ const SMALL: [Vec3; 2] = [Vec3::new(0.0, 0.0, -3e-4), Vec3::new(3e-4, 0.0, 0.0)]
 fn as_finite_elements(
     (name, c10): &(&str, &'static Tissue),
     way: Vec3,
-    (cells, most): ([usize; 3], f64),
+    cells: [usize; 3],
+    most: f64,
 ) {
     let force = found(cells, c10, way);
     let moved = judge([12, 12, 6], c10, force);

@@ -30,12 +30,13 @@ impl Held {
         high: Vec3,
         cells: [usize; 3],
         moduli: Moduli<f64>,
-        (series, of): (&[PronySeries], Numbers<'_>),
+        series: &[PronySeries],
+        number_at: Numbers<'_>,
     ) -> Self {
         let mesh = TetrahedronMesh::block(Vec3::zeros(), high, cells).unwrap();
         let count = mesh.tetrahedra().len();
         let numbers: Vec<_> = (0..count)
-            .map(|t| of(&(mesh.positions(t).iter().sum::<Vec3>() / 4.0)))
+            .map(|t| number_at(&(mesh.positions(t).iter().sum::<Vec3>() / 4.0)))
             .collect();
         let far = move |place: &Vec3| place.x > high.x - 1e-9;
         let model = NonlinearModel::new(
@@ -108,7 +109,7 @@ fn one_of_two_parts_in_series_relaxes() {
     let size = Vec3::new(0.04, 0.02, 0.02);
     let moduli = Moduli::mooney_rivlin(1000.0, 0.0, 0.0).unwrap();
     let half = |place: &Vec3| usize::from(place.x > 0.02);
-    let held = Held::new(size, [4, 2, 2], moduli, (&series, &half));
+    let held = Held::new(size, [4, 2, 2], moduli, &series, &half);
     let way = 2e-5;
     let forces = held.forces(300, |_| way * Vec3::x());
     let whole = 4000.0 * size.y * size.z / size.x * way;
@@ -139,7 +140,8 @@ fn a_held_bar_relaxes_as_finite_elements() {
         size,
         [10, 2, 2],
         moduli,
-        (std::slice::from_ref(&series), &|_| 0),
+        std::slice::from_ref(&series),
+        &|_| 0,
     );
     for way in [Vec3::new(0.0, 0.05, 0.0), Vec3::new(0.03, 0.0, 0.0)] {
         let at = |time: f64| way * (time / 0.25).min(1.0);

@@ -168,8 +168,10 @@ impl Pulled {
         let transfer = StateTransfer::new(&self.model, &other.model).unwrap();
         let mut workspace = other.model.workspace(1);
         transfer.transfer(
-            (&self.model, &self.state),
-            (&other.model, &mut other.state),
+            &self.model,
+            &self.state,
+            &other.model,
+            &mut other.state,
             &mut workspace,
         );
         other

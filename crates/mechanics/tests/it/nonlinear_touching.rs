@@ -48,7 +48,8 @@ struct Touching {
 impl Touching {
     /// Fixed below `low` and above `high` [m]; contacts are no farther than `near` [m] from half-way between.
     fn new(
-        (mesh, pieces): &(TetrahedronMesh, Vec<u32>),
+        mesh: &TetrahedronMesh,
+        pieces: &[u32],
         ratio: f64,
         [low, high, near]: [f64; 3],
         friction: f64,
@@ -84,10 +85,11 @@ impl Touching {
             }
         }
         self.contacts.clear();
-        let body = (&self.model, &self.state);
         let mut found = Vec::new();
         let visit = |gap: f64, contact| found.push((gap, contact));
-        let lost = self.search.find(&self.boundary, body, visit);
+        let lost = self
+            .search
+            .find(&self.boundary, &self.model, &self.state, visit);
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         found.truncate(MOST_CONTACTS);
         self.contacts
@@ -146,8 +148,10 @@ fn mirrored(lower: &TetrahedronMesh, height: f64, gap: f64) -> TetrahedronMesh {
 fn on_a_plane(
     mesh: &TetrahedronMesh,
     ratio: f64,
-    (from, plane): (f64, f64),
-    (depth, aside): (f64, f64),
+    from: f64,
+    plane: f64,
+    depth: f64,
+    aside: f64,
 ) -> f64 {
     let moduli = Moduli::mooney_rivlin(C10, 0.0, ratio).unwrap();
     let moduli = vec![moduli; mesh.tetrahedra().len()];
@@ -198,7 +202,8 @@ fn two_blocks(upper: [usize; 3], friction: f64) -> Touching {
     let gap = 2e-4;
     let pieces = [block([4, 4, 2]), mirrored(&block(upper), HEIGHT, gap)];
     let top = 2.0 * HEIGHT + gap;
-    Touching::new(&together(&pieces), 0.4, [0.0, top, top], friction)
+    let (mesh, pieces) = together(&pieces);
+    Touching::new(&mesh, &pieces, 0.4, [0.0, top, top], friction)
 }
 
 /// Judge: by symmetry, one block below a rigid plane. Of the same mesh both bear at the same points, and differ by what a
@@ -206,18 +211,8 @@ fn two_blocks(upper: [usize; 3], friction: f64) -> Touching {
 /// plane, which give 1.2 % less than 4 × 4 × 2.
 #[test]
 fn two_blocks_press_as_one_on_a_plane() {
-    let exact = on_a_plane(
-        &block([4, 4, 2]),
-        0.4,
-        (HEIGHT - 1e-6, HEIGHT),
-        (1.5e-3, 0.0),
-    );
-    let finer = on_a_plane(
-        &block([5, 5, 3]),
-        0.4,
-        (HEIGHT - 1e-6, HEIGHT),
-        (1.5e-3, 0.0),
-    );
+    let exact = on_a_plane(&block([4, 4, 2]), 0.4, HEIGHT - 1e-6, HEIGHT, 1.5e-3, 0.0);
+    let finer = on_a_plane(&block([5, 5, 3]), 0.4, HEIGHT - 1e-6, HEIGHT, 1.5e-3, 0.0);
     for (cells, within) in [([4, 4, 2], 0.01), ([5, 5, 3], 0.02), ([3, 3, 2], 0.02)] {
         let mut blocks = two_blocks(cells, 0.0);
         blocks.go(&(Vec3::z() * -3.2e-3), 20);
@@ -290,8 +285,8 @@ fn two_balls_press_as_hertz_has_it() {
     let turned = |at: &Vec3| Vec3::new(cos * at.x - sin * at.y, sin * at.x + cos * at.y, at.z);
     let upper = mapped(&mirrored(&curved(), HIGH, gap), turned, false);
     let top = 2.0 * HIGH + gap;
-    let pieces = together(&[curved(), upper]);
-    let mut balls = Touching::new(&pieces, ratio, [0.0, top, 6e-3], 0.0);
+    let (mesh, pieces) = together(&[curved(), upper]);
+    let mut balls = Touching::new(&mesh, &pieces, ratio, [0.0, top, 6e-3], 0.0);
     balls.go(&(Vec3::z() * -(depth + gap)), 20);
     let modulus = 4.0 * C10 * (1.0 + ratio);
     let both = modulus / (2.0 * (1.0 - ratio * ratio));
@@ -341,11 +336,11 @@ fn a_slit_closes_as_its_half_does_on_a_plane() {
     });
     let web = web.map(|number| whole.tetrahedra()[number]).collect();
     let half = TetrahedronMesh::new(whole.vertices().to_vec(), web).unwrap();
-    let exact = on_a_plane(&half, 0.4, (wall - 1e-6, plane), (2.5e-3, 0.0101));
+    let exact = on_a_plane(&half, 0.4, wall - 1e-6, plane, 2.5e-3, 0.0101);
     let slit = welded(&[half.clone(), mirrored(&half, plane, 0.0)]);
     let pieces = vec![0; slit.tetrahedra().len()];
     let high = 2.0 * plane;
-    let mut slit = Touching::new(&(slit, pieces), 0.4, [0.0, high, high], 0.0);
+    let mut slit = Touching::new(&slit, &pieces, 0.4, [0.0, high, high], 0.0);
     slit.go(&(Vec3::z() * -5e-3), 40);
     let force = slit.force();
     println!(

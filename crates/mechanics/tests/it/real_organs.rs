@@ -16,7 +16,7 @@ use palpate_mechanics::surface_response::{PressedTip, SurfaceResponse, TipField,
 
 use crate::boundary_response::Held;
 use crate::solid::plane;
-use crate::tip_field::{compliance, law};
+use crate::tip_field::{FlatTip, compliance, law};
 
 const NU: f64 = 0.45;
 const RADIUS: f64 = 3e-3;
@@ -195,8 +195,13 @@ impl Shown {
 }
 
 /// A tip at `place` that has been moved inward.
-fn pressed_tip(load: &TipLoad<'_>, (place, normal): (Vec3, Vec3), bond: Friction) -> PressedTip {
-    let compliance = compliance(load, &normal, (RADIUS, NU, bond));
+fn pressed_tip(load: &TipLoad<'_>, place: Vec3, normal: Vec3, bond: Friction) -> PressedTip {
+    let tip = FlatTip {
+        a: RADIUS,
+        nu: NU,
+        bond,
+    };
+    let compliance = compliance(load, &normal, tip);
     let moved = -DEPTH * normal;
     let force = match bond {
         Friction::Frictionless => moved / normal.dot(&(compliance * normal)),
@@ -236,7 +241,7 @@ fn real_kidney_at_ten_places() {
         let normal = -problem.patch.unwrap().displacement.normalize();
         let at = SurfacePoint::centroid(place);
         let load = field.at(surface, place, &at.barycentric);
-        let tip = pressed_tip(&load, (problem.patch.unwrap().center, normal), bond);
+        let tip = pressed_tip(&load, problem.patch.unwrap().center, normal, bond);
         let judge = solve(&problem, 0.03, &mut |_| ()).unwrap();
         let half_space = DEPTH * half_space_stiffness(&law(NU), RADIUS, bond);
         let force = tip.force.dot(&-normal) / judge.answer.force_along - 1.0;

@@ -93,7 +93,7 @@ pub(crate) const RADIUS: f64 = 1.41e-3;
 
 impl Table {
     pub(crate) fn new(grid: Grid, holds: impl Fn(&Vec3) -> bool, edge: Option<f64>) -> Self {
-        Self::touchable_within(grid, holds, (edge, 14.0 * MM))
+        Self::touchable_within(grid, holds, edge, 14.0 * MM)
     }
 
     /// As [`Self::new`]; triangles nearer than `within` [m] to the middle of the slit can be touched, in a tube
@@ -101,7 +101,8 @@ impl Table {
     pub(crate) fn touchable_within(
         grid: Grid,
         holds: impl Fn(&Vec3) -> bool,
-        (edge, within): (Option<f64>, f64),
+        edge: Option<f64>,
+        within: f64,
     ) -> Self {
         let solid = Held::new(grid.surface(), grid.poissons_ratio, holds);
         let near = |id: &TriangleId| {

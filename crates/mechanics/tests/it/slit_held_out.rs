@@ -144,7 +144,7 @@ impl Tube {
     fn table(&self, around: usize) -> Table {
         let edge = 0.7 * self.wall() * MM;
         let within = (self.end + 6.0) * MM;
-        Table::touchable_within(self.table_grid(around), self.fixed, (Some(edge), within))
+        Table::touchable_within(self.table_grid(around), self.fixed, Some(edge), within)
     }
 
     /// The same shape, whose triangles do not feel one another.

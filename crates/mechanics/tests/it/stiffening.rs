@@ -67,13 +67,14 @@ fn bond_of(tip: Tip) -> Friction {
 /// The largest relative distance of the law of `tip` from full runs in `block`, at `depths` [in radii].
 fn farthest(tissue: &Material, tip: Tip, block: Block, depths: &[f64]) -> f64 {
     let found = Stiffening::of(tissue, tip, bond_of(tip), &mut |_| ()).unwrap();
-    farthest_of(tissue, (tip, found), block, depths)
+    farthest_of(tissue, tip, found, block, depths)
 }
 
 /// The same with a curve that is known.
 fn farthest_of(
     tissue: &Material,
-    (tip, found): (Tip, Stiffening),
+    tip: Tip,
+    found: Stiffening,
     block: Block,
     depths: &[f64],
 ) -> f64 {
@@ -141,7 +142,7 @@ fn a_sphere_in_linear_tissue_is_less_than_hertz() {
     for poissons_ratio in [0.35, 0.47] {
         let tissue = material(LinearElastic::new(1e4, poissons_ratio).unwrap());
         let known = Stiffening::linear(tip, Friction::Frictionless, poissons_ratio);
-        let off = farthest_of(&tissue, (tip, known.clone()), LARGE, &[0.2, 0.5, 1.0]);
+        let off = farthest_of(&tissue, tip, known.clone(), LARGE, &[0.2, 0.5, 1.0]);
         assert!(off < 0.0075, "{poissons_ratio}: {off}");
         // Hertz's force is not that: it misses by a quarter at one radius.
         assert!(known.ratio(1.0).0 < 0.78);
@@ -220,7 +221,7 @@ fn the_stored_curve_meets_the_known_punch() {
 fn the_stored_curves_begin_as_full_runs() {
     for tip in [Tip::Flat { radius: RADIUS }, Tip::Sphere { radius: RADIUS }] {
         let stored = Stiffening::neo_hookean(tip, bond_of(tip));
-        let off = farthest_of(&neo_hookean(), (tip, stored), LARGE, &[0.2, 0.5, 1.0]);
+        let off = farthest_of(&neo_hookean(), tip, stored, LARGE, &[0.2, 0.5, 1.0]);
         assert!(off < 0.005, "{tip:?}: {off}");
     }
 }

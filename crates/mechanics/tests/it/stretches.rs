@@ -14,9 +14,17 @@ fn stretches() -> impl Iterator<Item = f64> {
     (0..=50).map(|step| 0.5 + 0.05 * f64::from(step))
 }
 
+/// A stress of a law.
+struct Found {
+    /// [Pa].
+    stress: f64,
+    /// What rounding may do to it [Pa].
+    rounding: f64,
+}
+
 /// First diagonal stress of an incompressible body with free third faces: P = ∂W/∂F + p cof F, the
-/// pressure from P_33 = 0. The body is turned before and after. Beside it what rounding may do.
-fn nominal(law: &dyn Law, principal: [f64; 3], random: &mut Random) -> (f64, f64) {
+/// pressure from P_33 = 0. The body is turned before and after.
+fn nominal(law: &dyn Law, principal: [f64; 3], random: &mut Random) -> Found {
     let [before, after] = [rotation(random), rotation(random)];
     let f = after * Matrix3::from_diagonal(&principal.into()) * before;
     let turned_back = |m: Matrix3<f64>| after.transpose() * m * before.transpose();
@@ -26,7 +34,10 @@ fn nominal(law: &dyn Law, principal: [f64; 3], random: &mut Random) -> (f64, f64
     let stress = distortion + pressure * cofactors;
     // The tangent times the last digits of F, hundredfold: the pressure amplifies by up to λ³ = 27.
     let rounding = 100.0 * f64::EPSILON * law.distortion_tangent(&f).norm() * f.norm();
-    (stress[(0, 0)], rounding)
+    Found {
+        stress: stress[(0, 0)],
+        rounding,
+    }
 }
 
 fn uniaxial(stretch: f64) -> [f64; 3] {
@@ -43,16 +54,23 @@ fn planar(stretch: f64) -> [f64; 3] {
 }
 
 /// Cauchy stress τ = (P F^T)_12 of the shear k; no pressure reaches it.
-fn shear(law: &dyn Law, amount: f64, random: &mut Random) -> (f64, f64) {
+fn shear(law: &dyn Law, amount: f64, random: &mut Random) -> Found {
     let turn = rotation(random);
     let f = Matrix3::identity() + amount * Vector3::x() * Vector3::y().transpose();
     let stress = law.distortion_stress(&(turn * f * turn.transpose()));
     let cauchy = turn.transpose() * stress * turn * f.transpose();
     let rounding = 100.0 * f64::EPSILON * law.distortion_tangent(&f).norm() * f.norm();
-    (cauchy[(0, 1)], rounding)
+    Found {
+        stress: cauchy[(0, 1)],
+        rounding,
+    }
 }
 
-fn compare(what: &str, at: f64, (found, rounding): (f64, f64), exact: f64) {
+fn compare(what: &str, at: f64, found: Found, exact: f64) {
+    let Found {
+        stress: found,
+        rounding,
+    } = found;
     let off = (found - exact).abs();
     assert!(
         off <= rounding,

@@ -14,7 +14,7 @@ use palpate_mechanics::{LinearElastic, Vec3};
 
 use crate::boundary_response::Held;
 use crate::solid::plane;
-use crate::tip_field::{stiffness, under};
+use crate::tip_field::{FlatTip, stiffness, under};
 
 const NU: f64 = 0.45;
 const LENGTH: f64 = 0.04;
@@ -112,7 +112,12 @@ impl Lobe {
         let field = TipField::new(&response, &solid.surface, self.radius).unwrap();
         let (triangle, at) = under(&solid.surface, &self.place());
         let load = field.at(&solid.surface, triangle, &at);
-        stiffness(&load, &Vec3::z(), (self.radius, NU, Friction::Frictionless))
+        let tip = FlatTip {
+            a: self.radius,
+            nu: NU,
+            bond: Friction::Frictionless,
+        };
+        stiffness(&load, &Vec3::z(), tip)
     }
 }
 

@@ -51,12 +51,20 @@ fn top(solid: &Held, count: usize) -> Vec<TriangleId> {
     solid.near_point(&Vec3::new(0.0, 0.0, RADIUS), count)
 }
 
+/// A flat tip on a tissue.
+#[derive(Clone, Copy)]
+pub(crate) struct FlatTip {
+    /// Its radius [m].
+    pub(crate) a: f64,
+    /// Poisson's ratio of the tissue [-].
+    pub(crate) nu: f64,
+    /// Between the tip and the tissue.
+    pub(crate) bond: Friction,
+}
+
 /// Compliance of a flat tip, times E [1/m].
-pub(crate) fn compliance(
-    load: &TipLoad<'_>,
-    normal: &Vec3,
-    (a, nu, bond): (f64, f64, Friction),
-) -> Matrix3<f64> {
+pub(crate) fn compliance(load: &TipLoad<'_>, normal: &Vec3, tip: FlatTip) -> Matrix3<f64> {
+    let FlatTip { a, nu, bond } = tip;
     let normals = normal * normal.transpose();
     let across = half_space_tangential_stiffness(&law(nu), a);
     load.structural_compliance()
@@ -65,9 +73,9 @@ pub(crate) fn compliance(
 }
 
 /// Force per depth of a flat tip, over E [m]; one that sticks does not go aside.
-pub(crate) fn stiffness(load: &TipLoad<'_>, normal: &Vec3, tip: (f64, f64, Friction)) -> f64 {
+pub(crate) fn stiffness(load: &TipLoad<'_>, normal: &Vec3, tip: FlatTip) -> f64 {
     let compliance = compliance(load, normal, tip);
-    match tip.2 {
+    match tip.bond {
         Friction::Frictionless => 1.0 / normal.dot(&(compliance * normal)),
         Friction::Bonded => normal.dot(&(compliance.try_inverse().unwrap() * normal)),
     }
@@ -108,7 +116,8 @@ fn force_error(nu: f64, triangles: usize) -> f64 {
                 let field = TipField::new(response, &solid.surface, a).unwrap();
                 let (triangle, place) = under(&solid.surface, &(RADIUS * Vec3::z()));
                 let load = field.at(&solid.surface, triangle, &place);
-                let error = stiffness(&load, &Vec3::z(), (a, nu, bond)) / force - 1.0;
+                let tip = FlatTip { a, nu, bond };
+                let error = stiffness(&load, &Vec3::z(), tip) / force - 1.0;
                 println!(
                     "nu {nu}, {name}, {triangles}, a {a}, {bond:?}: {:+.2} %",
                     100.0 * error
@@ -168,7 +177,8 @@ fn the_field_of_a_tip_is_that_of_finite_elements() {
         let field = TipField::new(&response, &solid.surface, a).unwrap();
         let (triangle, place) = under(&solid.surface, &(RADIUS * Vec3::z()));
         let load = field.at(&solid.surface, triangle, &place);
-        let force = stiffness(&load, &Vec3::z(), (a, nu, Friction::Frictionless));
+        let bond = Friction::Frictionless;
+        let force = stiffness(&load, &Vec3::z(), FlatTip { a, nu, bond });
         let mut moved = vec![0.0_f32; 3 * response.parts().triangles];
         response.add_field_of_tip(&load, &(-force * Vec3::z()), &mut moved);
         let mut worst: f64 = 0.0;
@@ -188,15 +198,13 @@ fn the_field_of_a_tip_is_that_of_finite_elements() {
 }
 
 /// A flat tip of radius a at the pole of a hemisphere, moved by one: what it leaves of the surface.
-fn pressed_pole(
-    solid: &Held,
-    (a, nu, bond): (f64, f64, Friction),
-) -> (Interpolation, SurfaceField) {
+fn pressed_pole(solid: &Held, tip: FlatTip) -> (Interpolation, SurfaceField) {
+    let FlatTip { a, nu, bond } = tip;
     let response = solid.response::<f32>(&top(solid, solid.free.len() / 3));
     let tips = TipField::new(&response, &solid.surface, a).unwrap();
     let (triangle, barycentric) = under(&solid.surface, &(RADIUS * Vec3::z()));
     let load = tips.at(&solid.surface, triangle, &barycentric);
-    let force = -stiffness(&load, &Vec3::z(), (a, nu, bond)) * Vec3::z();
+    let force = -stiffness(&load, &Vec3::z(), tip) * Vec3::z();
     let interpolation = Interpolation::new(solid.surface.clone(), Smoothing::MovingLeastSquares);
     let at = SurfacePoint {
         triangle,
@@ -249,7 +257,8 @@ fn the_dimple_of_a_tip_is_that_of_finite_elements() {
     for triangles in [200, 800] {
         let mut worst = 0.0_f64;
         for (_, solid) in hemispheres(nu, triangles) {
-            let (interpolation, field) = pressed_pole(&solid, (a, nu, Friction::Frictionless));
+            let bond = Friction::Frictionless;
+            let (interpolation, field) = pressed_pole(&solid, FlatTip { a, nu, bond });
             for (number, (arc, expected)) in profile.iter().filter(clear).enumerate() {
                 let (sine, cosine) = (arc / RADIUS).sin_cos();
                 let (east, north) = (number as f64).sin_cos();
@@ -287,8 +296,12 @@ fn a_slide_has_no_steps() {
 }
 
 fn no_steps(solid: &Held, response: &SurfaceResponse) {
-    let tip = (2e-3, solid.nu, Friction::Frictionless);
-    let field = TipField::new(response, &solid.surface, tip.0).unwrap();
+    let tip = FlatTip {
+        a: 2e-3,
+        nu: solid.nu,
+        bond: Friction::Frictionless,
+    };
+    let field = TipField::new(response, &solid.surface, tip.a).unwrap();
     let (mesh, normals) = (solid.surface.mesh(), solid.surface.vertex_normals());
     let mut worst: f64 = 0.0;
     for id in mesh.triangle_ids() {
@@ -335,7 +348,8 @@ fn several_tips_take_work() {
             for (i, (moved, normal)) in loads.iter().enumerate() {
                 for (j, (loaded, _)) in loads.iter().enumerate() {
                     let block = if i == j {
-                        compliance(moved, normal, (a, nu, Friction::Bonded))
+                        let bond = Friction::Bonded;
+                        compliance(moved, normal, FlatTip { a, nu, bond })
                     } else {
                         let block = response.between(moved, loaded);
                         let back = response.between(loaded, moved);
@@ -425,7 +439,7 @@ fn real_kidney_error(triangles: usize) -> Option<f64> {
     ]) {
         let normal = surface.mesh().area_vector(id).normalize();
         let load = field.at(&solid.surface, id, &[1.0 / 3.0; 3]);
-        let force = depth * stiffness(&load, &normal, (a, nu, bond));
+        let force = depth * stiffness(&load, &normal, FlatTip { a, nu, bond });
         let problem = SolidProblem {
             patch: Some(MovedPatch {
                 center: solid.centroid(id),

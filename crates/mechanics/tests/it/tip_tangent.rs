@@ -40,7 +40,7 @@ fn laws() -> impl Iterator<Item = (TipLaw, Tip, Friction)> {
 }
 
 /// Stiffness of the half-space at `depth` [m], normal and tangential [N/m].
-fn half_space((tip, bond): (Tip, Friction), depth: f64) -> [f64; 2] {
+fn half_space(tip: Tip, bond: Friction, depth: f64) -> [f64; 2] {
     let law = neo_hookean().at_rest;
     let radius = tip.contact_radius(depth);
     [
@@ -75,7 +75,7 @@ const OF_HALF_SPACE: [f64; 6] = [-0.6, -0.4, -0.2, 0.0, 0.3, 1.0];
 fn normal_stiffness_is_the_slope_of_the_force() {
     for (law, tip, bond) in laws() {
         for part in OF_HALF_SPACE {
-            let compliance = part / half_space((tip, bond), DEPTH)[0];
+            let compliance = part / half_space(tip, bond, DEPTH)[0];
             let at = |more: f64| law.normal_force_in_series(DEPTH + more, compliance);
             let slope = Vec3::new(0.0, 0.0, at(0.0).stiffness);
             check_slope(
@@ -84,7 +84,7 @@ fn normal_stiffness_is_the_slope_of_the_force() {
                 0.01 * DEPTH,
                 |more| Vec3::new(0.0, 0.0, at(more).force),
             );
-            let step = 1e-3 / half_space((tip, bond), DEPTH)[0];
+            let step = 1e-3 / half_space(tip, bond, DEPTH)[0];
             // At zero one form passes into the other.
             if part != 0.0 {
                 let with = |more: f64| law.normal_force_in_series(DEPTH, compliance + more).force;
@@ -97,8 +97,8 @@ fn normal_stiffness_is_the_slope_of_the_force() {
 }
 
 /// Symmetric, and coupled as at a place that is not like a half-space; in units of its compliances.
-fn compliance(of: (Tip, Friction), scale: f64) -> Matrix3<f64> {
-    let [normal, tangential] = half_space(of, DEPTH);
+fn compliance(tip: Tip, bond: Friction, scale: f64) -> Matrix3<f64> {
+    let [normal, tangential] = half_space(tip, bond, DEPTH);
     let unit = 1.0 / normal.min(tangential);
     Matrix3::new(0.8, 0.15, 0.1, 0.15, 0.5, -0.2, 0.1, -0.2, 0.7) * (scale * unit)
 }
@@ -107,7 +107,7 @@ fn compliance(of: (Tip, Friction), scale: f64) -> Matrix3<f64> {
 fn coupled_stiffness_is_the_slope_of_the_force() {
     for (law, tip, bond) in laws() {
         for scale in [-0.5, -0.2, 0.3, 1.0] {
-            let compliance = compliance((tip, bond), scale);
+            let compliance = compliance(tip, bond, scale);
             let displacement = Vec3::new(0.1, -0.06, -1.0) * DEPTH;
             let found = law.force_in_series(&displacement, &compliance);
             assert!(found.limits.is_empty());
@@ -128,10 +128,10 @@ fn coupled_stiffness_is_the_slope_of_the_force() {
 fn stiffness_with_a_local_model_is_the_slope_of_the_force() {
     for (law, tip, bond) in laws() {
         for part in [-0.5, -0.2, 0.3] {
-            let added = compliance((tip, bond), part);
+            let added = compliance(tip, bond, part);
             // The tangents do not couple to the normal there.
             let stiffness = |depth: f64| {
-                let [normal, tangential] = half_space((tip, bond), depth);
+                let [normal, tangential] = half_space(tip, bond, depth);
                 let own = Vec3::new(1.0 / tangential, 1.0 / tangential, 1.0 / normal);
                 let mut all = added + Matrix3::from_diagonal(&own);
                 for along in 0..2 {
@@ -164,7 +164,7 @@ fn stiffness_with_a_local_model_is_the_slope_of_the_force() {
 fn force_and_stiffness_are_continuous_at_the_half_space() {
     for (law, tip, bond) in laws() {
         let displacement = Vec3::new(0.1, -0.06, -1.0) * DEPTH;
-        let at = |scale: f64| law.force_in_series(&displacement, &compliance((tip, bond), scale));
+        let at = |scale: f64| law.force_in_series(&displacement, &compliance(tip, bond, scale));
         let there = at(0.0);
         let gap = |scale: f64| {
             [scale, -scale]
@@ -216,7 +216,7 @@ fn sphere_in_a_stiffer_organ_stiffens_with_its_touching_area() {
 #[test]
 fn a_bounded_stiffness_is_told() {
     for (law, tip, bond) in laws() {
-        let [_, tangential] = half_space((tip, bond), DEPTH);
+        let [_, tangential] = half_space(tip, bond, DEPTH);
         let normal = slope_at_depth(&law, tip);
         let inward = Vec3::new(0.01, 0.0, -1.0) * DEPTH;
         for (product, asked) in [(-0.96, 25.0), (-1.2, f64::INFINITY)] {

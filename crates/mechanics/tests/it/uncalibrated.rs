@@ -412,7 +412,7 @@ fn uncalibrated_profile_is_the_punch_on_a_half_space() {
         for k in 0..60 {
             let r = 1.0 + 0.3 * f64::from(k);
             let x = Vec3::new(0.6 * r, 0.8 * r, 0.0) * TIP;
-            let moved = model.displacement((&contact, &response), &mut workspace, &tip, &x);
+            let moved = model.displacement(&contact, &response, &mut workspace, &tip, &x);
             let exact = -(1.0 / r).asin() * 2.0 / PI;
             assert!(
                 (moved.z - exact).abs() < 0.05,

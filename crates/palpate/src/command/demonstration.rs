@@ -32,7 +32,8 @@ pub(crate) fn run(language: Option<Language>) -> Result<(), Failure> {
     let training = crate::training::training()?;
     match window::open_in(
         language,
-        (Start::Home, Some(training)),
+        Start::Home,
+        Some(training),
         preparation::resources_with_devices()?,
     ) {
         Ok(()) => Ok(()),

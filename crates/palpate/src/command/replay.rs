@@ -102,7 +102,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             }
         };
         let start = Start::Again(Box::new(own), other);
-        return match window::open((start, None), preparation::resources()) {
+        return match window::open(start, None, preparation::resources()) {
             Err(why) if window::is_absent(&why) => Err(Failure::failed(format!(
                 "{why}; --frames N --out DIR and --gif FILE.gif need no window"
             ))),
@@ -163,13 +163,13 @@ fn prepared(
 fn play(arguments: &Arguments, own: PlayedSession) -> Result<Answer, Failure> {
     let overwrite = Overwrite::of_option(arguments.overwrite);
     let mut replay = own.replay;
-    let organ = (&own.scene, own.simulation.as_ref());
     let mut pictures = match (arguments.frames, &arguments.gif) {
         (_, Some(file)) => Some(Pictures::animation(
             file,
             arguments.speed,
             overwrite,
-            organ,
+            &own.scene,
+            &own.simulation,
             &replay,
         )?),
         (Some(count @ 1..), None) => {
@@ -178,7 +178,8 @@ fn play(arguments: &Arguments, own: PlayedSession) -> Result<Answer, Failure> {
                 folder,
                 count,
                 overwrite,
-                organ,
+                &own.scene,
+                &own.simulation,
                 replay.steps(),
             )?)
         }

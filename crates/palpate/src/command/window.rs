@@ -9,14 +9,19 @@ use super::simulate::ESOPHAGUS;
 use crate::interrupt;
 
 /// Opens a window with `resources` and waits until it is closed.
-pub(super) fn open(started: (Start, Option<Training>), resources: Resources) -> Result<(), Error> {
-    open_in(None, started, resources)
+pub(super) fn open(
+    start: Start,
+    training: Option<Training>,
+    resources: Resources,
+) -> Result<(), Error> {
+    open_in(None, start, training, resources)
 }
 
 /// The same, with texts in `language`.
 pub(super) fn open_in(
     language: Option<Language>,
-    (start, training): (Start, Option<Training>),
+    start: Start,
+    training: Option<Training>,
     resources: Resources,
 ) -> Result<(), Error> {
     let way_out = Scene::parse(ESOPHAGUS, "built-in scene")?;

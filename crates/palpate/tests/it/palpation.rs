@@ -12,7 +12,7 @@ use crate::{json, palpate_in, stderr};
 const TISSUE: &str = "law = \"neo_hookean\"\nc10_pa = 1000.0\n\
                       prony = [{ g = 0.2866, tau_s = 1.537 }, { g = 0.2022, tau_s = 6.090 }]\n";
 
-fn problem((accuracy, asked): (f64, &str)) -> String {
+fn problem(accuracy: f64, asked: &str) -> String {
     format!(
         "format = 1\nkind = \"indentation\"\nblock = {{ radius_m = 0.05642, height_m = 0.1 }}\n\
          indenter = {{ radius_m = 0.002, face = \"stick\", side = \"stick\" }}\naccuracy = {accuracy:?}\n{asked}\n\
@@ -55,8 +55,8 @@ fn simulated(folder: &Path, model: &str, course: &[(f64, f64)]) -> Vec<f64> {
     course.iter().map(|(time, _)| at(*time)).collect()
 }
 
-fn solved(folder: &Path, asked: (f64, &str)) -> (Vec<f64>, Vec<f64>) {
-    fs::write(folder.join("problem.toml"), problem(asked)).unwrap();
+fn solved(folder: &Path, accuracy: f64, asked: &str) -> (Vec<f64>, Vec<f64>) {
+    fs::write(folder.join("problem.toml"), problem(accuracy, asked)).unwrap();
     let answer = json(&palpate_in(folder, &["solve", "problem.toml", "--json"]));
     let numbers = |key: &str| -> Vec<f64> {
         let list = answer[key].as_array().into_iter().flatten();
@@ -70,7 +70,7 @@ fn solved(folder: &Path, asked: (f64, &str)) -> (Vec<f64>, Vec<f64>) {
 #[test]
 fn a_palpation_begins_as_finite_elements() {
     let folder = tempfile::tempdir().unwrap();
-    let (forces, _) = solved(folder.path(), (0.05, "depths_m = [0.0005, 0.001]"));
+    let (forces, _) = solved(folder.path(), 0.05, "depths_m = [0.0005, 0.001]");
     assert_eq!(forces.len(), 2);
     for (depth, force) in [0.0005, 0.001].into_iter().zip(forces) {
         let course = [(0.0, depth), (0.02, depth)];
@@ -82,7 +82,7 @@ fn a_palpation_begins_as_finite_elements() {
         );
     }
     let ramp = "ramp = { depth_m = 0.001, ramp_s = 0.5, hold_s = 2.0, samples = 11 }";
-    let (forces, times) = solved(folder.path(), (0.05, ramp));
+    let (forces, times) = solved(folder.path(), 0.05, ramp);
     let course: Vec<_> = times
         .iter()
         .map(|time| (*time, 0.001 * (time / 0.5).min(1.0)))
@@ -104,7 +104,7 @@ fn a_palpation_begins_as_finite_elements() {
 fn ten_depths_are_those_of_finite_elements() {
     let folder = tempfile::tempdir().unwrap();
     let depths: Vec<f64> = (1..=10).map(|number| 0.6e-3 * f64::from(number)).collect();
-    let (forces, _) = solved(folder.path(), (0.01, &format!("depths_m = {depths:?}")));
+    let (forces, _) = solved(folder.path(), 0.01, &format!("depths_m = {depths:?}"));
     for model in ["local", "hybrid"] {
         let mut largest = 0.0_f64;
         for (depth, force) in depths.iter().zip(&forces) {
@@ -128,7 +128,7 @@ fn ten_depths_are_those_of_finite_elements() {
 fn a_ramp_and_its_relaxation_are_those_of_finite_elements() {
     let folder = tempfile::tempdir().unwrap();
     let ramp = "ramp = { depth_m = 0.004, ramp_s = 0.5, hold_s = 10.0, samples = 43 }";
-    let (forces, times) = solved(folder.path(), (0.01, ramp));
+    let (forces, times) = solved(folder.path(), 0.01, ramp);
     let largest = |forces: &[f64]| forces.iter().copied().fold(0.0, f64::max);
     let depth = |time: f64| 0.004 * (time / 0.5).min(1.0);
     let course: Vec<_> = times.iter().map(|time| (*time, depth(*time))).collect();

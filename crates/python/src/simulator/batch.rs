@@ -97,7 +97,7 @@ impl SimulationBatch {
     ) -> Result<Bound<'py, PyArray3<f64>>, Failure> {
         let given = numbers::floats(poses, "poses")?;
         let width = self.width(given.shape(), 1)?;
-        let forces = self.run(py, (&given, 1, width), (marks, which))?;
+        let forces = self.run(py, &given, 1, width, marks, which)?;
         Ok(numbers::array(
             py,
             [self.steppers.len(), self.tools(), 3],
@@ -131,7 +131,7 @@ impl SimulationBatch {
         let given = numbers::floats(poses, "poses")?;
         let width = self.width(given.shape(), 2)?;
         let steps = given.shape()[0];
-        let forces = self.run(py, (&given, steps, width), (marks, which))?;
+        let forces = self.run(py, &given, steps, width, marks, which)?;
         // State by state as they were made, step by step as they are wanted.
         let (count, row) = (self.steppers.len(), 3 * self.tools());
         let mut turned = vec![0.0; forces.len()];
@@ -405,8 +405,11 @@ impl SimulationBatch {
     fn run(
         &mut self,
         py: Python<'_>,
-        (given, steps, width): (&Bound<'_, numpy::PyArrayDyn<f64>>, usize, usize),
-        (marks, which): (Option<&Bound<'_, PyAny>>, Option<&Bound<'_, PyAny>>),
+        given: &Bound<'_, numpy::PyArrayDyn<f64>>,
+        steps: usize,
+        width: usize,
+        marks: Option<&Bound<'_, PyAny>>,
+        which: Option<&Bound<'_, PyAny>>,
     ) -> Result<Vec<f64>, Failure> {
         let (count, tools) = (self.steppers.len(), self.tools());
         let borrowed = given.try_readonly().map_err(Failure::input)?;

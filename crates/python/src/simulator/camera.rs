@@ -42,7 +42,6 @@ impl Camera {
         signature = (eye, target, up=[0.0, 0.0, 1.0], field_of_view=0.785, *, endoscope=true, brightness=1.0),
         text_signature = "(eye, target, up=(0.0, 0.0, 1.0), field_of_view=0.785, *, endoscope=True, brightness=1.0)"
     )]
-    #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
     fn new(
         eye: [f64; 3],
         target: [f64; 3],

@@ -119,7 +119,6 @@ impl Renderer {
         signature = (simulation, index=0, *, camera=None, images=vec!["rgb".to_owned()]),
         text_signature = "($self, simulation, index=0, *, camera=None, images=('rgb',))"
     )]
-    #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
     fn draw<'py>(
         &self,
         py: Python<'py>,

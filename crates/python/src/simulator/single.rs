@@ -51,7 +51,6 @@ impl Simulation {
         signature = (scene, *, progress=None, memory=None, cache=Cache::Whether(true), show_every=0.0),
         text_signature = "(scene, *, progress=None, memory=None, cache=True, show_every=0.0)"
     )]
-    #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
     fn new(
         py: Python<'_>,
         scene: &Scene,

@@ -136,7 +136,8 @@ impl Stepper {
         let elapsed = clock.go_on(model.prepared.step(), elapsed);
         step(
             &model.prepared,
-            (clock.time, elapsed),
+            clock.time,
+            elapsed,
             &self.poses,
             state,
             &mut self.workspace,

@@ -44,8 +44,7 @@ impl Steps<'_> {
                 let Some((number, (stepper, forces))) = next else {
                     return;
                 };
-                if let Err(failure) =
-                    self.run_one(&models[number], (number, count), stepper, forces)
+                if let Err(failure) = self.run_one(&models[number], number, count, stepper, forces)
                 {
                     *failed.lock().unwrap_or_else(PoisonError::into_inner) = Some(failure);
                 }
@@ -71,7 +70,8 @@ impl Steps<'_> {
     fn run_one(
         &self,
         model: &Model,
-        (number, count): (usize, usize),
+        number: usize,
+        count: usize,
         stepper: &mut Stepper,
         forces: &mut [f64],
     ) -> Result<(), Failure> {

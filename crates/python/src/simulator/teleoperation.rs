@@ -218,7 +218,6 @@ impl Teleoperation {
     /// cut : bool
     ///     Whether the blade cuts.
     #[pyo3(name = "move", signature = (tool, position, *, orientation=None, grip=0.0, cut=false))]
-    #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
     fn move_to(
         &mut self,
         tool: &str,

@@ -81,7 +81,7 @@ fn profile(
         let angle = arc / RADIUS;
         let normal = Vec3::new(angle.sin(), 0.0, angle.cos());
         let at = contact.point + RADIUS * (normal - Vec3::z());
-        let moved = model.displacement((&contact, &response), &mut workspace, &down, &at);
+        let moved = model.displacement(&contact, &response, &mut workspace, &down, &at);
         (arc, moved.dot(&normal))
     });
     Ok((points.collect(), model.shown_radius(TIP_RADIUS)))

@@ -22,8 +22,8 @@ pub(super) fn specimen(
     let depths: Vec<f64> = depths.collect();
     let forces: Vec<f64> = printed.iter().map(force).collect();
     let response = IndentationCurve::through(&depths, &forces);
-    let relaxed = (relaxation(organ)?, STEADY);
-    let mut specimen = VirtualSpecimen::of_response(&response, relaxed, RADIUS);
+    let series = relaxation(organ)?;
+    let mut specimen = VirtualSpecimen::of_response(&response, series, STEADY, RADIUS);
     specimen.header.organ = Some(organ.to_owned());
     specimen.header.condition = Some(Condition::InVivo);
     Ok(specimen)

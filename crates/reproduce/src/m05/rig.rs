@@ -30,11 +30,14 @@ pub(super) fn measured(
     seed: u64,
 ) -> Result<Measured, Error> {
     let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
-    let device = (machine, Imperfections::premium());
-    let settings = RigSettings::default();
-    let clock = (Clock::virtual_time(), seed);
-    let rig = Rig::over(specimen.clone(), device, settings, clock);
-    let mut rig = rig?;
+    let mut rig = Rig::over(
+        specimen.clone(),
+        machine,
+        Imperfections::premium(),
+        RigSettings::default(),
+        Clock::virtual_time(),
+        seed,
+    )?;
     let trajectory = DepthTrajectory::of(stimulus)?;
     rig.approach(&mut |_| true)?;
     rig.wait(REST, &mut |_| true)?;

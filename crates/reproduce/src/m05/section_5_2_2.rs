@@ -25,8 +25,7 @@ const FREQUENCIES: [f64; 10] = [0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 20.0, 30.0, 
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let depth = 2.0 * MIDDLE;
     let response = IndentationCurve::through(&[depth], &[SPRING * depth]);
-    let relaxed = (PronySeries::new(&[])?, 1.0);
-    let spring = VirtualSpecimen::of_response(&response, relaxed, RADIUS);
+    let spring = VirtualSpecimen::of_response(&response, PronySeries::new(&[])?, 1.0, RADIUS);
     let (mut stiffness, mut phases) = (Vec::new(), Vec::new());
     let (mut below, mut is_bound) = (None, true);
     for frequency in FREQUENCIES {

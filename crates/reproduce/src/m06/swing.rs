@@ -75,7 +75,7 @@ impl Organ {
 fn solid(name: &str) -> Result<(IndentationCurve, PronySeries), Error> {
     let c10 = cell(&format!("table-6-4 {name} final_c10_pa"))?;
     let depth_mm = cell(&format!("table-6-4 {name} depth_mm"))?;
-    let curve = elastic(SoughtLaw::NeoHookean, (c10, &[]))?;
+    let curve = elastic(SoughtLaw::NeoHookean, c10, &[])?;
     Ok((curve, prony(name, depth_mm as u32)?))
 }
 

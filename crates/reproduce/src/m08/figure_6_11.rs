@@ -14,10 +14,13 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
         let both = printed(SoughtLaw::MooneyRivlin, organ, "final")?;
         let mean = cell(&format!("table-5-1 {organ} {depth_mm} mean_n"))?;
         let sum = both[0] + both[1];
-        let both = (sum, &[both[1] / sum][..]);
+        let shape = [both[1] / sum];
         let laws = [
-            ("neo-Hookean", elastic(SoughtLaw::NeoHookean, (alone, &[]))?),
-            ("Mooney-Rivlin", elastic(SoughtLaw::MooneyRivlin, both)?),
+            ("neo-Hookean", elastic(SoughtLaw::NeoHookean, alone, &[])?),
+            (
+                "Mooney-Rivlin",
+                elastic(SoughtLaw::MooneyRivlin, sum, &shape)?,
+            ),
         ];
         let series = add(rows, organ, depth_mm, mean, &laws)?;
         rows.figure(organ).with("depth", depth_mm).draw(series)?;

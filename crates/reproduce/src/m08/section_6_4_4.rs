@@ -54,7 +54,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
                 add(rows, &format!("{}/{which}/{word}", case.name), &arrived);
                 // The truth alone makes no line.
                 if arrived.iter().filter(|(_, steps)| steps.is_some()).count() > 1 {
-                    series.push(drawn((which, algorithm, word), color, count, &arrived));
+                    series.push(drawn(which, algorithm, word, color, count, &arrived));
                 }
             }
         }
@@ -121,7 +121,9 @@ fn add(rows: &mut Rows<'_>, name: &str, arrived: &[(f64, Option<usize>)]) {
 }
 
 fn drawn(
-    (which, algorithm, word): (&str, Algorithm, &str),
+    which: &str,
+    algorithm: Algorithm,
+    word: &str,
     color: usize,
     count: usize,
     arrived: &[(f64, Option<usize>)],

@@ -120,10 +120,9 @@ impl Model {
         };
         let way = match algorithm {
             Algorithm::Source(damping) => {
-                let settings = (damping, TOLERANCE, STEPS);
                 let residuals =
                     |p: &[f64], residuals: &mut [f64]| self.residuals(p, &measured, residuals);
-                unbounded_iteration(start, measured.len(), settings, residuals)
+                unbounded_iteration(start, measured.len(), damping, TOLERANCE, STEPS, residuals)
             }
             Algorithm::Own => self.own_way(start, &measured)?,
         };

@@ -17,7 +17,7 @@ const ROWS: [(&str, u32); 3] = [("liver", 6), ("kidney", 5), ("kidney", 4)];
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     for (organ, depth_mm) in ROWS {
         let c10 = cell(&format!("table-6-4 {organ} final_c10_pa"))?;
-        let curve = elastic(SoughtLaw::NeoHookean, (c10, &[]))?;
+        let curve = elastic(SoughtLaw::NeoHookean, c10, &[])?;
         let course = ramp_and_hold(1e-3 * f64::from(depth_mm));
         let felt = curve.relaxed(&prony(organ, depth_mm)?, &course.times, &course.depths);
         let recording = recorded(organ, 0, &course, &felt, u64::from(depth_mm))?;
@@ -35,13 +35,14 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
 }
 
 fn seen(recording: &CleanRecording, curve: &IndentationCurve) -> Option<RelaxationRecord> {
-    let columns = (
-        &recording.time[..],
-        &recording.depth[..],
-        &recording.force[..],
-    );
     let largest = recording.filtered_force.iter().copied().fold(0.0, f64::max);
-    RelaxationRecord::new(columns, largest, |depth| curve.force(depth))
+    RelaxationRecord::new(
+        &recording.time,
+        &recording.depth,
+        &recording.force,
+        largest,
+        |depth| curve.force(depth),
+    )
 }
 
 fn add(rows: &mut Rows<'_>, name: &str, ramp: &str, found: &Relaxation) {

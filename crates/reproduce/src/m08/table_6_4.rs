@@ -28,10 +28,12 @@ fn run(rows: &mut Rows<'_>, law: SoughtLaw) -> Result<(), Error> {
         let series = prony(organ, depth_mm)?;
         let depth = 1e-3 * f64::from(depth_mm);
         let (course, forces) = felt(rows, law, &truth, &series, depth)?;
-        let assumed = elastic(SoughtLaw::NeoHookean, (1.0, &[]))?;
+        let assumed = elastic(SoughtLaw::NeoHookean, 1.0, &[])?;
         let largest = forces.iter().copied().fold(0.0, f64::max);
-        let columns = (&course.times[..], &course.depths[..], &forces[..]);
-        let seen = RelaxationRecord::new(columns, largest, |depth| assumed.force(depth));
+        let seen =
+            RelaxationRecord::new(&course.times, &course.depths, &forces, largest, |depth| {
+                assumed.force(depth)
+            });
         let seen: Vec<RelaxationRecord> = seen.into_iter().collect();
         let relaxing = relaxation(&seen, RelaxationSettings { terms: Some(2) })?;
         let indentation = Indentation::new(&course.times, &course.depths, &forces);

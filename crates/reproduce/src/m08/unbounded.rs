@@ -9,7 +9,9 @@ use nalgebra::{DMatrix, DVector};
 pub(super) fn unbounded_iteration(
     start: &[f64],
     samples: usize,
-    (damping, tolerance, iterations): (f64, f64, usize),
+    damping: f64,
+    tolerance: f64,
+    iterations: usize,
     mut residuals: impl FnMut(&[f64], &mut [f64]) -> Option<()>,
 ) -> Vec<Vec<f64>> {
     const PERTURBATION: f64 = 1e-4;
@@ -67,14 +69,14 @@ mod tests {
             }
             Some(())
         };
-        let near = unbounded_iteration(&[2.5, 2.5], 20, (1e-3, 1e-6, 100), decay);
+        let near = unbounded_iteration(&[2.5, 2.5], 20, 1e-3, 1e-6, 100, decay);
         assert!(near.len() < 100);
         let last = &near[near.len() - 1];
         assert!(
             (last[0] - 2.0).abs() < 1e-5 && (last[1] - 3.0).abs() < 1e-5,
             "{last:?}"
         );
-        let failed = unbounded_iteration(&[2.5, 2.5], 20, (1e-3, 1e-6, 100), |_, _| None);
+        let failed = unbounded_iteration(&[2.5, 2.5], 20, 1e-3, 1e-6, 100, |_, _| None);
         assert_eq!(failed.len(), 1);
     }
 }

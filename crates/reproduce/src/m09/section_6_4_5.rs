@@ -60,14 +60,14 @@ fn add_relaxation(rows: &mut Rows<'_>, printed: &Printed) -> Result<(), Error> {
     let felt = curve.relaxed(&series, &course.times, &course.depths);
     let recording = recorded("esophagus", 0, &course, &felt, 1)?;
     let largest = recording.filtered_force.iter().copied().fold(0.0, f64::max);
-    let columns = (
-        &recording.time[..],
-        &recording.depth[..],
-        &recording.force[..],
+    let seen = RelaxationRecord::new(
+        &recording.time,
+        &recording.depth,
+        &recording.force,
+        largest,
+        |depth| depth,
     );
-    let seen: Vec<RelaxationRecord> = RelaxationRecord::new(columns, largest, |depth| depth)
-        .into_iter()
-        .collect();
+    let seen: Vec<RelaxationRecord> = seen.into_iter().collect();
     let one = RelaxationSettings { terms: Some(1) };
     let found = [
         ("", relaxation(&seen, one)?),

@@ -99,7 +99,7 @@ fn picture(scene: &str, depth: f64, arrange: impl Fn(&mut Studio)) -> Result<Pic
     let mut state = SimulationState::new(&simulation);
     let mut workspace = SimulationWorkspace::new(&simulation);
     let pose = pressed(&studio, &simulation, scene.tools[0].tip.radius_m, depth);
-    step(&simulation, (0.0, 0.0), &[pose], &mut state, &mut workspace);
+    step(&simulation, 0.0, 0.0, &[pose], &mut state, &mut workspace);
     Ok(Picture {
         pixels: studio.picture(&state)?,
         force: state.tools[0].force.norm(),
@@ -113,7 +113,7 @@ fn pressed(studio: &Studio, simulation: &Simulation, radius: f64, depth: f64) ->
     let tree = AabbTree::new(surface.mesh());
     let camera = &studio.view.camera;
     let aspect = f64::from(FRAME_SIZE.0) / f64::from(FRAME_SIZE.1);
-    let picked = pick((surface, &tree), camera, (0.48, 0.5), aspect)?;
+    let picked = pick(surface, &tree, camera, (0.48, 0.5), aspect)?;
     let [right, up, _] = camera.axes();
     let shaft: Vec3 = picked.normal + 0.45 * right + 0.55 * up;
     let turned = nalgebra::UnitQuaternion::rotation_between(&Vec3::z(), &shaft)?;

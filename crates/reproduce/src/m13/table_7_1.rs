@@ -69,7 +69,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
                 reach: 0.3,
             };
             let time = measure(|| {
-                renderer.draw(&gpu, &view, (&[&body], &[]), &target);
+                renderer.draw(&gpu, &view, &[&body], &[], &target);
                 gpu.wait()
             })?;
             rows.row(&format!("{name}/{word}"))
@@ -107,7 +107,7 @@ fn add_costs(rows: &mut Rows<'_>, gpu: &Gpu) -> Result<(), Error> {
     let body = Body::new(gpu, &surface, Tint::of(&scene.organ.shape));
     let camera = Orbit::framing(surface.mesh(), 0.785, 1.6).camera();
     let at = camera.target + 0.5 * (camera.eye - camera.target);
-    let tool = ToolPicture::new(&scene.tools[0], (at.into(), [0.0, 0.0, 0.0, 1.0]));
+    let tool = ToolPicture::new(&scene.tools[0], at.into(), [0.0, 0.0, 0.0, 1.0]);
     let mut renderer = Renderer::new(gpu);
     for (name, shading, [relief, scattering, shadows], samples) in FEATURES {
         let target = Target::new(gpu, FRAME_SIZE, samples);
@@ -122,7 +122,7 @@ fn add_costs(rows: &mut Rows<'_>, gpu: &Gpu) -> Result<(), Error> {
             reach: 0.3,
         };
         let time = measure(|| {
-            renderer.draw(gpu, &view, (&[&body], std::slice::from_ref(&tool)), &target);
+            renderer.draw(gpu, &view, &[&body], std::slice::from_ref(&tool), &target);
             gpu.wait()
         })?;
         rows.row(&format!("cost/{name}"))

@@ -24,14 +24,14 @@ const TOUCHED: RegionSphere = RegionSphere {
 const EYE: [f64; 3] = [0.008, -0.115, 0.012];
 
 pub(crate) fn figure_7_18(rows: &mut Rows<'_>) -> Result<(), Error> {
-    let trainer = trainer(rows)?;
-    add(rows, "left", &trainer, PULL)?;
-    add(rows, "right", &trainer, PALPATE)
+    let (scene, simulation) = trainer(rows)?;
+    add(rows, "left", &scene, &simulation, PULL)?;
+    add(rows, "right", &scene, &simulation, PALPATE)
 }
 
 pub(crate) fn figure_7_19(rows: &mut Rows<'_>) -> Result<(), Error> {
-    let trainer = trainer(rows)?;
-    add(rows, "", &trainer, MYOTOMY)
+    let (scene, simulation) = trainer(rows)?;
+    add(rows, "", &scene, &simulation, MYOTOMY)
 }
 
 /// The scene of the trainer, touched in the middle only.
@@ -53,7 +53,8 @@ fn trainer(rows: &Rows<'_>) -> Result<(Scene, Simulation), Error> {
 fn add(
     rows: &mut Rows<'_>,
     name: &str,
-    (scene, simulation): &(Scene, Simulation),
+    scene: &Scene,
+    simulation: &Simulation,
     motion: &str,
 ) -> Result<(), Error> {
     let motion = Motion::parse(motion, "built-in motion")?;

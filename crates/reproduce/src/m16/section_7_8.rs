@@ -100,7 +100,8 @@ fn pressed(simulation: &Simulation, depths: &[f64]) -> Vec<f64> {
         };
         step(
             simulation,
-            (time, simulation.step()),
+            time,
+            simulation.step(),
             &[Some(pose)],
             &mut state,
             &mut workspace,

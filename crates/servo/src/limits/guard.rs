@@ -330,8 +330,12 @@ impl Guard {
     }
 
     fn judge_gap(&self, commanded: &CommandedForce) -> Verdict {
-        let limits = (self.limits.late, self.limits.much_too_late);
-        judge_gap(commanded.gap, self.period, limits)
+        let Limits {
+            late,
+            much_too_late,
+            ..
+        } = self.limits;
+        judge_gap(commanded.gap, self.period, late, much_too_late)
     }
 
     fn walls(&self, state: &DeviceState) -> Vec3 {

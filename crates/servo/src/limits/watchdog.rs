@@ -15,7 +15,7 @@ pub enum Verdict {
 
 /// Judges a `gap` [s] between two commands that were to be `period` [s] apart: beyond the period by more
 /// than `late` [s] the next force is zero, by more than `much_too_late` [s] it is a fault.
-pub fn judge_gap(gap: f64, period: f64, (late, much_too_late): (f64, f64)) -> Verdict {
+pub fn judge_gap(gap: f64, period: f64, late: f64, much_too_late: f64) -> Verdict {
     let beyond = gap - period;
     if beyond > much_too_late {
         let limit = period + much_too_late;
@@ -41,7 +41,7 @@ mod tests {
 
     #[test]
     fn late_is_no_force_and_much_too_late_is_a_fault() {
-        let judge = |gap| judge_gap(gap, 1e-3, (5e-3, 20e-3));
+        let judge = |gap| judge_gap(gap, 1e-3, 5e-3, 20e-3);
         assert_eq!(judge(1e-3), Verdict::InTime);
         assert_eq!(judge(5.9e-3), Verdict::InTime);
         assert_eq!(judge(6.1e-3), Verdict::NoForce);

@@ -104,7 +104,7 @@ fn a_stiff_wall_at_a_slow_rate_gives_out_less_than_a_millijoule() {
     }
 }
 
-fn palpating(frequency: f64, (middle, amplitude): (f64, f64)) -> VirtualDevice {
+fn palpating(frequency: f64, middle: f64, amplitude: f64) -> VirtualDevice {
     VirtualDevice::new(Trajectory::Sine {
         center: -Vec3::z() * middle,
         amplitude: -Vec3::z() * amplitude,
@@ -119,7 +119,7 @@ fn normal_palpation_is_left_alone() {
     for hand_over in [HandOver::LocalModel, HandOver::Linear] {
         for frequency in [0.5, 1.0, 2.0, 5.0] {
             let model = SlowModel::new(kidney as Law, 200.0, hand_over);
-            let device = palpating(frequency, (3e-3, 4e-3));
+            let device = palpating(frequency, 3e-3, 4e-3);
             let (samples, damped) = run(device, model, true, 12.0);
             let worst = least(&put_in(&samples[ARMED..]));
             println!(
@@ -137,7 +137,7 @@ fn normal_palpation_is_left_alone() {
 fn a_minute_in_contact_is_changed_by_little() {
     let course = |watched| {
         let model = SlowModel::new(kidney as Law, 200.0, HandOver::LocalModel);
-        run(palpating(2.0, (4e-3, 3e-3)), model, watched, 60.0)
+        run(palpating(2.0, 4e-3, 3e-3), model, watched, 60.0)
     };
     let (with, damped) = course(true);
     let (without, _) = course(false);

@@ -48,12 +48,12 @@ pub(crate) fn track_blade(
     let blade = state.blade.unwrap_or_else(|| {
         // It begins where the tissue is held.
         let held = tip - flat(&(tip - contact.place.point));
-        let way = (&tip, &held);
         let contact_point = follow(
             &simulation.surface,
             &tool.patches,
             &contact.contact_point,
-            way,
+            &tip,
+            &held,
         );
         Blade {
             contact_point: contact_point.unwrap_or(contact.contact_point),
@@ -65,21 +65,27 @@ pub(crate) fn track_blade(
     let resistance = model.resistance(open, contact.depth);
     let held = reach(resistance, tool, state).min(behind.norm());
     let goal = tip - behind.try_normalize(0.0).unwrap_or_default() * held;
-    let way = (&blade.tip, &goal);
     let contact_point = follow(
         &simulation.surface,
         &tool.patches,
         &blade.contact_point,
-        way,
+        &blade.tip,
+        &goal,
     )
     .unwrap_or(contact.contact_point);
     state.blade = Some(Blade {
         contact_point,
         tip: goal,
     });
-    let held_at = (&contact_point, contact.depth);
+    let depth = contact.depth;
     if let Some(contact) = &mut state.contact {
-        contact.place = place(&simulation.ground(tool), tool, held_at, Some(&frame));
+        contact.place = place(
+            &simulation.ground(tool),
+            tool,
+            &contact_point,
+            depth,
+            Some(&frame),
+        );
     }
 }
 

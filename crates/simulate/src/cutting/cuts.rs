@@ -212,7 +212,8 @@ impl Cuts {
     pub(crate) fn follow(
         &mut self,
         simulation: &Simulation,
-        (moved, rims): (&[Vec3], impl Iterator<Item = (u32, Vec3)>),
+        moved: &[Vec3],
+        rims: impl Iterator<Item = (u32, Vec3)>,
         width: f64,
     ) {
         if self.gapes != self.version {

@@ -170,7 +170,8 @@ impl Demonstration {
             let poses: Vec<_> = shown.map(|tool| tool.map(|own| own.pose())).collect();
             step(
                 simulation,
-                (time, elapsed),
+                time,
+                elapsed,
                 &poses,
                 &mut state,
                 &mut workspace,

@@ -35,7 +35,8 @@ impl Method {
     pub(super) fn finite(
         wanted: ResponseMethod,
         has_regions: bool,
-        (surface, walls): (&Surface, &Walls),
+        surface: &Surface,
+        walls: &Walls,
         most: f64,
     ) -> Vec<Self> {
         let finite = match wanted {

@@ -196,7 +196,8 @@ impl<'a> GlobalProblem<'a> {
             finite: Method::finite(
                 scene.model.response,
                 regions.is_some(),
-                (&surface, &walls),
+                &surface,
+                &walls,
                 MOST_TETRAHEDRA,
             ),
             regions: regions.map(OrganRegions::new).transpose()?,

@@ -53,7 +53,7 @@ impl GlobalModel {
             });
         }
         let interpolation = self.enhancement.interpolation();
-        let near = interpolation.nearest_facing(&self.tree, (&place.point, &contact.rest_normal()));
+        let near = interpolation.nearest_facing(&self.tree, &place.point, &contact.rest_normal());
         // The nearest point of a mesh leaps at its edges; the point under the averaged normal does not.
         let from = ContactPoint {
             triangle: near.triangle,
@@ -108,7 +108,7 @@ impl GlobalModel {
             let (mut change, mut largest) = (0.0_f64, 0.0_f64);
             for number in 0..tools.len() {
                 let before = tools[number].elastic;
-                self.answer(simulation, number, (tools, softness), workspace);
+                self.answer(simulation, number, tools, softness, workspace);
                 let force = tools[number].elastic;
                 change = change.max((force - before).norm());
                 largest = largest.max(force.norm());
@@ -166,7 +166,8 @@ impl GlobalModel {
         &self,
         simulation: &Simulation,
         number: usize,
-        (tools, softness): (&mut [ToolState], f64),
+        tools: &mut [ToolState],
+        softness: f64,
         workspace: &GlobalWorkspace,
     ) {
         let tool = &simulation.tools[number];
@@ -205,9 +206,10 @@ impl GlobalModel {
             frame.tr_mul(&(free - held.fixes(number, number, tools.len()))) * frame
         });
         let exchange = load.and_then(|load| {
-            let at = (contact.place.triangle, &contact.place.point);
+            let place = &contact.place;
             let mesh = simulation.surface.mesh();
-            tool.inclusions.exchange(mesh, at, load.reach())
+            let inclusions = &tool.inclusions;
+            inclusions.exchange(mesh, place.triangle, &place.point, load.reach())
         });
         let state = &mut tools[number];
         let touched = state
@@ -216,7 +218,7 @@ impl GlobalModel {
         state.off_model = touched.is_none();
         let law = tool.law.beside(contact.place.mean_curvature());
         let over = exchange.map(|exchange| (exchange, &simulation.material.at_rest));
-        let (answer, compliance) = tool.force_in_series(&law, (&moved, &compliance), over);
+        let (answer, compliance) = tool.force_in_series(&law, &moved, &compliance, over);
         let mut own = moved + compliance * answer.force;
         if tool.bond == Friction::Frictionless {
             own = Vec3::new(0.0, 0.0, own.z);

@@ -33,7 +33,8 @@ const MOST_TETRAHEDRA: f64 = 5_000.0;
 /// Gives every tool what the organ of `scene`, which is seen as `shown`, yields beyond a half-space; with a warning.
 pub(crate) fn surround(
     tools: &mut [Tool],
-    (scene, shown): (&Scene, &Surface),
+    scene: &Scene,
+    shown: &Surface,
     law: &LinearElastic,
     memory: usize,
 ) -> Result<Option<String>, Error> {
@@ -58,7 +59,8 @@ pub(crate) fn surround(
     let finite = Method::finite(
         ResponseMethod::Automatic,
         false,
-        (&surface, &walls),
+        &surface,
+        &walls,
         MOST_TETRAHEDRA,
     );
     let finite = finite.into_iter().find_map(|method| by(method).ok());
@@ -76,7 +78,7 @@ pub(crate) fn surround(
         .vertices()
         .iter()
         .zip(shown.vertex_normals())
-        .map(|place| interpolation.nearest_facing(&tree, place))
+        .map(|(place, normal)| interpolation.nearest_facing(&tree, place, normal))
         .collect();
     let mut known: Vec<(f64, Arc<[Matrix3<f64>]>)> = Vec::new();
     for tool in tools {

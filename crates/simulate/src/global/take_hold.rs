@@ -58,19 +58,19 @@ impl GlobalModel {
         let Some(mut patch) = self.patch(between) else {
             return false;
         };
-        let pressed = (area.min(Swept::face(&jaws)), thickness);
+        let pressed = area.min(Swept::face(&jaws));
         let touched = (tools[number].contact, tools[number].site);
         let before = SeenContact::of(tool, &tools[number]);
         loop {
             (tools[number].contact, tools[number].site) = (None, None);
             let hold = |patch: &HeldPatch, seen, tools: &mut [ToolState]| {
                 let held = Held::Patch(patch.clone());
-                tools[number].grip.hold = Some(Hold::new(&swept, pressed, held, seen));
+                tools[number].grip.hold = Some(Hold::new(&swept, pressed, thickness, held, seen));
             };
             let nowhere = before.map_or_else(|| self.seen(simulation, &patch), SeenHold::of);
             hold(&patch, nowhere, tools);
             self.assemble(tools, workspace);
-            self.place(simulation, number, (&mut patch, tools), workspace);
+            self.place(simulation, number, &mut patch, tools, workspace);
             let seen = before.map_or_else(|| self.seen(simulation, &patch), SeenHold::of);
             hold(&patch, seen, tools);
             workspace.held.factor(tools.len());
@@ -162,7 +162,8 @@ impl GlobalModel {
         &self,
         simulation: &Simulation,
         number: usize,
-        (patch, tools): (&mut HeldPatch, &[ToolState]),
+        patch: &mut HeldPatch,
+        tools: &[ToolState],
         workspace: &mut GlobalWorkspace,
     ) {
         let softness = 1.0 / simulation.material.at_rest.youngs_modulus();
@@ -203,7 +204,7 @@ impl GlobalModel {
         let touchable = triangles.map(|one| &self.response.touchable()[one.touch.index()]);
         let facing: Vec3 = touchable.map(|one| one.normal * one.area).sum();
         let interpolation = self.enhancement.interpolation();
-        let at = interpolation.nearest_facing(&self.tree, (&middle, &facing));
+        let at = interpolation.nearest_facing(&self.tree, &middle, &facing);
         let place = interpolation.place(&at);
         let (triangle, place) = match self.enhancement.is_finer() {
             false => (at.triangle, place),

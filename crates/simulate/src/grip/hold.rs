@@ -98,7 +98,8 @@ pub(crate) struct SeenHold {
 impl Hold {
     pub(crate) fn new(
         swept: &Swept,
-        (area, thickness): (f64, f64),
+        area: f64,
+        thickness: f64,
         held: Held,
         seen: SeenHold,
     ) -> Self {

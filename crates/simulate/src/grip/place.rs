@@ -58,8 +58,8 @@ pub(super) fn take_hold(
         tip: swept.tip,
         force: state.elastic,
     });
-    let between = (Swept::face(&jaws), jaws.opening_m);
-    state.grip.hold = Some(Hold::new(&swept, between, held, seen));
+    let area = Swept::face(&jaws);
+    state.grip.hold = Some(Hold::new(&swept, area, jaws.opening_m, held, seen));
     answer(simulation, tool, state, workspace);
     true
 }

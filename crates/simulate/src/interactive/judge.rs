@@ -23,8 +23,14 @@ pub fn judge_samples(
         let time = sample.state.time;
         poses[number] = pose(placement, sample);
         let elapsed = before.map_or(simulation.step(), |before| time - before);
-        let moment = (time, elapsed);
-        step(simulation, moment, &poses, &mut state, &mut workspace);
+        step(
+            simulation,
+            time,
+            elapsed,
+            &poses,
+            &mut state,
+            &mut workspace,
+        );
         before = Some(time);
         // Before the first answer nothing was handed over.
         if sample.age.is_some_and(f64::is_finite) {

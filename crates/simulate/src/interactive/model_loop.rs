@@ -127,7 +127,7 @@ impl ModelLoop {
             workspace,
             ..
         } = &mut *self.model;
-        touch(simulation, (time, elapsed), &self.poses, state, workspace);
+        touch(simulation, time, elapsed, &self.poses, state, workspace);
         self.touch_times.add(self.start.elapsed().as_secs_f64());
     }
 

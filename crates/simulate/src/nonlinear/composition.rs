@@ -95,8 +95,10 @@ impl Composition {
     /// that bend; with warnings.
     pub(super) fn new(
         scene: &Scene,
-        (shown, tree): (&Surface, &AabbTree),
-        (surface, regions): (&Surface, Regions),
+        shown: &Surface,
+        tree: &AabbTree,
+        surface: &Surface,
+        regions: Regions,
         beside: Beside<'_>,
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<(Self, Vec<String>), Error> {
@@ -141,12 +143,12 @@ impl Composition {
         let of_tissues = regions.nonlinear_warnings.clone();
         let mut walls = WallField::default();
         let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
-        walls.extend((surface, &regions), |place| anchor.holds((*place).into()));
+        walls.extend(surface, &regions, |place| anchor.holds((*place).into()));
         for body in soft {
-            walls.extend((&body.surface, &body.regions), |place| body.holds(place));
+            walls.extend(&body.surface, &body.regions, |place| body.holds(place));
         }
         let composition = Self {
-            pieces: Piece::all((surface, regions), soft, tools),
+            pieces: Piece::all(surface, regions, soft, tools),
             surface: surface.clone(),
             shown: shown.clone(),
             tree: tree.clone(),
@@ -270,6 +272,6 @@ impl Composition {
         model: &NonlinearModel,
         merged: &Merged,
     ) -> Result<Option<TouchingBoundary>, Error> {
-        touching(self.on_itself, model, (merged, &self.soft))
+        touching(self.on_itself, model, merged, &self.soft)
     }
 }

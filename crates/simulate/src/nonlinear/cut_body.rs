@@ -134,10 +134,10 @@ impl NonlinearWorkspace {
         pending.left -= elapsed;
         let pending = *pending;
         if pending.left > 0.0 {
-            self.begin(simulation, &pending, (body, cuts));
+            self.begin(simulation, &pending, body, cuts);
             return;
         }
-        let made = self.finished(simulation, &pending, (body, cuts));
+        let made = self.finished(simulation, &pending, body, cuts);
         body.cuts.pending = None;
         body.cuts.key = pending.key;
         let Some(mut job) = made else {
@@ -160,7 +160,7 @@ impl NonlinearWorkspace {
     }
 
     /// Begins to make the organ with these cuts, if its thread is free.
-    fn begin(&mut self, simulation: &Simulation, cut: &Pending, (body, cuts): (&Body, &Cuts)) {
+    fn begin(&mut self, simulation: &Simulation, cut: &Pending, body: &Body, cuts: &Cuts) {
         let (Some(thread), Some(model), Some(whole)) =
             (&mut self.thread, &simulation.cutting, &simulation.nonlinear)
         else {
@@ -190,10 +190,11 @@ impl NonlinearWorkspace {
         &mut self,
         simulation: &Simulation,
         cut: &Pending,
-        (body, cuts): (&Body, &Cuts),
+        body: &Body,
+        cuts: &Cuts,
     ) -> Option<Box<Job>> {
         loop {
-            self.begin(simulation, cut, (body, cuts));
+            self.begin(simulation, cut, body, cuts);
             let thread = self.thread.as_mut()?;
             let Some(job) = thread.job.take() else {
                 match thread.done() {
@@ -276,7 +277,7 @@ impl Ready {
         let (before, after) = (&body.organ.model, &self.organ.model);
         let solver = &mut workspace.solver;
         self.transfer
-            .transfer((before, &body.state), (after, &mut state), solver);
+            .transfer(before, &body.state, after, &mut state, solver);
         std::mem::swap(&mut body.organ, &mut self.organ);
         std::mem::swap(&mut body.state, &mut state);
         std::mem::swap(&mut body.loads, &mut loads);
@@ -317,7 +318,7 @@ impl Body {
             &mut self.loads[number],
         );
         let now = Now::of(&organ, self, number);
-        let compliance = organ.of_jaws((tool, number), &area.frame, (self, &now));
+        let compliance = organ.of_jaws(tool, number, &area.frame, self, &now);
         if let Some(compliance) = compliance {
             area.offset = turned.inverse() * -(compliance * (turned * area.force));
         }

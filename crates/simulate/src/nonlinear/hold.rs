@@ -26,7 +26,7 @@ impl NonlinearOrgan {
             return false;
         };
         let ahead = || {
-            let ahead = carry_back_anew(simulation, (tool, &swept.ahead()), state)?;
+            let ahead = carry_back_anew(simulation, tool, &swept.ahead(), state)?;
             contact::detect(&simulation.ground(tool), tool, None, &ahead)
         };
         let Some(contact) = own.contact.or_else(ahead) else {
@@ -42,7 +42,7 @@ impl NonlinearOrgan {
         let boundary = self.model.boundary();
         boundary.spread(&point, &contact.rest_normal(), reach, &mut loads[number]);
         let now = Now::of(self, body, number);
-        let Some(compliance) = self.of_jaws((tool, number), &frame, (body, &now)) else {
+        let Some(compliance) = self.of_jaws(tool, number, &frame, body, &now) else {
             return false;
         };
         let offset = -(compliance * now.force);
@@ -57,9 +57,9 @@ impl NonlinearOrgan {
             at: None,
             displaced: now.mean,
         };
-        let between = (Swept::face(&jaws), jaws.opening_m);
+        let area = Swept::face(&jaws);
         let own = &mut state.tools[number];
-        own.grip.hold = Some(Hold::new(&swept, between, held, seen));
+        own.grip.hold = Some(Hold::new(&swept, area, jaws.opening_m, held, seen));
         own.displaced = now.mean;
         own.solved = own.elastic;
         true

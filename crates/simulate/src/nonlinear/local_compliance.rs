@@ -31,7 +31,8 @@ impl WallField {
     /// Adds those of a piece with its tissues. Where its other side is fixed it is no wall: it does not bend.
     pub(super) fn extend(
         &mut self,
-        (surface, regions): (&Surface, &Regions),
+        surface: &Surface,
+        regions: &Regions,
         is_fixed: impl Fn(&Vec3) -> bool,
     ) {
         let mesh = surface.mesh();
@@ -82,7 +83,8 @@ impl NonlinearOrgan {
     /// inclusions.
     pub(super) fn local_compliance(
         &self,
-        (number, tool): (usize, &Tool),
+        number: usize,
+        tool: &Tool,
         body: &Body,
     ) -> (Matrix3<f64>, Option<TipExchange>) {
         let load = &body.loads[number];
@@ -99,8 +101,8 @@ impl NonlinearOrgan {
             .sum();
         let law = composition.pieces[body.on[number]].law();
         let of_walls = of_walls / law.youngs_modulus();
-        let at = (near.triangle, &load.place);
-        let exchange = tool.inclusions.exchange(mesh, at, load.radius);
+        let inclusions = &tool.inclusions;
+        let exchange = inclusions.exchange(mesh, near.triangle, &load.place, load.radius);
         (load.normal * load.normal.transpose() * of_walls, exchange)
     }
 }

@@ -248,8 +248,10 @@ impl NonlinearOrgan {
     /// that bend; with warnings.
     pub(crate) fn new(
         scene: &Scene,
-        shown: (&Surface, &AabbTree),
-        own: (&Surface, Regions),
+        shown: &Surface,
+        tree: &AabbTree,
+        surface: &Surface,
+        regions: Regions,
         beside: Beside<'_>,
         watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<(Self, Vec<String>), Error> {
@@ -258,7 +260,8 @@ impl NonlinearOrgan {
             let (work, part) = (Work::Tetrahedra, FILLED * part);
             watch(Progress { work, part })
         };
-        let (composition, warnings) = Composition::new(scene, shown, own, beside, &mut report)?;
+        let (composition, warnings) =
+            Composition::new(scene, shown, tree, surface, regions, beside, &mut report)?;
         let (work, part) = (Work::Factors, FILLED);
         tell(watch, Progress { work, part })?;
         let composition = Arc::new(composition);
@@ -287,8 +290,8 @@ impl NonlinearOrgan {
         } = &**composition;
         let embedded = composition.embed(&model, &merged, |place| cuts.aside(place))?;
         Ok(Self {
-            shaft_skin: ShaftSkin::new(&model, (shown, tree), pieces),
-            skin: Skin::new(&model, (shown, tree), neighbours),
+            shaft_skin: ShaftSkin::new(&model, shown, tree, pieces),
+            skin: Skin::new(&model, shown, tree, neighbours),
             hangs: None,
             touching: composition.touching(&model, &merged)?,
             shown: embedded,

@@ -51,7 +51,8 @@ impl Moved {
 /// None where it is clear of that.
 pub(super) fn carry_back_anew(
     simulation: &Simulation,
-    (tool, tip): (&Tool, &Vec3),
+    tool: &Tool,
+    tip: &Vec3,
     state: &SimulationState,
 ) -> Option<Vec3> {
     let nearest = state.tree.nearest(&state.deformed, tip);

@@ -49,7 +49,8 @@ pub(super) struct Skin {
 impl Skin {
     pub(super) fn new(
         model: &NonlinearModel,
-        (shown, tree): (&Surface, &AabbTree),
+        shown: &Surface,
+        tree: &AabbTree,
         neighbours: &[Neighbour],
     ) -> Self {
         let rest = NonlinearState::at_rest(model, 0);
@@ -142,7 +143,7 @@ impl Candidates {
         self.found.clear();
         if let (Some(search), Some(boundary)) = (&mut self.touching, &organ.touching) {
             let found = &mut self.found;
-            self.lost = search.find(boundary, (&organ.model, state), |gap, contact| {
+            self.lost = search.find(boundary, &organ.model, state, |gap, contact| {
                 found.push((gap, contact));
             });
         }

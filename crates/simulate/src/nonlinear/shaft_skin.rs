@@ -33,7 +33,8 @@ pub(super) struct SkinFace {
 impl ShaftSkin {
     pub(super) fn new(
         model: &NonlinearModel,
-        (shown, tree): (&Surface, &AabbTree),
+        shown: &Surface,
+        tree: &AabbTree,
         pieces: &[Piece],
     ) -> Self {
         let on = model

@@ -81,11 +81,7 @@ pub(crate) struct Pushed {
 impl ShaftMotion {
     /// That of tool `number`; of one whose direction is not known, that of its jaws while they hold, and else of its tip. None if
     /// it is not there.
-    pub(super) fn of(
-        (number, tool): (usize, &Tool),
-        own: &ToolState,
-        body: &mut Body,
-    ) -> Option<Self> {
+    pub(super) fn of(number: usize, tool: &Tool, own: &ToolState, body: &mut Body) -> Option<Self> {
         let before = &mut body.shafts[number];
         let Some(pose) = &own.pose else {
             *before = None;
@@ -167,7 +163,7 @@ impl NonlinearOrgan {
     }
 
     /// Whether a shaft may touch the body in `state` where it is after a step; how far it is from that [m] into `clear`.
-    fn is_near(&self, (motion, clear): (&ShaftMotion, &mut f64), state: &NonlinearState) -> bool {
+    fn is_near(&self, motion: &ShaftMotion, clear: &mut f64, state: &NonlinearState) -> bool {
         let way = (motion.now.tip - motion.before.tip).norm();
         let turned = (motion.now.along - motion.before.along).norm();
         *clear -= way + turned * motion.now.length;
@@ -258,7 +254,7 @@ impl NonlinearOrgan {
                 body.clear_of_shafts[number] = 0.0;
             }
             let clear = &mut body.clear_of_shafts[number];
-            if !self.is_near((motion, clear), &body.state) {
+            if !self.is_near(motion, clear, &body.state) {
                 body.shafts[number] = Some(motion.now);
                 *own = None;
             }
@@ -331,8 +327,8 @@ impl NonlinearOrgan {
             let Some(shaft) = body.shafts[motion.tool] else {
                 continue;
             };
-            let contacts = (&candidates.contacts[..], &body.state);
-            own.take_push(self.push(&shaft, motion.tool, contacts, solver));
+            let contacts = &candidates.contacts;
+            own.take_push(self.push(&shaft, motion.tool, contacts, &body.state, solver));
             candidates.report(own);
             let lag = (motion.now.tip - shaft.tip).norm();
             if own.is_pushed() && lag > TOLD_LAG {
@@ -351,7 +347,8 @@ impl NonlinearOrgan {
         &self,
         shaft: &Shaft,
         tool: usize,
-        (contacts, state): (&[UnilateralContact], &NonlinearState),
+        contacts: &[UnilateralContact],
+        state: &NonlinearState,
         solver: &mut Workspace,
     ) -> Option<Pushed> {
         let at = |contact: &UnilateralContact| shaft.at(&self.place(contact.point as usize, state));

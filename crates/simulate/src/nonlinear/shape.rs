@@ -27,7 +27,8 @@ impl NonlinearOrgan {
     /// Moves all vertices of the shown surface, if it is time.
     pub(crate) fn deform(
         &self,
-        (simulation, time): (&Simulation, f64),
+        simulation: &Simulation,
+        time: f64,
         state: &mut SimulationState,
         workspace: &mut NonlinearWorkspace,
     ) {

@@ -56,8 +56,7 @@ impl SoftBody {
             let tree = AabbTree::new(surface.mesh());
             let (tissue, material) = read_tissue(tissue)?;
             warnings.extend(material.warnings.iter().cloned());
-            let parts = (&layers[..], &inclusions[..]);
-            let regions = Regions::read(parts, (&surface, &tree), (&tissue, &material))?;
+            let regions = Regions::read(layers, inclusions, &surface, &tree, &tissue, &material)?;
             warnings.extend_from_slice(&regions.warnings);
             warnings.extend_from_slice(&regions.nonlinear_warnings);
             let body = Self {
@@ -125,7 +124,8 @@ pub(super) struct Piece {
 
 impl Piece {
     pub(super) fn all(
-        (surface, regions): (&Surface, Regions),
+        surface: &Surface,
+        regions: Regions,
         soft: &[SoftBody],
         tools: &[Tool],
     ) -> Vec<Self> {
@@ -165,7 +165,7 @@ impl Piece {
     }
 
     /// The force of its tissue on the tip of a tool.
-    pub(super) fn tip_law<'a>(&'a self, (number, tool): (usize, &'a Tool)) -> &'a TipLaw {
+    pub(super) fn tip_law<'a>(&'a self, number: usize, tool: &'a Tool) -> &'a TipLaw {
         self.laws.get(number).unwrap_or(&tool.law)
     }
 }
@@ -180,7 +180,8 @@ fn wraps(tool: &Tool, wall: f64) -> bool {
 pub(super) fn touching(
     on_itself: Option<f64>,
     model: &NonlinearModel,
-    (merged, soft): (&Merged, &[SoftBody]),
+    merged: &Merged,
+    soft: &[SoftBody],
 ) -> Result<Option<TouchingBoundary>, Error> {
     if soft.is_empty() && on_itself.is_none() {
         return Ok(None);

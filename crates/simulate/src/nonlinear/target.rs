@@ -72,7 +72,8 @@ impl Target {
     pub(super) fn new(
         along: Option<Vec3>,
         displacement: Vec3,
-        (both, goal): (&Matrix3<f64>, &Vec3),
+        both: &Matrix3<f64>,
+        goal: &Vec3,
         now: &Now,
     ) -> Self {
         let compliance = match along {
@@ -120,7 +121,8 @@ impl Target {
     pub(super) fn coupling<'a>(
         &self,
         nodes: &'a [(u32, f64)],
-        (left, way): (f64, f64),
+        left: f64,
+        way: f64,
         relaxes: (f64, Vec3),
     ) -> Coupling<'a> {
         let (follows, history) = relaxes;

@@ -97,13 +97,14 @@ impl NonlinearOrgan {
     pub(crate) fn carry_back(
         &self,
         simulation: &Simulation,
-        (number, tip): (usize, &Vec3),
+        number: usize,
+        tip: &Vec3,
         state: &SimulationState,
     ) -> Option<Vec3> {
         let own = &state.tools[number];
         match &own.contact {
             Some(contact) => Some(own.moved.back(&contact.point(), tip)),
-            None => carry_back_anew(simulation, (&simulation.tools[number], tip), state),
+            None => carry_back_anew(simulation, &simulation.tools[number], tip, state),
         }
     }
 
@@ -112,17 +113,18 @@ impl NonlinearOrgan {
         &self,
         simulation: &Simulation,
         elapsed: f64,
-        (tools, body): (&mut [ToolState], &mut Body),
+        tools: &mut [ToolState],
+        body: &mut Body,
         workspace: &mut NonlinearWorkspace,
     ) {
-        let relaxes = (&simulation.material.prony, elapsed);
+        let series = &simulation.material.prony;
         for (number, (tool, own)) in simulation.tools.iter().zip(tools.iter_mut()).enumerate() {
             own.elastic = Vec3::zeros();
             own.stiffness = Matrix3::zeros();
             own.limited = Limits::NONE;
-            workspace.targets[number] = self.target(tool, (number, own), relaxes, body);
+            workspace.targets[number] = self.target(tool, number, own, series, elapsed, body);
             own.pushed = Pushed::default();
-            workspace.shafts[number] = ShaftMotion::of((number, tool), own, body);
+            workspace.shafts[number] = ShaftMotion::of(number, tool, own, body);
         }
         let has_shafts = self.keep_near_shafts(&mut workspace.shafts, body);
         let is_free = workspace.targets.iter().all(Option::is_none);
@@ -130,7 +132,7 @@ impl NonlinearOrgan {
             return;
         }
         let before = body.state.largest(&self.model);
-        let ended = self.go((simulation, elapsed), body, workspace);
+        let ended = self.go(simulation, elapsed, body, workspace);
         if ended.has_no_answer
             || body.state.largest(&self.model) > self.composition.size
             || self.is_unsound(&simulation.tools, body, workspace)
@@ -170,16 +172,18 @@ impl NonlinearOrgan {
     fn target(
         &self,
         tool: &Tool,
-        (number, own): (usize, &mut ToolState),
-        relaxes: (&PronySeries, f64),
+        number: usize,
+        own: &mut ToolState,
+        series: &PronySeries,
+        elapsed: f64,
         body: &mut Body,
     ) -> Option<Target> {
-        self.turn_history(tool, (number, own), body);
+        self.turn_history(tool, number, own, body);
         let mut target = match own.holds() {
-            true => self.hold(tool, (number, own), body),
+            true => self.hold(tool, number, own, body),
             // A tip that touches again while tissue goes back takes it from there.
             false if body.lets_go[number] > 0 && own.contact.is_none() => None,
-            false => self.touch(tool, (number, own), relaxes, body),
+            false => self.touch(tool, number, own, series, elapsed, body),
         };
         let steps = &mut body.lets_go[number];
         *steps = match (&target, *steps) {
@@ -198,7 +202,7 @@ impl NonlinearOrgan {
     }
 
     /// Turns what a tool's force was with what it touches, and forgets it where the tool has.
-    fn turn_history(&self, tool: &Tool, (number, own): (usize, &mut ToolState), body: &mut Body) {
+    fn turn_history(&self, tool: &Tool, number: usize, own: &mut ToolState, body: &mut Body) {
         let nodes = &body.loads[number].nodes;
         if !self.model.relaxes() || nodes.is_empty() {
             return;
@@ -218,7 +222,8 @@ impl NonlinearOrgan {
     /// Moves the organ as far as the tools have it, and no farther than a step can, while it relaxes for so long [s].
     fn go(
         &self,
-        (simulation, elapsed): (&Simulation, f64),
+        simulation: &Simulation,
+        elapsed: f64,
         body: &mut Body,
         workspace: &mut NonlinearWorkspace,
     ) -> Ended {
@@ -270,7 +275,7 @@ impl NonlinearOrgan {
             let couplings: [_; MOST_TOOLS] = std::array::from_fn(|number| {
                 let target = targets.get(number)?.as_ref()?;
                 let nodes = &body.loads[number].nodes;
-                Some(target.coupling(nodes, (left, reach), relaxes[number]))
+                Some(target.coupling(nodes, left, reach, relaxes[number]))
             });
             let conditions = Conditions {
                 couplings: &couplings[..targets.len().min(MOST_TOOLS)],
@@ -307,8 +312,10 @@ impl NonlinearOrgan {
     fn touch(
         &self,
         tool: &Tool,
-        (number, own): (usize, &mut ToolState),
-        (series, elapsed): (&PronySeries, f64),
+        number: usize,
+        own: &mut ToolState,
+        series: &PronySeries,
+        elapsed: f64,
         body: &mut Body,
     ) -> Option<Target> {
         let (pose, contact) = (own.pose?, own.contact.as_mut()?);
@@ -344,13 +351,13 @@ impl NonlinearOrgan {
             return None;
         }
         let radius = tool.typical_radius;
-        let (of_wall, exchange) = self.local_compliance((number, tool), body);
+        let (of_wall, exchange) = self.local_compliance(number, tool, body);
         let local = self.rim(body, number, radius) + of_wall;
         let local = place.frame.tr_mul(&local) * place.frame;
         let further = frame.tr_mul(&now.yields) * frame - self.of_load(&now) + local;
-        let law = piece.tip_law((number, tool)).beside(place.mean_curvature());
+        let law = piece.tip_law(number, tool).beside(place.mean_curvature());
         let over = exchange.map(|exchange| (exchange, piece.law()));
-        let (answer, _) = tool.force_in_series(&law, (&moved, &further), over);
+        let (answer, _) = tool.force_in_series(&law, &moved, &further, over);
         own.stiffness = frame * answer.stiffness * frame.transpose();
         own.limited = answer.limits;
         let goal = -(frame * answer.force);
@@ -372,24 +379,20 @@ impl NonlinearOrgan {
         Some(Target::new(
             along,
             own.displaced,
-            (&tip_and_organ, &goal),
+            &tip_and_organ,
+            &goal,
             &now,
         ))
     }
 
     /// What jaws that hold do.
-    fn hold(
-        &self,
-        tool: &Tool,
-        (number, own): (usize, &mut ToolState),
-        body: &Body,
-    ) -> Option<Target> {
+    fn hold(&self, tool: &Tool, number: usize, own: &mut ToolState, body: &Body) -> Option<Target> {
         let hold = own.grip.hold.as_ref()?;
         let Held::Area(area) = &hold.held else {
             return None;
         };
         let now = Now::of(self, body, number);
-        let compliance = self.of_jaws((tool, number), &area.frame, (body, &now))?;
+        let compliance = self.of_jaws(tool, number, &area.frame, body, &now)?;
         own.stiffness = (compliance + now.yields).try_inverse()?;
         let displacement = hold.displaced();
         let offset = hold.in_scene(&area.offset);
@@ -436,9 +439,11 @@ impl NonlinearOrgan {
     /// at rest that the organ has turned since.
     pub(super) fn of_jaws(
         &self,
-        (tool, number): (&Tool, usize),
+        tool: &Tool,
+        number: usize,
         frame: &Matrix3<f64>,
-        (body, now): (&Body, &Now),
+        body: &Body,
+        now: &Now,
     ) -> Option<Matrix3<f64>> {
         let radius = super::jaws_radius(tool)?;
         let piece = &self.composition.pieces[body.on[number]];

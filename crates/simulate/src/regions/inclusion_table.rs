@@ -75,13 +75,12 @@ impl InclusionTable {
                     for (own, [u, v, w]) in own.iter_mut().zip(PLACES_OF) {
                         let mean = |of: &[Vec3; 3]| of[0] * u + of[1] * v + of[2] * w;
                         let (place, normal) = (mean(&corners), mean(&normals).normalize());
-                        let at = (&place, &normal);
-                        let tips = field.less(&tips, radius, at);
+                        let tips = field.less(&tips, radius, &place, &normal);
                         own.tips = match tip {
                             Tip::Flat { .. } => tips,
                             Tip::Sphere { .. } => field.less_under_sphere(radii, tips),
                         };
-                        own.loads = field.less(&loads, radius, at);
+                        own.loads = field.less(&loads, radius, &place, &normal);
                     }
                 },
             );
@@ -94,7 +93,8 @@ impl InclusionTable {
     pub(crate) fn exchange(
         &self,
         mesh: &TriangleMesh,
-        (triangle, place): (TriangleId, &Vec3),
+        triangle: TriangleId,
+        place: &Vec3,
         load: f64,
     ) -> Option<TipExchange> {
         let at = self.at.get(triangle.index())?;
@@ -134,14 +134,16 @@ fn radii(tip: Tip) -> [f64; TIPS] {
 }
 
 impl TipExchange {
-    /// Of inclusions that are in no mesh, at a place [m] and along an outward normal [-]: no load has anything of them.
-    pub(crate) fn unsolved(field: &InclusionField, tip: Tip, at: (&Vec3, &Vec3)) -> Self {
+    /// Of inclusions that are in no mesh, at a `place` [m] and along an outward `normal` [-]: no load has anything of them.
+    pub(crate) fn unsolved(field: &InclusionField, tip: Tip, place: &Vec3, normal: &Vec3) -> Self {
         let radii = radii(tip);
         let less = match tip {
-            Tip::Flat { radius } => [field.less(&[Load::punch(radius)], radius, at)[0]; TIPS],
+            Tip::Flat { radius } => {
+                [field.less(&[Load::punch(radius)], radius, place, normal)[0]; TIPS]
+            }
             Tip::Sphere { radius } => {
                 let loads = radii.map(|touching| Load::punch(PUNCH_OF_HERTZ * touching));
-                field.less_under_sphere(radii, field.less(&loads, radius, at))
+                field.less_under_sphere(radii, field.less(&loads, radius, place, normal))
             }
         };
         Self {

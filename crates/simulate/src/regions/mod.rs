@@ -83,28 +83,35 @@ impl Regions {
     /// # Errors
     /// When a file cannot be read, or a layer or a shape does not fit into the body.
     pub(crate) fn read(
-        (layers, inclusions): (&[Layer], &[Inclusion]),
-        (surface, tree): (&Surface, &AabbTree),
-        (tissue, material): (&Tissue, &Material),
+        layers: &[Layer],
+        inclusions: &[Inclusion],
+        surface: &Surface,
+        tree: &AabbTree,
+        tissue: &Tissue,
+        material: &Material,
     ) -> Result<Self, Error> {
         let (map, mut warnings) = places::read_regions(layers, inclusions, surface, tree)?;
-        let own = (tissue.clone(), material.clone());
         let mut read = |choice: &TissueChoice| {
             let (tissue, material) = read_tissue(choice)?;
             warnings.extend(material.warnings.iter().cloned());
             Ok::<_, Error>((tissue, material))
         };
         let mut nonlinear_warnings = Vec::new();
-        let mut region = |own| RegionTissue::new(own, &mut nonlinear_warnings);
-        let mut tissues = vec![region(own)?];
+        let mut region =
+            |tissue, material| RegionTissue::new(tissue, material, &mut nonlinear_warnings);
+        let mut tissues = vec![region(tissue.clone(), material.clone())?];
         for layer in layers {
-            tissues.push(region(read(&layer.tissue)?)?);
+            let (tissue, material) = read(&layer.tissue)?;
+            tissues.push(region(tissue, material)?);
         }
         let mut cavities = Vec::new();
         for inclusion in inclusions {
             let number = tissues.len();
             tissues.push(match &inclusion.content {
-                PartContent::Tissue(tissue) => region(read(tissue)?)?,
+                PartContent::Tissue(choice) => {
+                    let (tissue, material) = read(choice)?;
+                    region(tissue, material)?
+                }
                 PartContent::Cavity(content) => {
                     cavities.push(RegionCavity {
                         number,
@@ -261,10 +268,7 @@ impl Regions {
 }
 
 impl RegionTissue {
-    fn new(
-        (tissue, material): (Tissue, Material),
-        warnings: &mut Vec<String>,
-    ) -> Result<Self, Error> {
+    fn new(tissue: Tissue, material: Material, warnings: &mut Vec<String>) -> Result<Self, Error> {
         let given = material.at_rest.poissons_ratio();
         let ratio = given.min(LARGEST_RATIO);
         let shear = material.at_rest.shear_modulus();

@@ -58,7 +58,8 @@ impl<'a> Hand<'a> {
         self.steps += 1;
         step(
             self.simulation,
-            (time, elapsed),
+            time,
+            elapsed,
             &[Some(pose)],
             &mut self.state,
             &mut self.workspace,

@@ -23,7 +23,7 @@ fn variant(text: &str, seed: u64) -> (Scene, Simulation) {
 }
 
 /// What comes of a demonstration, and the fastest speed of a tip in it [m/s].
-fn shown((scene, simulation): &(Scene, Simulation)) -> (Status, Score, f64) {
+fn shown(scene: &Scene, simulation: &Simulation) -> (Status, Score, f64) {
     let mut script = Demonstration::new(scene, simulation).unwrap();
     let names: Vec<String> = scene.tools.iter().map(|tool| tool.name.clone()).collect();
     let mut performance = Performance::new(&scene.task, &names);
@@ -56,7 +56,8 @@ fn shown((scene, simulation): &(Scene, Simulation)) -> (Status, Score, f64) {
         let time = STEP * f64::from(number);
         step(
             simulation,
-            (time, elapsed),
+            time,
+            elapsed,
             &poses,
             &mut state,
             &mut workspace,
@@ -78,7 +79,8 @@ fn shown((scene, simulation): &(Scene, Simulation)) -> (Status, Score, f64) {
 
 fn passes_at_a_human_pace(text: &str, seeds: std::ops::Range<u64>) {
     for seed in seeds {
-        let (status, score, fastest) = shown(&variant(text, seed));
+        let (scene, simulation) = variant(text, seed);
+        let (status, score, fastest) = shown(&scene, &simulation);
         println!(
             "{seed}: {:.1} s, {:.1} mm/s, {:?} {:?} {:?}",
             score.duration,
@@ -117,7 +119,7 @@ fn is_shown_by_the_model_of_its_task(text: &str, seed: u64) {
     let scene = draw_variant(&Scene::parse(text, "task.toml").unwrap(), seed).unwrap();
     assert_eq!(scene.model.kind, ModelKind::Nonlinear);
     let simulation = Simulation::new(&scene).unwrap();
-    let (status, score, fastest) = shown(&(scene, simulation));
+    let (status, score, fastest) = shown(&scene, &simulation);
     let peaks = score.forces.iter().map(|force| force.peak);
     println!(
         "{:.1} s, {:?}, {:?} N",
@@ -185,7 +187,8 @@ fn pressed(simulation: &Simulation, place: &Vec3, lumps: &[EstimatedInclusion]) 
     let mut workspace = SimulationWorkspace::new(simulation);
     step(
         simulation,
-        (0.0, 0.0),
+        0.0,
+        0.0,
         &[Some(pose)],
         &mut state,
         &mut workspace,

@@ -111,7 +111,8 @@ impl<'a> Hands<'a> {
             self.time += elapsed;
             step(
                 self.simulation,
-                (self.time, elapsed),
+                self.time,
+                elapsed,
                 &poses,
                 &mut self.state,
                 &mut self.workspace,

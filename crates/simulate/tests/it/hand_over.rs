@@ -21,7 +21,8 @@ fn at_once(simulation: &Simulation, hand: &Hand<'_>, tip: &Vec3) -> Vec3 {
     };
     step(
         simulation,
-        (9.0, 0.0),
+        9.0,
+        0.0,
         &[Some(pose)],
         &mut state,
         &mut workspace,

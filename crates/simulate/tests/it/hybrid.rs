@@ -365,7 +365,8 @@ fn pinch(simulation: &Simulation, ways: impl IntoIterator<Item = [Vec3; 2]>) -> 
         let time = simulation.step() * number as f64;
         step(
             simulation,
-            (time, simulation.step()),
+            time,
+            simulation.step(),
             &poses,
             &mut state,
             &mut workspace,

@@ -29,7 +29,7 @@ fn an_indentation_is_as_deep_as_was_asked() {
             let site = simulation.site(tool, Some(place));
             let asked = [-5e-4, 0.0, 1.5e-3, 3e-3, 3e-3];
             let times = [-0.5, 0.0, 0.25, 0.5, 1.0];
-            let motion = site.indented(tool, (&times, &asked)).unwrap();
+            let motion = site.indented(tool, &times, &asked).unwrap();
             let mut felt = Vec::new();
             play(&simulation, &motion, |frame| -> Result<Flow, Error> {
                 felt.extend(frame.rows().map(|row| (row.time_s, row.depth_m)));

@@ -88,11 +88,12 @@ fn stepped(simulation: &Simulation, course: &[(f64, [f64; 3])]) -> Vec<Vec3> {
             grip: 0.0,
             cut: false,
         };
-        let moment = (time, time - before);
+        let elapsed = time - before;
         before = time;
         step(
             simulation,
-            moment,
+            time,
+            elapsed,
             &[Some(pose)],
             &mut state,
             &mut workspace,

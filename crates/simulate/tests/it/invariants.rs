@@ -221,10 +221,23 @@ fn forces_are_found_before_the_surface_follows() {
                 grip: 0.0,
                 cut: false,
             })];
-            let moment = (time, elapsed);
-            step(&simulation, moment, &poses, &mut whole, &mut workspace);
+            step(
+                &simulation,
+                time,
+                elapsed,
+                &poses,
+                &mut whole,
+                &mut workspace,
+            );
             let seen = split.deformed.clone();
-            touch(&simulation, moment, &poses, &mut split, &mut workspace);
+            touch(
+                &simulation,
+                time,
+                elapsed,
+                &poses,
+                &mut split,
+                &mut workspace,
+            );
             let forces = [&whole, &split].map(|state| state.tools[0].force);
             assert_eq!(forces[0], forces[1], "{kind}");
             assert_eq!(whole.tools[0].stiffness, split.tools[0].stiffness, "{kind}");

@@ -62,8 +62,8 @@ fn real_liver_of_20000_triangles() {
     let mut failed = Vec::new();
     for (number, (center, near)) in places.into_iter().enumerate() {
         // A tip that slides is pushed along its normal.
-        let normal = pushed(&simulation, (center, near), 1e-4).normalize();
-        let force = pushed(&simulation, (center, normal), DEPTH);
+        let normal = pushed(&simulation, center, near, 1e-4).normalize();
+        let force = pushed(&simulation, center, normal, DEPTH);
         let stiffness = stiffness(&solid, center, &normal);
         let error = force.dot(&normal) / (stiffness * DEPTH) - 1.0;
         let under = tree.cast(
@@ -168,7 +168,7 @@ fn corners(fields: &SolidFields) -> TetrahedronMesh {
 }
 
 /// The force on a tip that was pushed in by `depth` [m] against `normal`.
-fn pushed(simulation: &Simulation, (center, normal): (Vec3, Vec3), depth: f64) -> Vec3 {
+fn pushed(simulation: &Simulation, center: Vec3, normal: Vec3, depth: f64) -> Vec3 {
     let mut hand = Hand::new(simulation);
     let mut force = Vec3::zeros();
     for step in 1..=50 {

@@ -61,7 +61,8 @@ impl<'a> Hand<'a> {
         let (state, workspace) = (&mut self.state, &mut self.workspace);
         step(
             self.simulation,
-            (time, elapsed),
+            time,
+            elapsed,
             &[Some(pose)],
             state,
             workspace,
@@ -297,7 +298,8 @@ fn the_myotomy_is_two_strokes_and_a_third_layer_is_a_perforation() {
             let poses = ["left", "right"].map(|name| motion.pose(name, time));
             step(
                 &simulation,
-                (time, if k == 0 { 0.0 } else { 0.015 }),
+                time,
+                if k == 0 { 0.0 } else { 0.015 },
                 &poses,
                 &mut state,
                 &mut workspace,

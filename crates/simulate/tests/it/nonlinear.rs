@@ -26,7 +26,7 @@ pub(crate) const LIVER: Setting<'_> = Setting {
 };
 
 /// The force at the end of a press to `depth` [m] at `point`, in steps of a quarter of a millimetre and a few more.
-fn press(simulation: &Simulation, (point, normal): (&Vec3, &Vec3), depth: f64) -> Vec3 {
+fn press(simulation: &Simulation, point: &Vec3, normal: &Vec3, depth: f64) -> Vec3 {
     let mut hand = Hand::new(simulation);
     let steps = (depth / 0.25e-3).ceil() as usize;
     let mut force = Vec3::zeros();
@@ -65,7 +65,7 @@ fn small_presses_are_those_of_the_linear_organ() {
         let mut ratios: Vec<f64> = (0..9)
             .map(|_| {
                 let (point, normal) = nearest(&bent, &tree, &random.place(&bent).0);
-                let force = |simulation| press(simulation, (&point, &normal), 0.5e-3).norm();
+                let force = |simulation| press(simulation, &point, &normal, 0.5e-3).norm();
                 force(&bent) / force(&linear)
             })
             .collect();
@@ -89,7 +89,7 @@ fn a_press_does_not_depend_on_the_number_of_nodes() {
         }
         .simulation();
         let normal = Vec3::z();
-        let force = press(&simulation, (&(normal * 0.05), &normal), 1e-3);
+        let force = press(&simulation, &(normal * 0.05), &normal, 1e-3);
         println!("{nodes} nodes: {} N, finite elements 0.07875 N", force.z);
         assert!((force.z / 0.078_752 - 1.0).abs() < 0.03, "{force}");
     }

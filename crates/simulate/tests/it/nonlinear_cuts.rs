@@ -60,7 +60,8 @@ impl<'a> Hands<'a> {
         self.steps += 1;
         step(
             self.simulation,
-            (time, elapsed),
+            time,
+            elapsed,
             &poses,
             &mut self.state,
             &mut self.workspace,

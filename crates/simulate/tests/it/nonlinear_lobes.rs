@@ -42,7 +42,7 @@ impl Lobe {
         Vec3::new(SIZES[0] - self.from_end, 0.5 * SIZES[1], self.thickness)
     }
 
-    fn scene(&self, path: &str, (kind, model): (&str, &str)) -> palpate_files::Scene {
+    fn scene(&self, path: &str, kind: &str, model: &str) -> palpate_files::Scene {
         Setting {
             organ: &format!(
                 "mesh = {path:?}\nmesh_unit = \"m\"\nanchor = {{ planes = [{{ point_m = [1e-4, 0.0, 0.0], \
@@ -85,7 +85,7 @@ impl Lobe {
             spheres: vec![ball],
             ..Region::default()
         });
-        let organ = self.scene("lobe.ply", (NONLINEAR, "")).organ;
+        let organ = self.scene("lobe.ply", NONLINEAR, "").organ;
         let pressed = SolidProblem {
             loads: Loads {
                 weight: None,
@@ -106,13 +106,13 @@ impl Lobe {
     }
 
     /// The same as a hand feels it in a scene of a kind of model, whose surface is of so many cells.
-    fn felt(&self, cells: [usize; 3], model: (&str, &str)) -> f64 {
+    fn felt(&self, cells: [usize; 3], kind: &str, model: &str) -> f64 {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("lobe.ply");
         let surface = self.mesh(cells).boundary_surface().unwrap();
         let bytes = WriteFormat::Ply.bytes(surface.mesh(), LengthUnit::Metre);
         fs::write(&path, bytes).unwrap();
-        let scene = self.scene(path.to_str().unwrap(), model);
+        let scene = self.scene(path.to_str().unwrap(), kind, model);
         let simulation = palpate_simulate::Simulation::new(&scene).unwrap();
         let mut hand = Hand::new(&simulation);
         let mut force = 0.0;
@@ -135,7 +135,7 @@ fn lobes_bend_as_finite_elements_do(thicknesses: &[f64], from_end: f64, nodes: &
         let expected = lobe.expected();
         for &nodes in nodes {
             let error =
-                lobe.felt([16, 12, 3], (NONLINEAR, &format!("nodes = {nodes}"))) / expected - 1.0;
+                lobe.felt([16, 12, 3], NONLINEAR, &format!("nodes = {nodes}")) / expected - 1.0;
             let [millimetres, percent] = [1e3 * thickness, 100.0 * error];
             println!("{millimetres:.0} mm, {nodes} nodes: {percent:+.1} %");
             assert!(error.abs() < 0.05, "{thickness} {nodes}: {error}");
@@ -175,7 +175,7 @@ fn lobes_bend_by_a_response(thicknesses: &[f64], radii: &[f64], parts: &[f64]) {
         {
             let cells = [SIZES[0], SIZES[1], thickness].map(|size| size / (part * thickness));
             let cells = cells.map(|cells| cells.round() as usize);
-            let error = lobe.felt(cells, (kind, "")) / expected - 1.0;
+            let error = lobe.felt(cells, kind, "") / expected - 1.0;
             let [millimetres, tip, percent] = [1e3 * thickness, 2e3 * radius, 100.0 * error];
             println!(
                 "{millimetres:.0} mm, tip of {tip:.0} mm, {kind}, triangles {part}: {percent:+.1} %"

@@ -54,7 +54,7 @@ fn pull(friction: Option<f64>) -> Pulled {
     for step in 0..=60 {
         let way = (5e-4 * f64::from(step)).min(0.02);
         hands.go(&[pose(&(point - Vec3::y() * way), &turned, 1.0)]);
-        let deepest = deepest(&hands, (&ball, &boxes));
+        let deepest = deepest(&hands, &ball, &boxes);
         pulled.deepest = pulled.deepest.max(deepest);
     }
     pulled.force = hands.state.tools[0].force;
@@ -66,7 +66,7 @@ fn pull(friction: Option<f64>) -> Pulled {
     pulled
 }
 
-fn deepest(hands: &Hands<'_>, (ball, boxes): (&Surface, &AabbTree)) -> f64 {
+fn deepest(hands: &Hands<'_>, ball: &Surface, boxes: &AabbTree) -> f64 {
     let vertices = hands.state.deformed.vertices().iter();
     let depths = vertices.map(|vertex| -ball.signed_distance(boxes, vertex).1);
     depths.fold(0.0, f64::max)

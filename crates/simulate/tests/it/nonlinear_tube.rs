@@ -61,7 +61,7 @@ pub(crate) fn held_tube(path: &Path, nodes: usize, reach: f64) -> (String, Strin
     (organ, format!("nodes = {nodes}"))
 }
 
-fn ball<'a>((organ, model): &'a (String, String)) -> Setting<'a> {
+fn ball<'a>(organ: &'a str, model: &'a str) -> Setting<'a> {
     Setting {
         model,
         organ,
@@ -78,9 +78,9 @@ fn ball<'a>((organ, model): &'a (String, String)) -> Setting<'a> {
 #[test]
 fn a_ball_dragged_along_a_thin_tube_slides_at_coulombs_force() {
     let folder = tempfile::tempdir().unwrap();
-    let lines = under_ball(folder.path(), 1500, REACH);
+    let (organ, model) = under_ball(folder.path(), 1500, REACH);
     let dragged = |friction: Option<f64>| {
-        let setting = ball(&lines);
+        let setting = ball(&organ, &model);
         let simulation = match friction {
             None => setting.simulation(),
             Some(friction) => with_friction(&setting, friction),
@@ -115,8 +115,8 @@ fn a_ball_dragged_along_a_thin_tube_slides_at_coulombs_force() {
 fn a_ball_on_a_thin_tube_is_felt_smoothly() {
     let folder = tempfile::tempdir().unwrap();
     for (nodes, most) in [(1500, 0.2), (3000, 0.05)] {
-        let lines = under_ball(folder.path(), nodes, REACH);
-        let simulation = ball(&lines).simulation();
+        let (organ, model) = under_ball(folder.path(), nodes, REACH);
+        let simulation = ball(&organ, &model).simulation();
         let mut hand = Hand::new(&simulation);
         let mut at = |depth: f64| hand.at(&Vec3::new(0.0, 0.0, RADIUS - depth)).z;
         let pressed: Vec<f64> = (1..=100).map(|step| at(5e-5 * f64::from(step))).collect();
@@ -144,8 +144,8 @@ fn an_anchor_fixes_the_nodes_of_the_faces_that_it_holds() {
         said.any(|warning| warning.contains("the anchor fixes"))
     };
     let [thin, deep] = [REACH, 2.0 * REACH].map(|reach| {
-        let lines = under_ball(folder.path(), 3000, reach);
-        let simulation = ball(&lines).simulation();
+        let (organ, model) = under_ball(folder.path(), 3000, reach);
+        let simulation = ball(&organ, &model).simulation();
         assert!(!said(&simulation), "{reach}");
         let mut hand = Hand::new(&simulation);
         let each = (1..=20).map(|step| {
@@ -159,6 +159,6 @@ fn an_anchor_fixes_the_nodes_of_the_faces_that_it_holds() {
     let (organ, model) = under_ball(folder.path(), 800, REACH);
     let (mesh, _) = organ.split_once('\n').unwrap();
     let ring = "boxes = [{ min_m = [-0.0013, -1.0, -1.0], max_m = [0.0013, 1.0, 1.0] }]";
-    let lines = (format!("{mesh}\nanchor = {{ {ring} }}"), model);
-    assert!(said(&ball(&lines).simulation()));
+    let organ = format!("{mesh}\nanchor = {{ {ring} }}");
+    assert!(said(&ball(&organ, &model).simulation()));
 }

@@ -57,7 +57,8 @@ fn played(
         let elapsed = if number == 0 { 0.0 } else { STEP };
         step(
             simulation,
-            (time, elapsed),
+            time,
+            elapsed,
             &poses,
             &mut state,
             &mut workspace,

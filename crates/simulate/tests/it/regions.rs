@@ -30,6 +30,14 @@ enum Press {
     Sphere { radius: f64, depth: f64 },
 }
 
+/// A press on several models.
+struct Trial<'a> {
+    press: Press,
+    models: &'a [Model<'a>],
+    /// Of the relative error of each of the models [-].
+    bound: f64,
+}
+
 /// A cube with the tissues of `organ`, touched by a flat tip of 4 mm that slips.
 fn cube<'a>(organ: &'a str, (kind, model): Model<'a>) -> Setting<'a> {
     Setting {
@@ -61,6 +69,14 @@ fn press_to(simulation: &Simulation, above: f64, deepest: f64) -> f64 {
 }
 
 impl Press {
+    fn on<'a>(self, models: &'a [Model<'a>], bound: f64) -> Trial<'a> {
+        Trial {
+            press: self,
+            models,
+            bound,
+        }
+    }
+
     /// On a cube with the tissues of `organ`.
     fn force(self, organ: &str, model: Model<'_>) -> f64 {
         let setting = cube(organ, model);
@@ -80,13 +96,13 @@ impl Press {
     /// By finite elements, with elements of the size `fine` [m].
     fn expected(self, modulus: &impl Fn(f64, f64) -> f64, interface: f64, fine: f64) -> f64 {
         match self {
-            Self::Flat => finite_elements(modulus, interface, fine, (RADIUS, |_| DEPTH)),
+            Self::Flat => finite_elements(modulus, interface, fine, RADIUS, |_| DEPTH),
             // Of all areas that could touch the one that does has the largest force: there its edge has no pressure.
             Self::Sphere { radius, depth } => {
                 let hertz = (radius * depth).sqrt();
                 let area = |touching: f64| {
                     let goes = |r: f64| depth - r * r / (2.0 * radius);
-                    finite_elements(modulus, interface, fine, (touching, goes))
+                    finite_elements(modulus, interface, fine, touching, goes)
                 };
                 let mut forces = [0.0; 3];
                 for step in 9..40 {
@@ -124,13 +140,13 @@ fn graded(from: f64, to: f64, first: f64) -> Vec<f64> {
 }
 
 /// Force of the same press on a cylinder of the cube's volume and height, by axisymmetric finite elements; `modulus` is at a
-/// radius and a depth. `fine` is the size of the elements at the edge of what touches [m], whose radius [m] comes with how far down it
-/// goes at a radius [m].
+/// radius and a depth. They are `fine` [m] at the edge, `touching` [m], of what touches, which `goes` so far down at a radius [m].
 fn finite_elements(
     modulus: &impl Fn(f64, f64) -> f64,
     interface: f64,
     fine: f64,
-    (touching, goes): (f64, impl Fn(f64) -> f64),
+    touching: f64,
+    goes: impl Fn(f64) -> f64,
 ) -> f64 {
     let mut radii: Vec<f64> = graded(0.0, touching, fine)
         .iter()
@@ -175,27 +191,31 @@ fn finite_elements(
 }
 
 /// The press on `organ` beside finite elements of `modulus` at a radius and a depth. Judge: a cylinder of the cube's volume,
-/// refined until the force changes by less than 1 %; it and the cube differ by less than 1 % under a tip that is a tenth of
-/// them. `bound` is that of the relative error of each of the `models` [-].
+/// refined until the force changes by less than 1 %; it and the cube differ by less than 1 % under a tip a tenth as wide.
 fn presses_as(
-    (press, models, bound): (Press, &[Model<'_>], f64),
-    (name, organ): (&str, &str),
+    trial: &Trial<'_>,
+    name: &str,
+    organ: &str,
     interface: f64,
     modulus: impl Fn(f64, f64) -> f64,
 ) {
+    let press = trial.press;
     let [coarse, expected] = [1e-4, 7e-5].map(|fine| press.expected(&modulus, interface, fine));
     assert!(
         (coarse / expected - 1.0).abs() < 0.01,
         "{name}: {coarse} {expected}"
     );
-    for &model in models {
+    for &model in trial.models {
         let found = press.force(organ, model);
         let error = found / expected - 1.0;
         println!(
             "{name}, {press:?}, {model:?}: {found:.4} N, finite elements {expected:.4} N, {:+.1} %",
             100.0 * error
         );
-        assert!(error.abs() < bound, "{name}, {press:?}, {model:?}: {error}");
+        assert!(
+            error.abs() < trial.bound,
+            "{name}, {press:?}, {model:?}: {error}"
+        );
     }
 }
 
@@ -209,8 +229,8 @@ const BODY: &str = "builtin = \"cube\"\ntriangles = 3072\n\
 #[test]
 fn layers_press_back_as_finite_elements() {
     let models = [NONLINEAR, ("nonlinear", "nodes = 3000")];
-    let one = (Press::Flat, &models[..], ASKED);
-    presses_as(one, ("one tissue", BODY), 3e-3, |_, _| YOUNGS_MODULUS);
+    let one = Press::Flat.on(&models, ASKED);
+    presses_as(&one, "one tissue", BODY, 3e-3, |_, _| YOUNGS_MODULUS);
     layers_press_back(Press::Flat, &models, &LAYERS);
 }
 
@@ -251,7 +271,7 @@ fn layers_press_back(press: Press, models: &[Model<'_>], layers: &[(f64, f64)]) 
             }
         };
         let name = format!("{modulus} Pa, {thickness} m");
-        presses_as((press, models, ASKED), (&name, &organ), thickness, of);
+        presses_as(&press.on(models, ASKED), &name, &organ, thickness, of);
     }
 }
 
@@ -268,8 +288,8 @@ const BALLS: [Ball; 4] = [
 
 #[test]
 fn inclusions_press_back_as_finite_elements() {
-    inclusions_press_back((Press::Flat, &[NONLINEAR], ASKED), &BALLS[..1]);
-    inclusions_press_back((Press::Flat, &[HYBRID], ASKED), &BALLS[..1]);
+    inclusions_press_back(&Press::Flat.on(&[NONLINEAR], ASKED), &BALLS[..1]);
+    inclusions_press_back(&Press::Flat.on(&[HYBRID], ASKED), &BALLS[..1]);
 }
 
 /// Of the nonlinear model elements that a ball shares with what is around are stiffer than both in series: over balls that are ten
@@ -278,19 +298,19 @@ fn inclusions_press_back_as_finite_elements() {
 #[ignore = "slow: nine minutes"]
 fn many_inclusions_press_back_as_finite_elements() {
     let nonlinear = [NONLINEAR, ("nonlinear", "nodes = 3000")];
-    inclusions_press_back((Press::Flat, &nonlinear, 0.065), &BALLS[..2]);
-    inclusions_press_back((Press::Flat, &nonlinear, ASKED), &BALLS[2..]);
+    inclusions_press_back(&Press::Flat.on(&nonlinear, 0.065), &BALLS[..2]);
+    inclusions_press_back(&Press::Flat.on(&nonlinear, ASKED), &BALLS[2..]);
     let hybrid = [HYBRID, ("hybrid", "mechanical_triangles = 3000")];
-    inclusions_press_back((Press::Flat, &hybrid, ASKED), &BALLS);
+    inclusions_press_back(&Press::Flat.on(&hybrid, ASKED), &BALLS);
 }
 
-fn inclusions_press_back(press: (Press, &[Model<'_>], f64), balls: &[Ball]) {
+fn inclusions_press_back(trial: &Trial<'_>, balls: &[Ball]) {
     let tissue = |modulus: f64| {
         format!(
             "tissue = {{ law = \"linear\", youngs_modulus_pa = {modulus:.1}, poissons_ratio = {RATIO} }}"
         )
     };
-    balls_press_back(press, balls, tissue);
+    balls_press_back(trial, balls, tissue);
 }
 
 /// The largest, a middle one and the least lump of the palpation task, and those of before that are stiffer than what is around.
@@ -306,11 +326,11 @@ const STIFF_BALLS: [Ball; 6] = [
 /// Over a ball that is nearer to the surface than a flat tip is wide the estimate is up to 8 % off.
 #[test]
 fn estimated_inclusions_press_back_as_finite_elements() {
-    let press = |bound| (Press::Flat, &ESTIMATING[..], bound);
-    balls_press_back(press(ASKED), &STIFF_BALLS[1..], stiffness_ratio);
-    balls_press_back(press(0.08), &STIFF_BALLS[..1], stiffness_ratio);
+    let trial = |bound| Press::Flat.on(&ESTIMATING, bound);
+    balls_press_back(&trial(ASKED), &STIFF_BALLS[1..], stiffness_ratio);
+    balls_press_back(&trial(0.08), &STIFF_BALLS[..1], stiffness_ratio);
     // With a tissue, which the local model does not solve.
-    inclusions_press_back((Press::Flat, &ESTIMATING[..1], ASKED), &BALLS[2..3]);
+    inclusions_press_back(&Press::Flat.on(&ESTIMATING[..1], ASKED), &BALLS[2..3]);
 }
 
 /// Over that ball, where a sphere is pressed in as far as the ball is deep, the estimate is 19 % off.
@@ -318,10 +338,10 @@ fn estimated_inclusions_press_back_as_finite_elements() {
 #[ignore = "slow: two minutes"]
 fn estimated_inclusions_press_back_on_spheres() {
     for (depth, bound) in [(1e-3, 0.2), (0.25e-3, ASKED)] {
-        let press = |bound| (sphere(depth), &ESTIMATING[..], bound);
-        balls_press_back(press(ASKED), &STIFF_BALLS[1..], stiffness_ratio);
-        balls_press_back(press(bound), &STIFF_BALLS[..1], stiffness_ratio);
-        inclusions_press_back((sphere(depth), &ESTIMATING[..1], ASKED), &BALLS[2..3]);
+        let trial = |bound| sphere(depth).on(&ESTIMATING, bound);
+        balls_press_back(&trial(ASKED), &STIFF_BALLS[1..], stiffness_ratio);
+        balls_press_back(&trial(bound), &STIFF_BALLS[..1], stiffness_ratio);
+        inclusions_press_back(&sphere(depth).on(&ESTIMATING[..1], ASKED), &BALLS[2..3]);
     }
 }
 
@@ -332,11 +352,7 @@ fn stiffness_ratio(modulus: f64) -> String {
 }
 
 /// `content` says of what a ball of a modulus [Pa] is.
-fn balls_press_back(
-    press: (Press, &[Model<'_>], f64),
-    balls: &[Ball],
-    content: impl Fn(f64) -> String,
-) {
+fn balls_press_back(trial: &Trial<'_>, balls: &[Ball], content: impl Fn(f64) -> String) {
     for &(radius, depth, modulus) in balls {
         let organ = format!(
             "{BODY}\ninclusion = [{{ ball = {{ center_m = [0.002, 0.003, {:?}], radius_m = {radius:?} }}, {} }}]",
@@ -344,7 +360,7 @@ fn balls_press_back(
             content(modulus)
         );
         let name = format!("{modulus} Pa, {radius} m, {depth} m deep");
-        presses_as(press, (&name, &organ), depth + radius, |r, at| {
+        presses_as(trial, &name, &organ, depth + radius, |r, at| {
             let is_inside = r.hypot(at - depth) < radius;
             if is_inside { modulus } else { YOUNGS_MODULUS }
         });
@@ -354,7 +370,7 @@ fn balls_press_back(
 #[test]
 fn spheres_press_back_through_a_response() {
     layers_press_back(sphere(0.25e-3), &[HYBRID], &LAYERS[1..2]);
-    inclusions_press_back((sphere(1e-3), &[HYBRID], ASKED), &BALLS[..1]);
+    inclusions_press_back(&sphere(1e-3).on(&[HYBRID], ASKED), &BALLS[..1]);
 }
 
 /// What touches has a radius of 2 mm, and of 4 mm, which is more than the second ball is deep.
@@ -363,7 +379,7 @@ fn spheres_press_back_through_a_response() {
 fn many_spheres_press_back_as_finite_elements() {
     let models = [HYBRID, NONLINEAR];
     for depth in [1e-3, 0.25e-3] {
-        inclusions_press_back((sphere(depth), &models, ASKED), &BALLS);
+        inclusions_press_back(&sphere(depth).on(&models, ASKED), &BALLS);
         layers_press_back(sphere(depth), &models, &LAYERS);
     }
 }

@@ -93,7 +93,8 @@ impl<'a> Hand<'a> {
         let elapsed = self.simulation.step();
         step(
             self.simulation,
-            (self.time, elapsed),
+            self.time,
+            elapsed,
             &[Some(pose)],
             &mut self.state,
             &mut self.workspace,

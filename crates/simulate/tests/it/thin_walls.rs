@@ -189,17 +189,17 @@ fn straight_tube(law: Arc<LinearElastic>) -> f64 {
 #[test]
 #[ignore = "slow: a minute"]
 fn slides_on_a_thin_wall_are_smooth() {
-    thin_wall_slides((1200, 600), 40);
+    thin_wall_slides(1200, 600, 40);
 }
 
 /// Quick form of the test above: four slides on a coarser wall.
 #[test]
 fn some_slides_on_a_thin_wall_are_smooth() {
-    thin_wall_slides((600, 300), 4);
+    thin_wall_slides(600, 300, 4);
 }
 
 /// `number` slides on an esophagus of so many triangles, seen and solved.
-fn thin_wall_slides((triangles, mechanical): (usize, usize), number: usize) {
+fn thin_wall_slides(triangles: usize, mechanical: usize, number: usize) {
     let simulation = Setting {
         organ: &format!("builtin = \"esophagus\"\ntriangles = {triangles}"),
         model: &format!("mechanical_triangles = {mechanical}"),

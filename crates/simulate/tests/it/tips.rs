@@ -57,7 +57,7 @@ impl Body {
     }
 
     /// The force of finite elements without friction, on a mesh made for this depth.
-    fn judged(self, law: Arc<dyn Law>, (shape, radius): (IndenterShape, f64), depth: f64) -> f64 {
+    fn judged(self, law: Arc<dyn Law>, shape: IndenterShape, radius: f64, depth: f64) -> f64 {
         // A cylinder of the area of the cube's face: 0.1 % of the force apart in three dimensions.
         let (wide, height) = match self {
             Self::Cube => (0.056_42, 0.1),
@@ -164,7 +164,7 @@ impl Case<'_> {
             .collect();
         let mut rows = Vec::new();
         for depth in depths.iter().map(|part| part * radius) {
-            let exact = body.judged(law.clone(), (shape, radius), depth);
+            let exact = body.judged(law.clone(), shape, radius, depth);
             print!(
                 "| {} {:.0} | {} | {poissons_ratio} | {:.2} | {:.2} |",
                 self.shape,
@@ -312,7 +312,7 @@ fn spheres_on_a_neo_hookean_cube_are_those_of_finite_elements() {
     let law: Arc<dyn Law> = Arc::new(NeoHookean::incompressible(YOUNGS_MODULUS / 6.0).unwrap());
     let depths = [0.002, 0.005, 0.01];
     let exact =
-        depths.map(|depth| Body::Cube.judged(law.clone(), (IndenterShape::Sphere, radius), depth));
+        depths.map(|depth| Body::Cube.judged(law.clone(), IndenterShape::Sphere, radius, depth));
     for kind in ["local", "hybrid"] {
         let text = format!(
             "format = 1\n[organ]\nbuiltin = \"cube\"\n[organ.tissue]\nlaw = \"neo_hookean\"\nc10_pa = {}\n\

@@ -92,7 +92,7 @@ impl Body {
         tint: Tint,
     ) -> Self {
         let mut body = Self::empty(gpu, tint);
-        body.replace(gpu, (mesh.vertices(), mesh.triangles()), open);
+        body.replace(gpu, mesh.vertices(), mesh.triangles(), open);
         body
     }
 
@@ -136,7 +136,8 @@ impl Body {
     pub(crate) fn replace(
         &mut self,
         gpu: &Gpu,
-        (vertices, triangles): (&[Vec3], &[[NodeId; 3]]),
+        vertices: &[Vec3],
+        triangles: &[[NodeId; 3]],
         open: &[f32],
     ) {
         let drawn = crease(vertices, triangles);

@@ -139,10 +139,11 @@ impl Renderer {
         &mut self,
         gpu: &Gpu,
         view: &View,
-        (bodies, tools): (&[&Body], &[ToolPicture]),
+        bodies: &[&Body],
+        tools: &[ToolPicture],
         target: &Target,
     ) {
-        self.write(gpu, view, (bodies, tools), target.size());
+        self.write(gpu, view, bodies, tools, target.size());
         self.pass(gpu, &target.attachments(), |pass| {
             let pipeline = |subject| self.pipelines.of(gpu, subject, target.samples());
             self.draw_bodies(pass, bodies, |body| {
@@ -168,10 +169,11 @@ impl Renderer {
         &mut self,
         gpu: &Gpu,
         view: &View,
-        (bodies, tools): (&[&Body], &[ToolPicture]),
+        bodies: &[&Body],
+        tools: &[ToolPicture],
         target: &LabelTarget,
     ) {
-        self.write(gpu, view, (bodies, tools), target.size());
+        self.write(gpu, view, bodies, tools, target.size());
         self.pass(gpu, &target.attachments(), |pass| {
             let tissue = self.pipelines.of(gpu, Subject::TissueLabel, 1);
             self.draw_bodies(pass, bodies, |_| tissue.clone());
@@ -232,7 +234,8 @@ impl Renderer {
         &mut self,
         gpu: &Gpu,
         view: &View,
-        (bodies, tools): (&[&Body], &[ToolPicture]),
+        bodies: &[&Body],
+        tools: &[ToolPicture],
         size: (u32, u32),
     ) {
         let globals = Globals::new(&view.camera, tools, size, view.reach);

@@ -52,11 +52,7 @@ pub(super) fn show(window: &mut RigWindow, ui: &mut Ui) {
 }
 
 /// A name, a number, and how much of its limit it is.
-fn quantity(
-    ui: &mut Ui,
-    (name, number, color): (&str, String, Color32),
-    (part, of): (f64, String),
-) {
+fn quantity(ui: &mut Ui, name: &str, number: String, color: Color32, part: f64, of: String) {
     ui.label(RichText::new(name).small().color(QUIET));
     ui.label(RichText::new(number).size(21.0).monospace().color(color));
     let fill = if part > 0.9 {
@@ -137,17 +133,13 @@ fn force(window: &mut RigWindow, ui: &mut Ui) {
     let limit = window.settings.force_limit;
     quantity(
         ui,
-        (
-            "force, mean of the last 20 ms",
-            format!("{} mN", rounded(1e3 * window.watch.calm_force(), 1)),
-            FORCE,
-        ),
-        (
-            force / limit,
-            format!(
-                "limit {limit:.2} N, sensor {:.0} N",
-                window.watch.sensor_range
-            ),
+        "force, mean of the last 20 ms",
+        format!("{} mN", rounded(1e3 * window.watch.calm_force(), 1)),
+        FORCE,
+        force / limit,
+        format!(
+            "limit {limit:.2} N, sensor {:.0} N",
+            window.watch.sensor_range
         ),
     );
 }
@@ -165,8 +157,11 @@ fn depth(window: &mut RigWindow, ui: &mut Ui) {
     };
     quantity(
         ui,
-        (name, format!("{} mm", rounded(shown, 2)), DEPTH),
-        (part, format!("limit {:.1} mm", 1e3 * limit)),
+        name,
+        format!("{} mm", rounded(shown, 2)),
+        DEPTH,
+        part,
+        format!("limit {:.1} mm", 1e3 * limit),
     );
 }
 
@@ -188,7 +183,7 @@ fn breath(window: &mut RigWindow, ui: &mut Ui) {
         ),
         (None, None) => ("breath", "drawn".to_owned(), 0.0, "no budget".to_owned()),
     };
-    quantity(ui, (name, number, WARNING), (part, of));
+    quantity(ui, name, number, WARNING, part, of);
 }
 
 /// A fault, until forces are on again.

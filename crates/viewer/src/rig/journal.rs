@@ -74,7 +74,8 @@ impl Journal {
         &mut self,
         trajectory: &DepthTrajectory,
         settings: &RigSettings,
-        (specimen, place): (&RecordingHeader, usize),
+        specimen: &RecordingHeader,
+        place: usize,
     ) -> Commission {
         let stimulus = stimulus_name(&trajectory.stimulus());
         let mut repeat = 0;
@@ -229,7 +230,7 @@ mod tests {
         let trajectory = trajectory.unwrap();
         let header = RecordingHeader::default();
         let settings = RigSettings::default();
-        let commission = journal.ask(&trajectory, &settings, (&header, 0));
+        let commission = journal.ask(&trajectory, &settings, &header, 0);
         let number = commission.number;
         let name = commission.file.file_name().unwrap().to_owned();
         journal.keep_unsaved(Unwritten {
@@ -281,7 +282,7 @@ mod tests {
         };
         let settings = RigSettings::default();
         let ask = |journal: &mut Journal| {
-            let asked = journal.ask(&trajectory, &settings, (&header, 0));
+            let asked = journal.ask(&trajectory, &settings, &header, 0);
             (asked.number, asked.header.repeat, asked.file)
         };
         let (first, repeat, file) = ask(&mut journal);

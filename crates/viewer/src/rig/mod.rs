@@ -138,7 +138,9 @@ impl RigWindow {
         let stimuli = bench.stimuli.iter();
         Self {
             settings: bench.settings,
-            prepared: stimuli.map(|own| Prepared::new(*own)).collect(),
+            prepared: stimuli
+                .map(|(trajectory, repeats)| Prepared::new(*trajectory, *repeats))
+                .collect(),
             behind: Behind::Preparing(Preparation::start(&bench.places[0].make, context.clone())),
             places: bench.places,
             place: 0,
@@ -223,8 +225,10 @@ impl RigWindow {
             return;
         }
         if let Behind::Live(live) = &mut self.behind {
-            let specimen = (&self.header, self.place);
-            let commission = self.journal.ask(trajectory, &self.settings, specimen);
+            let settings = &self.settings;
+            let commission = self
+                .journal
+                .ask(trajectory, settings, &self.header, self.place);
             live.press(*trajectory, commission);
             self.watch.waiting += 1;
         }

@@ -12,7 +12,7 @@ pub(super) struct Prepared {
 }
 
 impl Prepared {
-    pub(super) fn new((trajectory, repeats): (DepthTrajectory, u64)) -> Self {
+    pub(super) fn new(trajectory: DepthTrajectory, repeats: u64) -> Self {
         Self {
             stimulus: trajectory.stimulus(),
             repeats,
@@ -120,7 +120,7 @@ mod tests {
             ramp_s: 0.5,
             hold_s: 40.0,
         };
-        let mut prepared = Prepared::new((DepthTrajectory::of(stimulus).unwrap(), 3));
+        let mut prepared = Prepared::new(DepthTrajectory::of(stimulus).unwrap(), 3);
         let settings = RigSettings {
             breath: Some(25.0),
             ..RigSettings::default()

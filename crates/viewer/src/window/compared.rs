@@ -162,7 +162,7 @@ impl SimulatorWindow {
         let [own, other] = &compared.names;
         let mut half = |rect: Rect, picture: &mut OrganView, play: &mut Play, name: &str| {
             ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
-                picture.show(ui, (state, &self.gpu), play, 0);
+                picture.show(ui, state, &self.gpu, play, 0);
                 title(ui, rect, name);
             });
         };
@@ -243,7 +243,8 @@ mod tests {
             };
             step(
                 simulation,
-                (time, elapsed),
+                time,
+                elapsed,
                 &[Some(pose)],
                 &mut state,
                 &mut workspace,

@@ -109,7 +109,8 @@ impl Gesture {
     pub fn follow(&mut self, mouse: &Mouse, ground: &GestureContext<'_>) -> Option<Aim> {
         let seen = |place| {
             pick(
-                (ground.surface, ground.tree),
+                ground.surface,
+                ground.tree,
                 ground.camera,
                 place,
                 ground.aspect,

@@ -433,7 +433,7 @@ impl eframe::App for SimulatorWindow {
             }
             match (&mut self.play, frame.wgpu_render_state()) {
                 (Some(play), Some(state)) => {
-                    let rect = self.picture.show(ui, (state, &self.gpu), play, tool);
+                    let rect = self.picture.show(ui, state, &self.gpu, play, tool);
                     let attempt = self.attempt.as_ref();
                     self.picture.show_task(ui, rect, &mut *play, attempt);
                     if !self.attempt.as_ref().is_some_and(Attempt::is_over) {

@@ -138,7 +138,8 @@ impl OrganView {
     pub(super) fn show(
         &mut self,
         ui: &mut egui::Ui,
-        (state, gpu): (&RenderState, &Gpu),
+        state: &RenderState,
+        gpu: &Gpu,
         play: &mut Play,
         tool: usize,
     ) -> Rect {
@@ -185,10 +186,11 @@ impl OrganView {
             }
             None => {
                 self.drive(ui, play, tool, &room);
-                self.touch(ui, (&response, rect), (play, tool), &room);
+                self.touch(ui, &response, rect, play, tool, &room);
             }
         }
-        let shown = self.draw((state, gpu), play, &camera, (extent, rect, ui.ctx()));
+        let size = pixels(rect, ui.ctx().pixels_per_point());
+        let shown = self.draw(state, gpu, play, &camera, extent, size);
         ui.painter().add(shown.at(rect));
         rect
     }
@@ -325,8 +327,10 @@ impl OrganView {
     fn touch(
         &mut self,
         ui: &egui::Ui,
-        (response, rect): (&Response, Rect),
-        (play, tool): (&mut Play, usize),
+        response: &Response,
+        rect: Rect,
+        play: &mut Play,
+        tool: usize,
         room: &HandContext<'_>,
     ) {
         let Some(hand) = self.hands.get_mut(tool) else {
@@ -342,7 +346,7 @@ impl OrganView {
             let moved = input.pointer.delta() != Vec2::ZERO;
             (input.pointer.primary_down(), moved)
         });
-        let over = |place| pick((play.surface(), &play.tree), room.camera, place, aspect).is_some();
+        let over = |place| pick(play.surface(), &play.tree, room.camera, place, aspect).is_some();
         let busy = self.gesture.is_pressing() || hand.is_pulling();
         if response.drag_started_by(PointerButton::Primary) && !busy {
             self.turning = !hand.holds() && !place.is_some_and(over);
@@ -383,12 +387,14 @@ impl OrganView {
 
     fn draw(
         &mut self,
-        (state, gpu): (&RenderState, &Gpu),
+        state: &RenderState,
+        gpu: &Gpu,
         play: &mut Play,
         camera: &Camera,
-        (extent, rect, context): (f64, Rect, &egui::Context),
+        extent: f64,
+        size: (u32, u32),
     ) -> ShownPicture {
-        let shown = self.target(state, gpu, pixels(rect, context.pixels_per_point()));
+        let shown = self.target(state, gpu, size);
         let snapshot = play.source.snapshot();
         let tools: Vec<ToolPicture> = play
             .scene
@@ -398,8 +404,7 @@ impl OrganView {
             .zip(play.simulation.tools())
             .filter_map(|((tool, seen), model)| {
                 let pose = seen.pose?;
-                let at = (pose.position_m, seen.orientation);
-                let picture = ToolPicture::new(tool, at)
+                let picture = ToolPicture::new(tool, pose.position_m, seen.orientation)
                     .looking_like(model.look.as_ref())
                     .gripping(pose.grip);
                 Some(match seen.contact {
@@ -422,8 +427,8 @@ impl OrganView {
         }
         match opened {
             Some(opened) => {
-                let uncut = (play.simulation.surface(), snapshot.vertices.as_slice());
-                play.organ.open(gpu, opened, uncut);
+                let surface = play.simulation.surface();
+                play.organ.open(gpu, opened, surface, &snapshot.vertices);
             }
             None => play
                 .organ
@@ -432,7 +437,7 @@ impl OrganView {
         let bodies: Vec<&Body> = play.organ.bodies().chain(&play.neighbours).collect();
         if let Some((target, _)) = &self.target {
             let (view, tools, _) = &now;
-            self.renderer.draw(gpu, view, (&bodies, tools), target);
+            self.renderer.draw(gpu, view, &bodies, tools, target);
         }
         self.drawn = Some(now);
         shown

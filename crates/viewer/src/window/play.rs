@@ -75,7 +75,7 @@ impl Prepared {
     ) -> Result<Self, Error> {
         let simulation = Arc::new(Simulation::prepare(&scene, resources, watch)?);
         let model = PreparedModel::new(simulation.clone());
-        let around = Self::around((scene, simulation), resources.clone(), gpu)?;
+        let around = Self::around(scene, simulation, resources.clone(), gpu)?;
         Ok(Self {
             model: Some(model),
             ..around
@@ -84,7 +84,8 @@ impl Prepared {
 
     /// What is seen around a simulation that is there.
     fn around(
-        (scene, simulation): (Scene, Arc<Simulation>),
+        scene: Scene,
+        simulation: Arc<Simulation>,
         resources: Resources,
         gpu: &Gpu,
     ) -> Result<Self, Error> {
@@ -165,8 +166,8 @@ impl Play {
     pub(super) fn of_session(session: PlayedSession, gpu: &Gpu) -> Result<Self, Error> {
         let playback = Playback::new(&session.simulation, session.replay);
         let nobody = session.scene.tools.iter().map(|_| None).collect();
-        let of = (session.scene, session.simulation);
-        let prepared = Prepared::around(of, Resources::default(), gpu)?;
+        let prepared =
+            Prepared::around(session.scene, session.simulation, Resources::default(), gpu)?;
         let source = Source::Again(Box::new(playback));
         Ok(Self::of(prepared, source, nobody))
     }

@@ -46,7 +46,7 @@ impl PicturePainter {
         let shader = gpu
             .device
             .create_shader_module(wgpu::include_wgsl!("shown_picture.wgsl"));
-        let pipeline = |is_filtered| pipeline(gpu, (&layout, &shader), format, is_filtered);
+        let pipeline = |is_filtered| pipeline(gpu, &layout, &shader, format, is_filtered);
         Self {
             sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
                 mag_filter: wgpu::FilterMode::Linear,
@@ -118,7 +118,8 @@ pub(super) fn pixels(rect: Rect, pixels_per_point: f32) -> (u32, u32) {
 
 fn pipeline(
     gpu: &Gpu,
-    (layout, module): (&wgpu::BindGroupLayout, &wgpu::ShaderModule),
+    layout: &wgpu::BindGroupLayout,
+    module: &wgpu::ShaderModule,
     format: wgpu::TextureFormat,
     is_filtered: bool,
 ) -> wgpu::RenderPipeline {

@@ -30,8 +30,8 @@ fn the_picture_is_where_the_camera_says() {
             (f64::from(x) + 0.5) / f64::from(width),
             (f64::from(y) + 0.5) / f64::from(height),
         );
-        let organ = (simulation.surface(), &tree);
-        let hit = pick(organ, &camera, place, f64::from(width) / f64::from(height)).is_some();
+        let aspect = f64::from(width) / f64::from(height);
+        let hit = pick(simulation.surface(), &tree, &camera, place, aspect).is_some();
         let bright = pixel[0] > pixel[2].saturating_add(12);
         same += u32::from(hit == bright);
         inside += u32::from(hit);

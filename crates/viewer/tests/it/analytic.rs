@@ -76,7 +76,7 @@ fn a_pick_on_a_hemisphere_is_on_the_line_and_the_ball() {
     let surface = Surface::new(Organ::Hemisphere.surface_mesh(12_000).unwrap()).unwrap();
     let tree = AabbTree::new(surface.mesh());
     let camera = Orbit::framing(surface.mesh(), 0.8, 1.6).camera();
-    let picked = pick((&surface, &tree), &camera, (0.5, 0.4), 1.6).unwrap();
+    let picked = pick(&surface, &tree, &camera, (0.5, 0.4), 1.6).unwrap();
     let ray = camera.ray((0.5, 0.4), 1.6);
     assert!((picked.point - camera.eye).cross(&ray).norm() < 1e-9);
     // How far the middle of a triangle lies below its ball: its circle's radius is at most the longest edge
@@ -92,7 +92,7 @@ fn a_pick_on_a_hemisphere_is_on_the_line_and_the_ball() {
     // Normals of corners are off by the angle of an edge, squared.
     let angle = longest / 0.05;
     assert!((picked.normal - picked.point.normalize()).norm() < angle * angle);
-    assert!(pick((&surface, &tree), &camera, (0.01, 0.01), 1.6).is_none());
+    assert!(pick(&surface, &tree, &camera, (0.01, 0.01), 1.6).is_none());
 }
 
 /// An endoscope looks along the same line, from outside of the organ and nearer, with its own lamp set for

@@ -45,7 +45,8 @@ fn pressed(more: &str, shading: &str) -> (Studio, SimulationState) {
     };
     step(
         &simulation,
-        (0.0, 0.0),
+        0.0,
+        0.0,
         &[Some(pose)],
         &mut state,
         &mut workspace,
@@ -178,7 +179,7 @@ fn with_tools(kinds: [&str; 2]) -> RgbaImage {
             cut: false,
         })
     });
-    step(&simulation, (0.0, 0.0), &poses, &mut state, &mut workspace);
+    step(&simulation, 0.0, 0.0, &poses, &mut state, &mut workspace);
     let mut studio = Studio::new(&scene, &simulation, SIZE).unwrap();
     studio.picture(&state).unwrap()
 }

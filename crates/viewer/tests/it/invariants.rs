@@ -96,7 +96,8 @@ fn drag(organ: BuiltinOrgan, tip: &str, seconds: f64) {
             let time = (3 * picture + number) as f64 / 180.0;
             step(
                 &simulation,
-                (time, 1.0 / 180.0),
+                time,
+                1.0 / 180.0,
                 &[pose],
                 &mut state,
                 &mut workspace,

@@ -41,7 +41,8 @@ impl Hand<'_> {
         let elapsed = self.simulation.step();
         step(
             self.simulation,
-            (elapsed * f64::from(self.steps), elapsed),
+            elapsed * f64::from(self.steps),
+            elapsed,
             &[Some(pose)],
             &mut self.state,
             &mut self.workspace,

@@ -79,7 +79,7 @@ fn under_a_probe() -> [RgbaImage; 2] {
         cut: false,
     };
     let poses = [Some(pose)];
-    step(&simulation, (0.0, 0.0), &poses, &mut state, &mut workspace);
+    step(&simulation, 0.0, 0.0, &poses, &mut state, &mut workspace);
     let mut studio = Studio::new(&scene, &simulation, (320, 200)).unwrap();
     [true, false].map(|shadows| {
         studio.view.looks.shadows = shadows;

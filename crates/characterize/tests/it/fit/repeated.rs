@@ -86,7 +86,7 @@ fn repetition_spreads_as_the_covariance_says() {
     };
     let noise = (fit.sum_of_squares() / 198.0).sqrt();
     let drawn = noise_study(&fit, noise, draws, &SETTINGS, with_powers);
-    let blocks = block_bootstrap(&fit, (&[120, 80], 5), draws, &SETTINGS, with_powers);
+    let blocks = block_bootstrap(&fit, &[120, 80], 5, draws, &SETTINGS, with_powers);
     for spread in [&drawn, &blocks] {
         assert_eq!(spread.failed, 0);
         for parameter in 0..2 {
@@ -101,7 +101,7 @@ fn repetition_spreads_as_the_covariance_says() {
             assert!((low..high).contains(&fit.parameters[parameter].value));
         }
     }
-    let again = block_bootstrap(&fit, (&[120, 80], 5), draws, &SETTINGS, with_powers);
+    let again = block_bootstrap(&fit, &[120, 80], 5, draws, &SETTINGS, with_powers);
     assert_eq!(again, blocks, "the same seed gives the same");
 }
 

@@ -162,7 +162,8 @@ struct Found {
 /// Looks at the device from `happen` on.
 fn after(
     world: &World,
-    (thread, mut reader): (ServoThread, ServoReader),
+    thread: ServoThread,
+    mut reader: ServoReader,
     happen: impl FnOnce(&Supervisor),
 ) -> Found {
     let lateness = Lateness::measure();
@@ -223,25 +224,27 @@ type Happening<'a> = &'a dyn Fn(&World, &Supervisor, f64);
 
 /// The worst time to zero of `moments` sessions of `driver`.
 fn worst(
-    (driver, name): (Driver, &str),
-    (moments, chance): (u32, &mut Chance),
-    (promised, happen): (f64, Happening<'_>),
+    driver: Driver,
+    name: &str,
+    moments: u32,
+    chance: &mut Chance,
+    promised: f64,
+    happen: Happening<'_>,
     is_named: &dyn Fn(Option<Fault>) -> bool,
 ) -> f64 {
     let mut worst: f64 = 0.0;
     for _ in 0..moments {
         let until = Instant::now() + COMES_INTO_CONTACT;
         let found = loop {
-            let carried = (Box::new(hand()) as _, StandInClock::Wall);
-            let world = World::new(driver, carried);
+            let world = World::new(driver, Box::new(hand()), StandInClock::Wall);
             // The time of a virtual device is that of its loop.
             let clock = Clock::real();
             let in_time = Instant::now() < until;
-            let Some(session) = in_contact(&world, clock, chance) else {
+            let Some((thread, reader)) = in_contact(&world, clock, chance) else {
                 assert!(in_time, "a machine that is not too busy");
                 continue;
             };
-            let found = after(&world, session, |supervisor| {
+            let found = after(&world, thread, reader, |supervisor| {
                 happen(&world, supervisor, clock.now());
             });
             if is_named(found.fault) {
@@ -282,9 +285,12 @@ fn campaign(moments: u32, troubles: &[Trouble], orders: &[Order]) {
                     let promised = promised(driver, trouble);
                     let name = format!("{trouble:?}");
                     worst(
-                        (driver, &name),
-                        (moments, &mut chance),
-                        (promised, &happens),
+                        driver,
+                        &name,
+                        moments,
+                        &mut chance,
+                        promised,
+                        &happens,
                         &named,
                     )
                 }));
@@ -299,9 +305,12 @@ fn campaign(moments: u32, troubles: &[Trouble], orders: &[Order]) {
                 let happens = |_: &World, session: &Supervisor, now: f64| give(session, now);
                 let named = |found| found == fault;
                 times.push(Some(worst(
-                    (driver, name),
-                    (moments, &mut chance),
-                    (promised, &happens),
+                    driver,
+                    name,
+                    moments,
+                    &mut chance,
+                    promised,
+                    &happens,
                     &named,
                 )));
             }

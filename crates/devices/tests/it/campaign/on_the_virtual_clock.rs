@@ -24,15 +24,16 @@ fn world(driver: Driver) -> (World, Arc<AtomicU64>) {
         device: hand(),
         time: time.clone(),
     };
-    let carried = (Box::new(mechanics) as _, StandInClock::PerCommand(1e-3));
-    (World::new(driver, carried), time)
+    let clock = StandInClock::PerCommand(1e-3);
+    (World::new(driver, Box::new(mechanics), clock), time)
 }
 
 /// A loop in contact, at a moment of `chance`.
 fn in_contact<'w>(
     world: &'w World,
     time: &Arc<AtomicU64>,
-    (timeout, chance): (Duration, &mut Chance),
+    timeout: Duration,
+    chance: &mut Chance,
 ) -> Ticked<'w> {
     let device = world.open(timeout);
     let mut servo = Ticked::new(device, world.library(), world.law());
@@ -124,7 +125,7 @@ fn faults(moments: u32) {
                     Trouble::Silence => Duration::from_millis(20),
                     _ => PATIENT,
                 };
-                let mut servo = in_contact(&world, &time, (timeout, &mut chance));
+                let mut servo = in_contact(&world, &time, timeout, &mut chance);
                 world.befall(trouble);
                 let found = after(&world, &mut servo);
                 servo.end();
@@ -179,7 +180,7 @@ fn stops(moments: u32) {
             for (driver, worst) in DRIVERS.into_iter().zip(&mut row) {
                 for _ in 0..moments {
                     let (world, time) = world(driver);
-                    let mut servo = in_contact(&world, &time, (PATIENT, &mut chance));
+                    let mut servo = in_contact(&world, &time, PATIENT, &mut chance);
                     let session = servo.reader.supervisor.clone();
                     enter(&session);
                     if state != ForceState::Running {

@@ -76,11 +76,9 @@ pub(crate) struct World {
     fails: Arc<AtomicU8>,
 }
 
-/// A hand whose time is that of the loop, or of the wall.
-pub(crate) type Carried = (Box<dyn Mechanics>, StandInClock);
-
 impl World {
-    pub(crate) fn new(driver: Driver, (mechanics, clock): Carried) -> Self {
+    /// With a hand whose time is that of the loop, or of the wall.
+    pub(crate) fn new(driver: Driver, mechanics: Box<dyn Mechanics>, clock: StandInClock) -> Self {
         let mut places = Places::default();
         let library = |kind| StandInLibrary::build(kind).unwrap();
         let stand_in = match driver {

@@ -46,6 +46,15 @@ pub(super) struct Curvature {
     forces: Vec<[[[f64; 4]; SIDE]; SIDE]>,
 }
 
+/// What a slit is in.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Medium<'a> {
+    /// Poisson's ratio [-].
+    pub(super) nu: f64,
+    /// What the curvature of a wall changes.
+    pub(super) tube: &'a Curvature,
+}
+
 impl Curvature {
     pub(super) fn new(nu: f64) -> Self {
         let mut whole = Self {
@@ -67,7 +76,8 @@ impl Curvature {
     /// What curvature adds across and along from a unit force on a face (1 outer, −1 inner) [1/m]: N of a force outward, V of it and of one across.
     pub(super) fn of_force(
         &self,
-        (curvature, thickness): (f64, f64),
+        curvature: f64,
+        thickness: f64,
         [across, along]: [f64; 2],
         face: f64,
     ) -> [f64; 3] {

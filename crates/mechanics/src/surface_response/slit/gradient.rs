@@ -58,8 +58,10 @@ impl Gradient {
     /// triangles do not tell.
     pub(super) fn prepare<T: Precision>(
         &mut self,
-        (surface, response): (&Surface, &SurfaceResponse<T>),
-        (start, place): (TriangleId, &Vec3),
+        surface: &Surface,
+        response: &SurfaceResponse<T>,
+        start: TriangleId,
+        place: &Vec3,
         facet: &Facet,
     ) {
         self.parts.clear();
@@ -78,13 +80,7 @@ impl Gradient {
             CrackGeometry::Wall { thickness, .. } => IN_WALLS * thickness,
         };
         self.reach = in_wall.max(REACH * self.size);
-        around(
-            surface,
-            (start, place),
-            &outward,
-            self.reach,
-            &mut self.found,
-        );
+        around(surface, start, place, &outward, self.reach, &mut self.found);
         let [n, s] = [0, 1].map(|k| facet.frame.column(k).into_owned());
         let mut moments = Matrix3::zeros();
         let taken = self.found.len().min(MOST);
@@ -154,7 +150,8 @@ impl Gradient {
 /// to far in steps over corners; no more than the list has room for.
 pub(super) fn around(
     surface: &Surface,
-    (start, place): (TriangleId, &Vec3),
+    start: TriangleId,
+    place: &Vec3,
     outward: &Vec3,
     reach: f64,
     found: &mut Vec<TriangleId>,

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{Matrix3, Matrix5};
 
-use super::curvature::Curvature;
+use super::curvature::{Curvature, Medium};
 use super::facet::{CrackGeometry, Facet};
 use super::plate::Plate;
 use super::spring;
@@ -46,8 +46,8 @@ const OF_BENDING: f64 = 0.5;
 const ONE_PLANE: f64 = 0.8;
 
 /// The part of H between the modes of two facets, over E [m].
-pub(super) fn coupling(about: (f64, &Curvature), one: &Facet, other: &Facet) -> Matrix5<f64> {
-    0.5 * (pull(about, one, other) + pull(about, other, one).transpose())
+pub(super) fn coupling(medium: Medium<'_>, one: &Facet, other: &Facet) -> Matrix5<f64> {
+    0.5 * (pull(medium, one, other) + pull(medium, other, one).transpose())
 }
 
 /// Pivots of a block by itself [m].
@@ -68,8 +68,8 @@ pub(super) fn pivots(block: &Matrix5<f64>, modes: usize) -> [f64; 5] {
 }
 
 /// H of a facet with itself over E [m], and what its diagonal is raised by where one end is free, or both.
-pub(super) fn own(nu: f64, tube: &Curvature, facet: &Facet) -> (Matrix5<f64>, [[f64; 5]; 2]) {
-    let mut matrix = pull((nu, tube), facet, facet);
+pub(super) fn own(medium: Medium<'_>, facet: &Facet) -> (Matrix5<f64>, [[f64; 5]; 2]) {
+    let mut matrix = pull(medium, facet, facet);
     let mut ends = [[0.0; 5]; 2];
     for mode in 0..5 {
         let (one, both) = if mode >= 4 {
@@ -83,13 +83,14 @@ pub(super) fn own(nu: f64, tube: &Curvature, facet: &Facet) -> (Matrix5<f64>, [[
     if let CrackGeometry::Wall { part, .. } = facet.under
         && part < 1.0
     {
-        matrix += spring::ligament(nu, part) * facet.length;
+        matrix += spring::ligament(medium.nu, part) * facet.length;
     }
     (matrix, ends)
 }
 
 /// Less the work of the traction on the modes of `seen` by unit jumps of `jumping`.
-fn pull((nu, tube): (f64, &Curvature), seen: &Facet, jumping: &Facet) -> Matrix5<f64> {
+fn pull(medium: Medium<'_>, seen: &Facet, jumping: &Facet) -> Matrix5<f64> {
+    let Medium { nu, tube } = medium;
     match (seen.under, jumping.under) {
         (CrackGeometry::Solid { depth }, CrackGeometry::Solid { depth: other }) => {
             let block = in_solid(nu, seen, depth, jumping, other);

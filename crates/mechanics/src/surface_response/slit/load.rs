@@ -2,6 +2,7 @@ use nalgebra::Matrix3;
 
 use super::super::response::{SurfaceResponse, TouchId};
 use super::super::tip_field::Share;
+use super::curvature::Medium;
 use super::traction::{MODES, Spot};
 use super::{Cut, Slit};
 use crate::Vec3;
@@ -60,8 +61,11 @@ impl<T: Precision> Slit<T> {
             let Some(spot) = spot else {
                 break;
             };
-            let about = (self.poissons_ratio, &self.curvature, cut.reach);
-            let Some(found) = cut.facet.point_influence(about, spot) else {
+            let medium = Medium {
+                nu: self.poissons_ratio,
+                tube: &self.curvature,
+            };
+            let Some(found) = cut.facet.point_influence(medium, cut.reach, spot) else {
                 continue;
             };
             *fade = found.0;
@@ -127,7 +131,8 @@ impl<T: Precision> Slit<T> {
     pub fn compliance(
         &self,
         response: &SurfaceResponse<T>,
-        (moved, loaded): (TouchId, TouchId),
+        moved: TouchId,
+        loaded: TouchId,
         scratch: &mut [SlitLoad; 2],
     ) -> Matrix3<f64> {
         let whole = |triangle| {

@@ -43,12 +43,12 @@ use super::response::SurfaceResponse;
 use crate::boundary_elements::Precision;
 use crate::{Error, Vec3};
 use cholesky::{Block, Grown};
-use curvature::Curvature;
+use curvature::{Curvature, Medium};
 use facet::Facet;
 pub use facet::{CutBody, SlitFacet};
 use gradient::{Gradient, MOST};
 pub use load::{SlitJumps, SlitLoad};
-use traction::{MODES, Near, Part, triangles_near};
+use traction::{Loaded, MODES, Near, Part, triangles_near};
 pub use traction::{RIM_COMPLIANCE, Spot};
 
 /// Near triangles that are known to a facet at most.
@@ -190,17 +190,17 @@ impl<T: Precision> Slit<T> {
 
     /// Makes the smooth rows of a facet; the reach of its closed forms [m].
     fn work(&mut self, body: &CutBody<'_, T>, facet: &mut Facet) -> f64 {
-        let pair = (body.surface, body.response);
+        let (surface, response) = (body.surface, body.response);
         let start = self.facets.len() * SMOOTH * self.width;
         let rows = &mut self.rows[start..][..SMOOTH * self.width];
         let [outer, inner] = &mut self.gradients;
-        outer.prepare(pair, (facet.outer, &facet.middle), facet);
+        outer.prepare(surface, response, facet.outer, &facet.middle, facet);
         facet.bend(outer);
         inner.parts.clear();
         let (of_outer, of_inner) = facet.of_faces(facet.curvature);
         let (one, rest) = rows.split_at_mut(self.width);
         let (two, three) = rest.split_at_mut(self.width);
-        outer.stress(body.response, one, two);
+        outer.stress(response, one, two);
         let Some(below) = facet.inner else {
             three.fill(T::of(0.0));
             let [a, b, _] = of_outer.map(T::of);
@@ -209,9 +209,9 @@ impl<T: Precision> Slit<T> {
             return facet.reach(outer.reach);
         };
         let under = facet.middle - facet.frame.column(2) * facet.depth();
-        inner.prepare(pair, (below, &under), facet);
+        inner.prepare(surface, response, below, &under, facet);
         let [across, along] = &mut self.scratch;
-        inner.stress(body.response, across, along);
+        inner.stress(response, across, along);
         let (o, i) = (of_outer.map(T::of), of_inner.map(T::of));
         for ((one, three), &inner) in one.iter_mut().zip(three).zip(across.iter()) {
             let outer = *one;
@@ -227,8 +227,8 @@ impl<T: Precision> Slit<T> {
     /// Lists what is near.
     fn put_near(&mut self, body: &CutBody<'_, T>, facet: &Facet, reach: f64) -> [usize; 2] {
         let (mesh, start) = (body.surface.mesh(), self.near.len());
-        let how_far = (reach, self.gradients[0].size);
-        triangles_near(body.surface, facet, how_far, &mut self.found);
+        let size = self.gradients[0].size;
+        triangles_near(body.surface, facet, reach, size, &mut self.found);
         for &triangle in &self.found {
             if body.response.holds(triangle) {
                 continue;
@@ -236,12 +236,20 @@ impl<T: Precision> Slit<T> {
             let centroid = mesh.positions(triangle).iter().sum::<Vec3>() / 3.0;
             let outward = mesh.area_vector(triangle);
             let area = outward.norm();
-            let of = (&centroid, &(outward / area), area);
-            let about = (self.poissons_ratio, &self.curvature, reach);
+            let loaded = Loaded {
+                place: centroid,
+                normal: outward / area,
+                area,
+            };
+            let medium = Medium {
+                nu: self.poissons_ratio,
+                tube: &self.curvature,
+            };
             let known = &self.smooth(self.facets.len())[3 * triangle.index()..][..3];
             let known = Vec3::from_fn(|axis, _| known[axis].into());
-            let parts = (&self.parts[..], &known);
-            if let Some([more, resolved]) = facet.of_triangle(about, of, parts) {
+            if let Some([more, resolved]) =
+                facet.of_triangle(medium, reach, &loaded, &self.parts, &known)
+            {
                 self.near.push(Near {
                     triangle,
                     more,
@@ -256,8 +264,12 @@ impl<T: Precision> Slit<T> {
     /// Eliminates the rows of H of a facet; what is left, and what its diagonal is raised by at free ends.
     fn put_matrix(&mut self, facet: &Facet) -> (Block, [[f64; MODES]; 2]) {
         let columns = self.h.new_columns();
+        let medium = Medium {
+            nu: self.poissons_ratio,
+            tube: &self.curvature,
+        };
         for cut in &self.facets {
-            let block = kernel::coupling((self.poissons_ratio, &self.curvature), facet, &cut.facet);
+            let block = kernel::coupling(medium, facet, &cut.facet);
             for (column, values) in columns[cut.facet.rows()]
                 .iter_mut()
                 .zip(block.column_iter())
@@ -265,7 +277,7 @@ impl<T: Precision> Slit<T> {
                 column.copy_from_slice(values.as_slice());
             }
         }
-        let (block, ends) = kernel::own(self.poissons_ratio, &self.curvature, facet);
+        let (block, ends) = kernel::own(medium, facet);
         for (column, values) in columns[facet.rows()].iter_mut().zip(block.column_iter()) {
             column.copy_from_slice(values.as_slice());
         }

@@ -10,7 +10,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use nalgebra::{Matrix2x3, Matrix3, Vector2};
 use palpate_geometry::{Surface, TriangleId};
 
-use super::curvature::Curvature;
+use super::curvature::Medium;
 use super::facet::{CrackGeometry, Facet};
 use super::gradient::{Gradient, around};
 use super::kernel::{FULLNESS, PROFILE, ROWS};
@@ -59,6 +59,17 @@ pub(super) struct Near {
     pub(super) more: [[f32; 3]; MODES],
     /// Bᵀ Ξ_A.
     pub(super) resolved: [[f32; 3]; MODES],
+}
+
+/// A triangle that bears a force.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Loaded {
+    /// Its centroid [m].
+    pub(super) place: Vec3,
+    /// Outward unit normal [-].
+    pub(super) normal: Vec3,
+    /// Its area [m²].
+    pub(super) area: f64,
 }
 
 /// Places in a disc that stand for it, in parts of its radius, with their weights.
@@ -121,12 +132,8 @@ impl Facet {
     }
 
     /// A: mode by mode, of a unit force along each axis of the facet, at a place along the surface.
-    fn closed(
-        &self,
-        (nu, tube): (f64, &Curvature),
-        ([x, y], face): ([f64; 2], f64),
-        soft: f64,
-    ) -> [Vec3; MODES] {
+    fn closed(&self, medium: Medium<'_>, [x, y]: [f64; 2], face: f64, soft: f64) -> [Vec3; MODES] {
+        let Medium { nu, tube } = medium;
         let mut rows = [Vec3::zeros(); MODES];
         match self.under {
             CrackGeometry::Solid { depth } => {
@@ -144,10 +151,10 @@ impl Facet {
             }
             CrackGeometry::Wall { thickness, .. } => {
                 let plate = Plate { nu, thickness };
-                let bent = (self.curvature, thickness);
                 for along in [-0.375, -0.125, 0.125, 0.375].map(|part| part * self.length - y) {
                     let [mut n, s, m, mut v] = plate.resultants([-x, along], face, soft);
-                    let [of_n, of_v, of_across] = tube.of_force(bent, [-x, along], face);
+                    let [of_n, of_v, of_across] =
+                        tube.of_force(self.curvature, thickness, [-x, along], face);
                     n.z += of_n;
                     v += Vec3::new(of_across, 0.0, of_v);
                     for (row, found) in rows.iter_mut().zip([n, s, m, v, v]) {
@@ -162,11 +169,12 @@ impl Facet {
     /// φ and φ A of a spot, along the axes of space.
     pub(super) fn point_influence(
         &self,
-        (nu, tube, reach): (f64, &Curvature, f64),
+        medium: Medium<'_>,
+        reach: f64,
         spot: &Spot,
     ) -> Option<(f64, [Vec3; MODES])> {
         let seen = self.sees(reach, &spot.place, &spot.normal)?;
-        let (about, [x, y]) = ((nu, tube), seen.at);
+        let [x, y] = seen.at;
         let soft = (OF_SPOT * spot.radius).powi(2);
         let beside = (x / spot.radius).abs().min(1.0);
         let mut rows = [Vec3::zeros(); MODES];
@@ -178,7 +186,7 @@ impl Facet {
             let x = x + aside.copysign(x);
             for ([p, q], weight) in DISC {
                 let place = [x + p * spot.radius, y + q * spot.radius];
-                let found = self.closed(about, (place, seen.face), soft);
+                let found = self.closed(medium, place, seen.face, soft);
                 for (row, found) in rows.iter_mut().zip(found) {
                     *row += found * (weight * seen.fade);
                 }
@@ -200,7 +208,7 @@ impl Facet {
             let sides = [across, along, across, outward, outward];
             for ([p, q], weight) in DISC {
                 let place = [x + p * narrow, y + q * spot.radius];
-                let found = self.closed(about, (place, seen.face), soft);
+                let found = self.closed(medium, place, seen.face, soft);
                 for (mode, row) in rows.iter_mut().enumerate() {
                     let fade = if mode < 3 { seen.fade } else { far };
                     *row += found[mode].component_mul(&sides[mode]) * (weight * fade);
@@ -239,25 +247,28 @@ impl Facet {
     /// φ (A − Bᵀ Ξ_A) and Bᵀ Ξ_A of a triangle.
     pub(super) fn of_triangle(
         &self,
-        (nu, tube, reach): (f64, &Curvature, f64),
-        (place, normal, area): (&Vec3, &Vec3, f64),
-        (parts, known): (&[Part], &Vec3),
+        medium: Medium<'_>,
+        reach: f64,
+        triangle: &Loaded,
+        parts: &[Part],
+        known: &Vec3,
     ) -> Option<[[[f32; 3]; MODES]; 2]> {
-        let seen = self.sees(reach, place, normal)?;
+        let seen = self.sees(reach, &triangle.place, &triangle.normal)?;
+        let area = triangle.area;
         let spread = match self.under {
             CrackGeometry::Solid { .. } => 0.0,
             CrackGeometry::Wall { thickness, .. } => SOFT * thickness * thickness,
         };
         let soft = 0.25 * area + spread;
         let closed = if seen.fade > 0.0 {
-            self.closed((nu, tube), (seen.at, seen.face), soft)
+            self.closed(medium, seen.at, seen.face, soft)
         } else {
             [Vec3::zeros(); MODES]
         };
         let mut resolved = [Vec3::zeros(); MODES];
         for part in parts {
             let away = [part.at[0] - seen.at[0], part.at[1] - seen.at[1]];
-            let moved = self.moved(nu, away, (part.face, seen.face), area);
+            let moved = self.moved(medium.nu, away, [part.face, seen.face], area);
             for (resolved, work) in resolved.iter_mut().zip(&part.work) {
                 *resolved += moved.tr_mul(work);
             }
@@ -277,7 +288,7 @@ impl Facet {
     }
 
     /// Ξ_A: displacement of a triangle from a force on another, `away` from it along the surface.
-    fn moved(&self, nu: f64, away: [f64; 2], faces: (f64, f64), area: f64) -> Matrix2x3<f64> {
+    fn moved(&self, nu: f64, away: [f64; 2], faces: [f64; 2], area: f64) -> Matrix2x3<f64> {
         let flat = away[0] * away[0] + away[1] * away[1];
         // The mean of 1/r over a disc of the triangle's area is that at 0.59 of its radius.
         let soft = if flat < 1e-3 * area { 0.11 * area } else { 0.0 };
@@ -285,7 +296,7 @@ impl Facet {
             CrackGeometry::Solid { .. } => near::displacement(nu, away, soft),
             CrackGeometry::Wall { thickness, .. } => {
                 let plate = Plate { nu, thickness };
-                plate.displacement(away, [faces.0, faces.1], soft + 1e-3 * area)
+                plate.displacement(away, faces, soft + 1e-3 * area)
             }
         }
     }
@@ -351,10 +362,11 @@ fn between(from: &Vec3, to: &Vec3) -> Matrix3<f64> {
 pub(super) fn triangles_near(
     surface: &Surface,
     facet: &Facet,
-    (reach, size): (f64, f64),
+    reach: f64,
+    size: f64,
     found: &mut Vec<TriangleId>,
 ) {
     let outward = facet.frame.column(2).into_owned();
     let far = 2.0 * reach + OF_LOADS * size;
-    around(surface, (facet.outer, &facet.middle), &outward, far, found);
+    around(surface, facet.outer, &facet.middle, &outward, far, found);
 }

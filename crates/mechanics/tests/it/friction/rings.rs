@@ -38,7 +38,7 @@ impl Rings {
         let middle = |i: usize| 0.5 * (edges[i] + edges[i + 1]);
         let ring = |field: fn(f64, f64) -> f64| {
             DMatrix::from_fn(count, count, |i, j| {
-                (1.0 - nu) * integral(field, middle(i), (edges[j], edges[j + 1]))
+                (1.0 - nu) * integral(field, middle(i), edges[j], edges[j + 1])
             })
         };
         let coupling = 0.5 * (1.0 - 2.0 * nu);
@@ -128,7 +128,7 @@ impl Rings {
         let (p, _) = self.tractions(mu, stuck);
         let outside = |x: f64| -> f64 {
             let ring =
-                |j: usize| integral(normal_kernel, 1.0 / x, (self.edges[j], self.edges[j + 1]));
+                |j: usize| integral(normal_kernel, 1.0 / x, self.edges[j], self.edges[j + 1]);
             (1.0 - self.nu) * (0..count).map(|j| p[j] * ring(j)).sum::<f64>()
         };
         let steps = 200;
@@ -156,7 +156,7 @@ fn radial_kernel(r: f64, s: f64) -> f64 {
 }
 
 /// ∫ kernel s ds over a ring, with the points of Gauss drawn to the end where it is infinite as a logarithm.
-fn integral(kernel: fn(f64, f64) -> f64, r: f64, (low, high): (f64, f64)) -> f64 {
+fn integral(kernel: fn(f64, f64) -> f64, r: f64, low: f64, high: f64) -> f64 {
     const GAUSS: [(f64, f64); 5] = [
         (0.1488743389816312, 0.2955242247147529),
         (0.4333953941292472, 0.2692667193099963),
@@ -165,7 +165,7 @@ fn integral(kernel: fn(f64, f64) -> f64, r: f64, (low, high): (f64, f64)) -> f64
         (0.9739065285171717, 0.0666713443086881),
     ];
     if low < r && r < high {
-        return integral(kernel, r, (low, r)) + integral(kernel, r, (r, high));
+        return integral(kernel, r, low, r) + integral(kernel, r, r, high);
     }
     let length = high - low;
     let both = GAUSS.iter().flat_map(|&(x, w)| [(x, w), (-x, w)]);

@@ -111,12 +111,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         triangles: arguments.triangles,
         keep_inner: arguments.keep_inner,
     };
-    let input = (arguments.file.as_path(), arguments.unit.as_deref());
     let Envelope {
         wrapped,
         triangles_before,
         warnings,
-    } = envelope(input, &settings, &progress)?;
+    } = envelope(
+        &arguments.file,
+        arguments.unit.as_deref(),
+        &settings,
+        &progress,
+    )?;
     let more = (2..=wrapped.inner.len()).map(inner_path);
     let _more_claims = arguments.overwrite.claim(more)?;
     let mut inner_surfaces = Vec::new();
@@ -157,7 +161,8 @@ struct Envelope {
 
 /// Of the file at a path, in the unit that is given or its own.
 fn envelope(
-    (path, unit): (&Path, Option<&str>),
+    path: &Path,
+    unit: Option<&str>,
     settings: &WrapSettings,
     progress: &Progress,
 ) -> Result<Envelope, Failure> {
@@ -210,7 +215,7 @@ pub(crate) fn wrap_into(out: &Path, path: &Path, reader: Reader) -> Result<Vec<S
     let output = Output::new(out, LengthUnit::Metre)?;
     let _claims = Claim::of_files([out], Overwrite::Refused)?;
     let progress = Progress::of_job(reader);
-    let found = envelope((path, None), &WrapSettings::default(), &progress)?;
+    let found = envelope(path, None, &WrapSettings::default(), &progress)?;
     output.write(found.wrapped.surface.mesh())?;
     Ok(found.warnings)
 }

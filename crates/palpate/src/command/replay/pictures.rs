@@ -34,7 +34,8 @@ impl Pictures {
         folder: &Path,
         count: u64,
         overwrite: Overwrite,
-        (scene, simulation): (&Scene, &Simulation),
+        scene: &Scene,
+        simulation: &Simulation,
         steps: usize,
     ) -> Result<Self, Failure> {
         let claim = Claim::of_folder(folder, overwrite)?;
@@ -58,7 +59,8 @@ impl Pictures {
         file: &Path,
         speed: f64,
         overwrite: Overwrite,
-        (scene, simulation): (&Scene, &Simulation),
+        scene: &Scene,
+        simulation: &Simulation,
         replay: &Replay,
     ) -> Result<Self, Failure> {
         let claims = Claim::of_files([file], overwrite)?;

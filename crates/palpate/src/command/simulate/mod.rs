@@ -273,7 +273,7 @@ fn touch(arguments: &Arguments) -> Result<(), Failure> {
     if let Start::Scene(scene) = &start {
         SceneDevices::check(scene, &resources.devices)?;
     }
-    match window::open((start, Some(training::training()?)), resources) {
+    match window::open(start, Some(training::training()?), resources) {
         Err(why) if window::is_absent(&why) => Err(Failure::failed(format!(
             "{why}; --headless plays a motion without a window"
         ))),

@@ -79,7 +79,7 @@ impl Repeated {
         } = self.recording;
         // In the recording's own time.
         let time: Vec<f64> = time.iter().map(|t| t + handling.contact.time_s).collect();
-        let motion = site.indented(tool, (&time, &depth))?;
+        let motion = site.indented(tool, &time, &depth)?;
         let recorded = [time, depth, filtered_force];
         Ok((motion, Beside::new(self.file, recorded, site, warnings)))
     }

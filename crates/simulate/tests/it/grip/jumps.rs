@@ -13,9 +13,11 @@ use crate::scenes::{Setting, YOUNGS_MODULUS, nearest, played};
 /// rests beside them, if it is there.
 fn pulled(
     simulation: &Simulation,
-    (jaws_at, upright): (Vec3, UnitQuaternion<f64>),
+    jaws_at: Vec3,
+    upright: UnitQuaternion<f64>,
     tip_at: Option<Vec3>,
-    (way, far): (Vec3, f64),
+    way: Vec3,
+    far: f64,
 ) -> [f64; 2] {
     let mut hands = Hands::new(simulation);
     let tip = tip_at.and_then(|at| pose(&at, &upright, 0.0));
@@ -64,9 +66,9 @@ fn a_tip_beside_jaws_that_go_far_is_bounded() {
                 let tip = second - outward * 1e-3;
                 for way in [Vec3::x(), Vec3::z(), -Vec3::z()] {
                     let far = 3.0;
-                    let alone = pulled(&simulation, (place, upright), None, (way, far))[0];
+                    let alone = pulled(&simulation, place, upright, None, way, far)[0];
                     let [jaws, beside_jaws] =
-                        pulled(&simulation, (place, upright), Some(tip), (way, far));
+                        pulled(&simulation, place, upright, Some(tip), way, far);
                     let (radius, depth) = (setting.radius, far + setting.radius);
                     let modulus = YOUNGS_MODULUS / (1.0 - 0.45_f64.powi(2));
                     // Hertz, which is stiffer than a flat tip there.

@@ -71,10 +71,10 @@ impl<'a> Hands<'a> {
 
     pub(crate) fn go(&mut self, poses: &[Option<Pose>]) {
         let elapsed = self.simulation.step();
-        let moment = (self.time, elapsed);
         step(
             self.simulation,
-            moment,
+            self.time,
+            elapsed,
             poses,
             &mut self.state,
             &mut self.workspace,

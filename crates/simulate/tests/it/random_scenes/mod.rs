@@ -94,13 +94,13 @@ fn prepared(number: u64, responses: &Path) -> Option<(Scene, Simulation)> {
 }
 
 /// The text of the motion of a number.
-fn motion_text(number: u64, (scene, simulation): (&Scene, &Simulation)) -> String {
+fn motion_text(number: u64, scene: &Scene, simulation: &Simulation) -> String {
     motion_text::motion_text(&mut random(!number), scene, simulation)
 }
 
 /// Plays the motion of a number on its scene.
-fn played(number: u64, (scene, simulation): (&Scene, &Simulation)) -> Played {
-    let text = motion_text(number, (scene, simulation));
+fn played(number: u64, scene: &Scene, simulation: &Simulation) -> Played {
+    let text = motion_text(number, scene, simulation);
     let motion = Motion::parse(&text, "random.csv")
         .unwrap_or_else(|error| panic!("motion {number} is not legal: {error}\n{text}"));
     let check = Check::new(number, scene, simulation, &motion);
@@ -250,7 +250,7 @@ fn scenes(numbers: impl Iterator<Item = u64>) {
                 last = Some((number / MOTIONS, prepared(number, responses.path())));
             }
             let scene = last.as_ref().and_then(|(_, scene)| scene.as_ref());
-            let played = scene.map(|(scene, simulation)| played(number, (scene, simulation)));
+            let played = scene.map(|(scene, simulation)| played(number, scene, simulation));
             tell.send(played).unwrap();
         }
     });
@@ -373,9 +373,8 @@ fn one() {
     println!("{}", scene_text(number));
     let folder = tempfile::tempdir().unwrap();
     let (scene, simulation) = prepared(number, folder.path()).expect("it is refused");
-    let scene = (&scene, &simulation);
-    println!("{}", motion_text(number, scene));
-    let played = played(number, scene);
+    println!("{}", motion_text(number, &scene, &simulation));
+    let played = played(number, &scene, &simulation);
     println!("{:#?} {:?}", played.summary, played.events);
 }
 
@@ -390,9 +389,14 @@ fn a_number_is_a_scene_and_a_motion() {
         let Some((scene, simulation)) = prepared(number, folder.path()) else {
             continue;
         };
-        let scene = (&scene, &simulation);
-        assert_ne!(motion_text(number, scene), motion_text(number + 1, scene));
-        let peak = || played(number, scene).summary.peak_force.to_bits();
+        let text = |number| motion_text(number, &scene, &simulation);
+        assert_ne!(text(number), text(number + 1));
+        let peak = || {
+            played(number, &scene, &simulation)
+                .summary
+                .peak_force
+                .to_bits()
+        };
         assert_eq!(peak(), peak());
         count += 1;
         if count == 2 {

@@ -85,7 +85,7 @@ impl Hand<'_> {
             } else {
                 self.cut
             };
-            self.write(random, (&at, &normal), text);
+            self.write(random, &at, &normal, text);
             // Slowly, as a hand does, or within a step.
             self.time += match random.below(8) {
                 0 => 0.5 * step,
@@ -97,7 +97,7 @@ impl Hand<'_> {
         }
     }
 
-    fn write(&self, random: &mut Random, (at, normal): (&Vec3, &Vec3), text: &mut String) {
+    fn write(&self, random: &mut Random, at: &Vec3, normal: &Vec3, text: &mut String) {
         write!(
             text,
             "{:?},{},{:?},{:?},{:?}",

@@ -127,9 +127,9 @@ pub(super) struct Part {
 }
 
 impl ToolPicture {
-    /// `tool` at `position` [m], turned by the quaternion (x, y, z, w), with a shaft up to its trocar and a
+    /// `tool` at `position` [m], turned by the quaternion `orientation` (x, y, z, w), with a shaft up to its trocar and a
     /// little beyond. Its jaws are open.
-    pub fn new(tool: &scene::Tool, (position, orientation): ([f64; 3], [f64; 4])) -> Self {
+    pub fn new(tool: &scene::Tool, position: [f64; 3], orientation: [f64; 4]) -> Self {
         let [x, y, z, w] = orientation;
         let at = Vec3::from(position);
         let trocar = tool.trocar_m.map(Vec3::from);

@@ -61,7 +61,7 @@ fn jaws_open_as_far_as_they_say() {
     for kind in [ToolKind::Grasper, ToolKind::Scissors] {
         let tool = tool(kind);
         let apart = |grip: f64| {
-            let picture = ToolPicture::new(&tool, ([0.0; 3], [0.0, 0.0, 0.0, 1.0])).gripping(grip);
+            let picture = ToolPicture::new(&tool, [0.0; 3], [0.0, 0.0, 0.0, 1.0]).gripping(grip);
             let ends: Vec<Vec3> = picture
                 .shape
                 .parts()
@@ -105,7 +105,7 @@ fn shut_jaws_touch() {
 #[test]
 fn a_way_through_the_trocar_makes_nothing_anew() {
     let tool = tool(ToolKind::Scissors);
-    let at = |z: f64| ToolPicture::new(&tool, ([0.0, 0.0, z], [0.0, 0.0, 0.0, 1.0]));
+    let at = |z: f64| ToolPicture::new(&tool, [0.0, 0.0, z], [0.0, 0.0, 0.0, 1.0]);
     assert_eq!(at(0.0).shape, at(0.03).shape);
     assert_ne!(at(0.0), at(0.03));
 }

@@ -30,7 +30,7 @@ pub(super) fn figures(own: &[&Own]) -> Markup {
     ];
     let over_frequency = answers
         .into_iter()
-        .map(|answer| over_frequency(own, answer));
+        .map(|(name, label, of)| over_frequency(own, name, label, of));
     loops(own)
         .and(over_frequency.collect::<Markup>())
         .and(coherence(own))
@@ -100,7 +100,7 @@ fn chirps<'a>(own: &'a [&'a Own]) -> impl Iterator<Item = (&'a ReadRecording, &'
 }
 
 /// Sines as dots, chirps as lines where they are coherent.
-fn over_frequency(own: &[&Own], (name, label, of): (&str, &str, Of)) -> Markup {
+fn over_frequency(own: &[&Own], name: &str, label: &str, of: Of) -> Markup {
     let dots: Vec<_> = sines(own)
         .map(|(_, sine)| (sine.frequency_hz, (of.sine)(sine)))
         .collect();
