@@ -7,6 +7,7 @@
 //! | [`analyze`] | recordings | what they show without a model |
 //! | [`characterize`] | recordings | the tissue behind them, specimen by specimen |
 //! | [`measure`] | a protocol | recordings by the rig |
+//! | [`mod@envelope`] | triangles of any kind | a closed surface around them |
 //! | [`preparation`] | a scene | a simulation, from what was prepared before where there is such |
 //! | [`mod@validate`] | a file | what it is, and whether it is right |
 //!
@@ -20,6 +21,7 @@ pub mod analyze;
 pub mod characterize;
 pub mod design;
 pub mod documents;
+pub mod envelope;
 mod error;
 pub mod label;
 mod lossy;

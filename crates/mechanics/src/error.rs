@@ -149,7 +149,7 @@ pub enum Error {
     },
     /// The solution cannot be followed further.
     #[error(
-        "no equilibrium was found beyond a depth of {depth} m ({failure}); use a finer mesh or a smaller depth"
+        "no equilibrium was found beyond a depth of {:.4} mm ({failure}); give smaller depths", 1e3 * depth
     )]
     NoEquilibrium {
         /// The last depth that was reached [m].

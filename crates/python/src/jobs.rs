@@ -106,35 +106,44 @@ pub(crate) fn _analyze(
 /// What a characterization comes with: the answer, tissues, and what was fitted of each specimen.
 type Fitted<'py> = (String, Vec<FoundTissue>, Vec<Vec<Bound<'py, PyDict>>>);
 
-/// A law's name, and its order if it was given.
-type NamedLaw = (String, Option<usize>);
+/// How `palpate characterize` fits, as a dictionary.
+#[derive(Debug, FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct FitSettings {
+    law: Option<String>,
+    order: Option<usize>,
+    terms: Option<usize>,
+    draws: usize,
+    seed: u64,
+    in_loop: bool,
+    closed_forms: bool,
+}
 
 /// `palpate characterize`: the answer, the tissue of each specimen or why there is none, and what was fitted.
 #[pyfunction]
-#[pyo3(signature = (recordings, choice, study=None, progress=None))]
+#[pyo3(signature = (recordings, settings, study=None, overwrite=false, progress=None))]
 pub(crate) fn _characterize<'py>(
     py: Python<'py>,
     recordings: &str,
-    choice: (Option<NamedLaw>, Option<usize>, usize, u64, [bool; 2]),
-    study: Option<(PathBuf, bool)>,
+    settings: FitSettings,
+    study: Option<PathBuf>,
+    overwrite: bool,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Fitted<'py>> {
     let recordings = asked(recordings)?;
-    let (law, terms, draws, seed, [in_loop, closed_forms]) = choice;
     let (answer, tissues, fits) = waiting(py, progress, move |told| {
         let choice = Choice {
-            law: law
-                .map(|(name, order)| Choice::law_named(&name, order))
+            law: settings
+                .law
+                .map(|name| Choice::law_named(&name, settings.order))
                 .transpose()?,
-            terms,
-            draws,
-            seed,
-            in_loop,
-            closed_forms,
+            terms: settings.terms,
+            draws: settings.draws,
+            seed: settings.seed,
+            in_loop: settings.in_loop,
+            closed_forms: settings.closed_forms,
         };
-        let open = |(path, overwrite): (PathBuf, bool)| {
-            StudyFolder::open(&path, Overwrite::of_option(overwrite))
-        };
+        let open = |path: PathBuf| StudyFolder::open(&path, Overwrite::of_option(overwrite));
         let folder = study.map(open).transpose()?;
         let found =
             palpate_jobs::characterize::characterize(&recordings, choice, folder.as_ref(), told)?;
@@ -165,11 +174,12 @@ pub(crate) fn _specimens(recordings: &str) -> PyResult<(Vec<NamedSpecimen>, Vec<
 
 /// `palpate measure --headless` into a folder or file, whose recordings may be lost or not.
 #[pyfunction]
-#[pyo3(signature = (protocol, out, seed, progress=None))]
+#[pyo3(signature = (protocol, out, overwrite, seed, progress=None))]
 pub(crate) fn _measure(
     py: Python<'_>,
     protocol: Option<Given>,
-    out: (PathBuf, bool),
+    out: PathBuf,
+    overwrite: bool,
     seed: u64,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
@@ -181,8 +191,8 @@ pub(crate) fn _measure(
         };
         let measuring = Measuring::of(Plan::of(protocol, seed)?, told)?;
         let out = Out {
-            path: &out.0,
-            overwrite: Overwrite::of_option(out.1),
+            path: &out,
+            overwrite: Overwrite::of_option(overwrite),
         };
         let files = palpate_jobs::measure::files(&measuring, out)?;
         let recorded = measuring.run(&files, told)?;

@@ -5,14 +5,16 @@ use std::path::PathBuf;
 use numpy::{PyArray1, PyArray2};
 use palpate_files::write_whole;
 use palpate_geometry::{
-    AabbTree, LengthUnit, MeshReport, NodeId, ReadError, ReadFault, SimplifySettings, Surface,
-    TriangleMesh, WriteFormat, inspect, read_mesh, repair, simplify,
+    AabbTree, Gaps, LengthUnit, MeshReport, NodeId, ReadError, ReadFault, SimplifySettings,
+    Surface, TriangleMesh, WrapSettings, WriteFormat, inspect, read_mesh, repair, simplify,
 };
+use palpate_jobs::envelope::envelope;
 use palpate_jobs::{builtin_organ, json_text};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 
 use crate::failure::Failure;
+use crate::waiting::waiting;
 use crate::{documents, numbers, written};
 
 /// Triangles over shared vertices.
@@ -206,6 +208,50 @@ impl Mesh {
         })?;
         let warnings = simplified.warning().into_iter().collect();
         Ok(Self::with_warnings(simplified.mesh, warnings))
+    }
+
+    /// A closed surface around these triangles, which may have holes, pieces, double walls and self-intersections.
+    ///
+    /// Parameters
+    /// ----------
+    /// distance : float, optional
+    ///     Largest distance of the surface from the triangles [m], by default 0.0005.
+    /// close_gaps : float, optional
+    ///     Width of gaps to close [m]; by default 2 mm where the body is open or in pieces without, else none.
+    /// triangles : int, optional
+    ///     How many the surface has at most, by default 100,000.
+    /// progress : callable, False or None
+    ///     Hears (part, words); False for silence, None for a bar.
+    ///
+    /// Returns
+    /// -------
+    /// Mesh
+    ///     Closed, oriented outward and without self-intersections. Its ``warnings`` say where it is farther from the
+    ///     triangles than ``distance``, and what was closed or left out.
+    #[pyo3(signature = (*, distance=None, close_gaps=None, triangles=None, progress=None))]
+    fn wrap(
+        &self,
+        py: Python<'_>,
+        distance: Option<f64>,
+        close_gaps: Option<f64>,
+        triangles: Option<usize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Self> {
+        let usual = WrapSettings::default();
+        let settings = WrapSettings {
+            distance: distance.unwrap_or(usual.distance),
+            gaps: close_gaps.map_or(usual.gaps, Gaps::Close),
+            triangles: triangles.unwrap_or(usual.triangles),
+            ..usual
+        };
+        let mesh = self.mesh.clone();
+        let found = waiting(py, progress, move |told| {
+            Ok(envelope(&mesh, &settings, told)?)
+        })?;
+        Ok(Self::with_warnings(
+            found.wrapped.surface.mesh().clone(),
+            found.warnings,
+        ))
     }
 
     /// Writes it in metres, whole or not at all: .stl, .obj, .ply or .vtp. A file that exists is replaced with

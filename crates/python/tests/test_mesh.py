@@ -166,3 +166,19 @@ def test_labels_become_surfaces(tmp_path: Path) -> None:
         palpate.isosurface(path, ["livr"])
     with pytest.raises(palpate.InputError, match="there is no such file"):
         palpate.isosurface(tmp_path / "absent.nii.gz")
+
+
+def test_wrapping_closes_what_is_open_and_crossed() -> None:
+    """Judges: the whole liver's volume, and what is reported of the envelope."""
+    liver = palpate.Mesh.builtin("liver", 2000)
+    faces = np.concatenate([liver.triangles[60:], liver.triangles[:900]])
+    torn = palpate.Mesh(liver.vertices, faces)
+    assert not torn.is_closed
+    heard: list[tuple[float, str]] = []
+    wrapped = torn.wrap(distance=0.002, triangles=6000, progress=lambda part, words: heard.append((part, words)))
+    assert wrapped.is_closed and wrapped.problems == [] and len(wrapped) <= 6000
+    # The distance times the area, over the volume.
+    assert wrapped.volume == pytest.approx(liver.volume, rel=0.002 * liver.area / liver.volume)
+    assert heard[-1][0] == 1.0
+    with pytest.raises(palpate.InputError):
+        torn.wrap(distance=-1.0)

@@ -178,11 +178,19 @@ def characterize(
         ``time``, ``depth``, ``force``: columns of tables of other programs; ``depth_unit``, ``force_unit``;
         ``known``: what the files do not say, such as ``{"indenter_radius_m": 0.001}``.
     """
-    folder = None if study is None else (study, overwrite)
     if order is not None and law is None:
         raise InputError("order is given without a law; name ogden or reduced_polynomial")
-    choice = (None if law is None else (law, order), terms, draws, seed, [in_loop, closed_forms])
-    answer, tissues, samples = _palpate._characterize(asked(recordings, **columns), choice, folder, progress)
+    settings = {
+        "law": law,
+        "order": order,
+        "terms": terms,
+        "draws": draws,
+        "seed": seed,
+        "in_loop": in_loop,
+        "closed_forms": closed_forms,
+    }
+    asked_for = asked(recordings, **columns)
+    answer, tissues, samples = _palpate._characterize(asked_for, settings, study, overwrite, progress)
     found = Characterization(json.loads(answer), samples)
     found.tissues = [text for text, _ in tissues]
     found.reasons = [why for _, why in tissues]
@@ -211,7 +219,7 @@ def measure(
         Whether recordings that are there may be lost.
     """
     asked_for = None if protocol is None else given(protocol, "protocol")
-    return Measurement(json.loads(_palpate._measure(asked_for, (Path(out), overwrite), seed, progress)))
+    return Measurement(json.loads(_palpate._measure(asked_for, Path(out), overwrite, seed, progress)))
 
 
 def design(

@@ -1,13 +1,12 @@
 //! `palpate mesh wrap`: a closed surface around triangles that are none.
 
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
 use palpate_files::{Claim, Overwrite};
-use palpate_geometry::{Deviation, Gaps, LengthUnit, WrapSettings, Wrapped, wrap_with_progress};
-use palpate_jobs::{Error, Watch};
+use palpate_geometry::{Deviation, Gaps, LengthUnit, WrapSettings};
+use palpate_jobs::envelope::{Envelope, envelope};
 use serde::Serialize;
 
 use super::written::{Output, Written, beside};
@@ -65,9 +64,6 @@ pub(crate) struct Arguments {
     overwrite: OverwriteOption,
 }
 
-/// A rim is wide above this part of the envelope's diagonal [-].
-const WIDE_RIM: f64 = 0.25;
-
 #[derive(Debug, Serialize)]
 struct Answer {
     palpate: &'static str,
@@ -111,16 +107,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         triangles: arguments.triangles,
         keep_inner: arguments.keep_inner,
     };
-    let Envelope {
-        wrapped,
-        triangles_before,
-        warnings,
-    } = envelope(
-        &arguments.file,
-        arguments.unit.as_deref(),
-        &settings,
-        &progress,
-    )?;
+    let unit = arguments.unit.as_deref();
+    let (found, triangles_before) = envelope_of(&arguments.file, unit, &settings, &progress)?;
+    let Envelope { wrapped, warnings } = found;
     let more = (2..=wrapped.inner.len()).map(inner_path);
     let _more_claims = arguments.overwrite.claim(more)?;
     let mut inner_surfaces = Vec::new();
@@ -152,62 +141,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     output::text(answer.text())
 }
 
-/// The envelope of a file.
-struct Envelope {
-    wrapped: Wrapped,
-    triangles_before: usize,
-    warnings: Vec<String>,
-}
-
-/// Of the file at a path, in the unit that is given or its own.
-fn envelope(
+/// The envelope of the file at a path, in the unit that is given or its own, and the number of triangles in the file.
+fn envelope_of(
     path: &Path,
     unit: Option<&str>,
     settings: &WrapSettings,
     progress: &Progress,
-) -> Result<Envelope, Failure> {
+) -> Result<(Envelope, usize), Failure> {
     progress.say("reading the triangles");
     let imported = super::read(path, unit)?;
-    progress.say("making the envelope");
-    let wrapped = wrap_with_progress(&imported.mesh, settings, &mut |part| {
-        Watch::at(progress, part);
-        ControlFlow::Continue(())
-    });
-    let wrapped = wrapped.map_err(|error| Error::from(error).about(path))?;
-    let mut warnings = imported.warnings;
-    if wrapped.to_input.max > settings.distance {
-        warnings.push(format!(
-            "the envelope is up to {:.2} mm from the triangles, where it closes a gap or rounds an edge; {:.2} mm was \
-             asked for",
-            1e3 * wrapped.to_input.max,
-            1e3 * settings.distance
-        ));
-    }
-    let (low, high) = wrapped.surface.mesh().bounds();
-    if wrapped.widest_rim > WIDE_RIM * (high - low).norm() {
-        warnings.push(format!(
-            "a hole that is {:.1} mm wide was capped by a fan, which knows nothing of the organ's shape there; look at it",
-            1e3 * wrapped.widest_rim
-        ));
-    }
-    if let Some(width) = wrapped.opening {
-        warnings.push(format!(
-            "the body is open: an opening of {:.0} mm was closed where it is narrowest. If the wall around it is the organ, as that of a \
-             tube, ask for a smaller --distance and --close-gaps, of which the wall is several thick",
-            1e3 * width
-        ));
-    }
-    if wrapped.other_pieces > 0 {
-        warnings.push(format!(
-            "{} pieces other than the largest were left out; close wider gaps to join them",
-            wrapped.other_pieces
-        ));
-    }
-    Ok(Envelope {
-        triangles_before: imported.mesh.triangles().len(),
-        wrapped,
-        warnings,
-    })
+    let mut found =
+        envelope(&imported.mesh, settings, progress).map_err(|error| error.about(path))?;
+    found.warnings.splice(0..0, imported.warnings);
+    Ok((found, imported.mesh.triangles().len()))
 }
 
 /// Writes the envelope of the mesh at `path`, with the usual settings, to the file `out`; and warnings.
@@ -215,7 +161,7 @@ pub(crate) fn wrap_into(out: &Path, path: &Path, reader: Reader) -> Result<Vec<S
     let output = Output::new(out, LengthUnit::Metre)?;
     let _claims = Claim::of_files([out], Overwrite::Refused)?;
     let progress = Progress::of_job(reader);
-    let found = envelope(path, None, &WrapSettings::default(), &progress)?;
+    let (found, _) = envelope_of(path, None, &WrapSettings::default(), &progress)?;
     output.write(found.wrapped.surface.mesh())?;
     Ok(found.warnings)
 }
