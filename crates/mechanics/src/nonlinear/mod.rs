@@ -59,4 +59,4 @@ pub use state::NonlinearState;
 pub use state_transfer::StateTransfer;
 pub use step::{Advance, Pace, Workspace, advance};
 pub use touching::TouchingBoundary;
-pub use touching_search::TouchingSearch;
+pub use touching_search::{TouchingPoint, TouchingSearch};

@@ -5,14 +5,16 @@
 //! around each node, quadratic between nodes. Edges that are sharp at rest stay so.
 //!
 //! Of two pieces, the points of the finer one stay out of the other; a piece that touches itself has both sides stay out
-//! of one another.
+//! of one another. Of the sides of a slit, whose faces lie on each other at rest, the points of one stay out of the other.
 //!
 //! The walls of cavities are of the boundary.
 //!
 //! A place does not touch what it is one body with at rest: what lies behind the surface there and nearer than
 //! [`APART`], or nearer than that along the surface. What faces it across a gap it does.
 
-use palpate_geometry::{SHARP_EDGE, TetrahedronMesh, TriangleMesh};
+use std::collections::HashMap;
+
+use palpate_geometry::{NodeId, SHARP_EDGE, TetrahedronMesh, TriangleMesh};
 
 use super::boundary::shape_on_face;
 use super::contact::{AT, NODES};
@@ -28,6 +30,9 @@ const APART: f64 = 2.0;
 
 /// Cosine of the angle between the line of two places and their normals, below which they do not face each other at rest [-].
 const FACES: f64 = 0.5;
+
+/// Cosine of the angle between two sides of a slit at rest, above which they do not touch [-].
+const SIDES: f64 = -0.5;
 
 /// Part of the change of the normals along an edge by which its middle lies beside it [-].
 const BULGE: f64 = 0.125;
@@ -61,11 +66,15 @@ pub struct TouchingBoundary {
     /// At rest, as triangles.
     pub(super) rest: TriangleMesh,
     pub(super) faces: Vec<TouchingFace>,
+    /// The number of each face among all of the body's boundary.
+    numbers: Vec<u32>,
     /// Faces around a node of a face, with the node's number there and what their normals count [-].
     pub(super) around: Vec<(u32, u8, f64)>,
     pub(super) pieces: usize,
     /// μ of each pair of pieces [-]; none where they do not touch.
-    pub(super) friction: Vec<Option<f64>>,
+    friction: Vec<Option<f64>>,
+    /// μ between the sides of slits [-], if they touch.
+    in_slits: Option<f64>,
     /// How deep each point of the boundary may lie in the boundary: as deep as at rest, as a negative distance [m].
     pub(super) allowed: Vec<f64>,
     /// Mean length of its edges [m], of all and of each piece.
@@ -81,10 +90,20 @@ pub(super) struct TouchingFace {
     /// Their places in the list of nodes.
     pub(super) nodes: [u32; NODES],
     pub(super) piece: usize,
+    /// Of a side of a slit.
+    side: Option<Side>,
     /// For each node, which part of `around` is around it.
     pub(super) around: [[u32; 2]; NODES],
     /// Face beyond the edge opposite to each corner, where the edge is smooth.
     pub(super) across: [u32; 3],
+}
+
+/// The sides of a slit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Side {
+    /// Its points stay out of the other.
+    Points,
+    Surface,
 }
 
 /// A triangle of a face at rest.
@@ -96,7 +115,8 @@ struct Part {
 
 impl TouchingBoundary {
     /// That of `model`, whose tetrahedra belong to these `pieces`, which share no nodes. `friction` says of two pieces, or
-    /// of one twice, with what coefficient they touch [-], and none where they do not.
+    /// of one twice, with what coefficient they touch [-], and none where they do not; `in_slits` the same of the sides of
+    /// slits. It has the faces that may touch, and is none where there is no such face.
     ///
     /// # Errors
     /// When there is not one piece for each tetrahedron.
@@ -104,7 +124,8 @@ impl TouchingBoundary {
         model: &NonlinearModel,
         pieces: &[u32],
         friction: impl Fn(usize, usize) -> Option<f64>,
-    ) -> Result<Self, Error> {
+        in_slits: Option<f64>,
+    ) -> Result<Option<Self>, Error> {
         let mesh = model.mesh();
         if pieces.len() != mesh.tetrahedra().len() {
             return Err(Mismatch::WrongLength {
@@ -114,7 +135,24 @@ impl TouchingBoundary {
             }
             .into());
         }
-        let list = faces(mesh);
+        let count = pieces.iter().max().map_or(0, |most| *most as usize + 1);
+        let pairs = (0..count * count).map(|pair| friction(pair % count, pair / count));
+        let friction: Vec<Option<f64>> = pairs.collect();
+        let all = faces(mesh);
+        let piece_of = |face: &Face| pieces[face.tetrahedron] as usize;
+        let sides = match in_slits {
+            Some(_) => sides(mesh, &all, piece_of),
+            None => vec![None; all.len()],
+        };
+        let may_touch = |number: &usize| {
+            let own = piece_of(&all[*number]) * count;
+            sides[*number].is_some() || friction[own..own + count].iter().any(Option::is_some)
+        };
+        let kept: Vec<usize> = (0..all.len()).filter(may_touch).collect();
+        if kept.is_empty() {
+            return Ok(None);
+        }
+        let list: Vec<Face> = kept.iter().map(|number| all[*number]).collect();
         let nodes = nodes(&list);
         let number = |node: usize| nodes.binary_search(&(node as u32)).unwrap_or(0);
         let numbers: Vec<[usize; NODES]> = list.iter().map(|face| face.nodes.map(number)).collect();
@@ -144,7 +182,8 @@ impl TouchingBoundary {
             });
             TouchingFace {
                 nodes: own.map(|node| node as u32),
-                piece: pieces[list[face].tetrahedron] as usize,
+                piece: piece_of(&list[face]),
+                side: sides[kept[face]],
                 around: lists,
                 across: beyond,
             }
@@ -162,7 +201,6 @@ impl TouchingBoundary {
             PART_NODES.map(|part| part.map(|k| palpate_geometry::NodeId(face.nodes[k])))
         });
         let rest = TriangleMesh::new(places, parts.collect()).map_err(|_| Error::NoElements)?;
-        let count = pieces.iter().max().map_or(0, |most| *most as usize + 1);
         let (mut edges, mut each) = (vec![0.0; count], vec![0_u32; count]);
         for (face, own) in list.iter().zip(&faces) {
             let [a, b, c] = face.corners.map(|node| mesh.vertices()[node.index()]);
@@ -173,7 +211,6 @@ impl TouchingBoundary {
         for (sum, number) in edges.iter_mut().zip(each) {
             *sum /= f64::from(number.max(1));
         }
-        let pairs = (0..count * count).map(|pair| friction(pair % count, pair / count));
         let mut boundary = Self {
             edge,
             edges,
@@ -185,8 +222,10 @@ impl TouchingBoundary {
                 })
                 .collect(),
             points: Vec::new(),
-            allowed: vec![0.0; model.boundary_points().len()],
-            friction: pairs.collect(),
+            allowed: vec![0.0; POINTS * list.len()],
+            numbers: kept.iter().map(|number| *number as u32).collect(),
+            friction,
+            in_slits,
             pieces: count,
             nodes,
             bulges,
@@ -194,14 +233,31 @@ impl TouchingBoundary {
             faces,
             around,
         };
-        boundary.points = model
-            .boundary_points()
-            .iter()
-            .enumerate()
-            .map(|(point, own)| (flat[point / POINTS], own.place))
-            .collect();
+        let points = (0..POINTS * list.len()).map(|point| {
+            let own = &model.boundary_points()[boundary.point(point)];
+            (flat[point / POINTS], own.place)
+        });
+        boundary.points = points.collect();
         boundary.find_overlaps(model);
-        Ok(boundary)
+        Ok(Some(boundary))
+    }
+
+    /// Whether one of its points that touches a face does so across a slit.
+    pub(super) fn is_in_slit(&self, point: usize, face: usize) -> bool {
+        self.faces[point / POINTS].side.is_some() && self.faces[face].side.is_some()
+    }
+
+    /// The number of one of its points among those of the model's boundary.
+    pub(super) fn point(&self, own: usize) -> usize {
+        POINTS * self.numbers[own / POINTS] as usize + own % POINTS
+    }
+
+    /// Whether a face of one piece may touch the other.
+    pub(super) fn touches(&self, own: usize, other: usize) -> bool {
+        let in_slits = self.in_slits.filter(|_| own == other);
+        self.friction[own * self.pieces + other]
+            .or(in_slits)
+            .is_some()
     }
 
     /// Where it overlaps at rest it may stay so.
@@ -217,6 +273,12 @@ impl TouchingBoundary {
     /// Whether a point of the boundary may touch a triangle of a face, and with what friction [-].
     pub(super) fn pair(&self, point: usize, part: usize) -> Option<f64> {
         let (own, other) = (&self.faces[point / POINTS], &self.faces[part / PARTS]);
+        let shares = || own.nodes.iter().any(|node| other.nodes.contains(node));
+        if let (Some(side), Some(_)) = (own.side, other.side) {
+            let across = self.points[point].0.dot(&self.parts[part].normal) < SIDES;
+            let meets = own.piece == other.piece && across && side == Side::Points && !shares();
+            return self.in_slits.filter(|_| meets);
+        }
         let friction = self.friction[own.piece * self.pieces + other.piece]?;
         if own.piece != other.piece {
             let [fine, coarse] = [own.piece, other.piece].map(|piece| (self.edges[piece], piece));
@@ -233,13 +295,38 @@ impl TouchingBoundary {
             return Some(friction);
         }
         let facing = normal.dot(&apart).min(-opposite.dot(&apart));
-        let shares = own.nodes.iter().any(|node| other.nodes.contains(node));
-        (facing > FACES * distance && !shares).then_some(friction)
+        (facing > FACES * distance && !shares()).then_some(friction)
     }
 }
 
 /// Points of the boundary on each face.
 pub(super) const POINTS: usize = AT.len();
+
+/// Which faces lie on others of their piece at rest: those of slits.
+fn sides(
+    mesh: &TetrahedronMesh,
+    faces: &[Face],
+    piece_of: impl Fn(&Face) -> usize,
+) -> Vec<Option<Side>> {
+    let key = |corners: &[NodeId; 3]| {
+        let mut places = corners.map(|node| {
+            // Zero has two signs.
+            let place = mesh.vertices()[node.index()].map(|x| (x + 0.0).to_bits());
+            [place.x, place.y, place.z]
+        });
+        places.sort_unstable();
+        places
+    };
+    let mut sides = vec![None; faces.len()];
+    let mut first = HashMap::with_capacity(faces.len());
+    for (number, face) in faces.iter().enumerate() {
+        if let Some(other) = first.insert((piece_of(face), key(&face.corners)), number) {
+            sides[other] = Some(Side::Points);
+            sides[number] = Some(Side::Surface);
+        }
+    }
+    sides
+}
 
 fn flat_normal(mesh: &TetrahedronMesh, face: &Face) -> Vec3 {
     let [a, b, c] = face.corners.map(|node| mesh.vertices()[node.index()]);

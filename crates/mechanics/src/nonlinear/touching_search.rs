@@ -51,6 +51,17 @@ pub struct TouchingSearch {
     until: Vec<f64>,
 }
 
+/// A point of the boundary that may touch another place of it in a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TouchingPoint {
+    /// How far it is from there [m], negative inside.
+    pub gap: f64,
+    /// Whether both are sides of a slit, which lie on each other at rest.
+    pub is_in_slit: bool,
+    /// The contact.
+    pub contact: UnilateralContact,
+}
+
 /// A point of the boundary that is near another place of it.
 pub(super) struct Found {
     pub(super) point: usize,
@@ -84,7 +95,7 @@ impl TouchingSearch {
         }
     }
 
-    /// Visits the contacts of the body in `state` with itself that may be active in a step, each with its gap [m]. Returns how deep
+    /// Visits the contacts of the body in `state` with itself that may be active in a step. Returns how deep
     /// a point lies at most that is too deep to be one [m]: nothing pushes it out.
     ///
     /// # Panics
@@ -94,7 +105,7 @@ impl TouchingSearch {
         boundary: &TouchingBoundary,
         model: &NonlinearModel,
         state: &NonlinearState,
-        mut visit: impl FnMut(f64, UnilateralContact),
+        mut visit: impl FnMut(TouchingPoint),
     ) -> f64 {
         let (near, deepest) = (NEAR * boundary.edge, DEEPEST * boundary.edge);
         let mut lost = 0.0_f64;
@@ -107,19 +118,21 @@ impl TouchingSearch {
                 let against = std::array::from_fn(|k| {
                     (boundary.nodes[face.nodes[k] as usize], found.weights[k])
                 });
-                let own = &model.boundary_points()[found.point];
+                let point = boundary.point(found.point);
+                let own = &model.boundary_points()[point];
                 let moved =
                     own.displacement(&state.displacements) - state.mean_displacement(&against);
-                visit(
+                visit(TouchingPoint {
                     gap,
-                    UnilateralContact {
-                        point: found.point as u32,
+                    is_in_slit: boundary.is_in_slit(found.point, found.face),
+                    contact: UnilateralContact {
+                        point: point as u32,
                         normal: found.normal,
                         offset: gap - found.normal.dot(&moved),
                         friction: found.friction,
                         against: Against::Boundary(against),
                     },
-                );
+                });
             }
         });
         lost
@@ -253,9 +266,8 @@ impl TouchingSearch {
     fn is_near_a_box(&self, boundary: &TouchingBoundary, face: usize, place: &Vec3) -> bool {
         let reach = Vec3::repeat(REACH * boundary.edge);
         let own = boundary.faces[face].piece;
-        let pairs = &boundary.friction[own * boundary.pieces..][..boundary.pieces];
-        self.boxes.iter().zip(pairs).any(|([low, high], pair)| {
-            pair.is_some()
+        self.boxes.iter().enumerate().any(|(other, [low, high])| {
+            boundary.touches(own, other)
                 && (0..3).all(|k| place[k] > low[k] - reach[k] && place[k] < high[k] + reach[k])
         })
     }

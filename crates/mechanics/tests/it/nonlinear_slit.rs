@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use nalgebra::Matrix3;
 use palpate_geometry::{NodeId, SlitPoint, SlitTetrahedra, TetrahedronMesh};
 use palpate_mechanics::nonlinear::{
-    Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace, SpreadLoad, StateTransfer,
-    advance,
+    Against, Conditions, Coupling, MOST_CONTACTS, Moduli, NonlinearModel, NonlinearState, Pace,
+    SpreadLoad, StateTransfer, TouchingBoundary, TouchingSearch, UnilateralContact, advance,
 };
 use palpate_mechanics::{PronySeries, Vec3};
 
@@ -214,4 +214,70 @@ fn what_relaxes_remembers_in_other_elements() {
     println!("{at_once:?} {expected:?} {found:?}");
     assert!((found - expected).norm() < 2e-3 * expected.norm());
     assert!(expected.norm() < 0.97 * at_once.norm());
+}
+
+/// Force of a rigid plane that presses `mesh` across the slit, `depth` [m], from the height of 20 mm along y; the other side is
+/// fixed. The sides of the slit touch or not.
+fn pressed_shut(mesh: &TetrahedronMesh, depth: f64, touch: bool) -> f64 {
+    let moduli = vec![Moduli::mooney_rivlin(E / 6.0, 0.0, 0.4).unwrap(); mesh.tetrahedra().len()];
+    let is_fixed = |_: usize, place: &Vec3| place.y < -0.02 + 1e-9;
+    let model = NonlinearModel::on_boundary(mesh, &moduli, is_fixed).unwrap();
+    let pieces = vec![0; mesh.tetrahedra().len()];
+    let slits = TouchingBoundary::new(&model, &pieces, |_, _| None, touch.then_some(0.0)).unwrap();
+    let mut search = slits.as_ref().map(TouchingSearch::new);
+    let mut state = NonlinearState::at_rest(&model, 0);
+    let mut workspace = model.workspace(0);
+    let (steps, mut force) = (10, 0.0);
+    for step in 1..=steps + 8 {
+        let plane = 0.02 - depth * f64::from(step.min(steps)) / f64::from(steps);
+        let points = model.boundary_points().iter().enumerate();
+        let on_plane =
+            points
+                .filter(|(_, point)| point.place.y > 0.02 - 1e-9)
+                .map(|(number, point)| UnilateralContact {
+                    point: number as u32,
+                    normal: -Vec3::y(),
+                    offset: plane - point.place.y,
+                    friction: 0.0,
+                    against: Against::Still,
+                });
+        let mut contacts: Vec<_> = on_plane.collect();
+        let count = contacts.len();
+        if let (Some(search), Some(slits)) = (&mut search, &slits) {
+            let lost = search.find(slits, &model, &state, |own| contacts.push(own.contact));
+            assert!(lost == 0.0, "{lost}");
+            assert!(
+                step == 1 || contacts.len() > count + 30,
+                "{}",
+                contacts.len()
+            );
+        }
+        assert!(contacts.len() <= MOST_CONTACTS, "{}", contacts.len());
+        let conditions = Conditions {
+            couplings: &[],
+            contacts: &contacts,
+        };
+        let pace = Pace {
+            iterations: if step > steps { 15 } else { 8 },
+            elapsed: 0.0,
+        };
+        assert!(!advance(&model, conditions, pace, &mut state, &mut workspace).was_reset);
+        let forces = contacts[..count].iter();
+        force = forces.map(|own| state.contact_force(own.point)).sum();
+    }
+    force
+}
+
+/// Judge: the block without a slit. The halves are mirror images about the plane of the slit but for their elements, so nothing
+/// slides along it, and a slit that is pressed shut bears what the whole block does: to 0.5 %, which the compliance of the points
+/// and the elements leave.
+#[test]
+fn a_slit_that_is_pressed_shut_is_none() {
+    let whole = block([6, 6, 3]);
+    let slit = slit(&whole, 0.01);
+    let uncut = pressed_shut(&whole, 2e-3, true);
+    let [shut, through] = [true, false].map(|touch| pressed_shut(&slit, 2e-3, touch));
+    println!("uncut {uncut}, shut {shut}, sides that pass through one another {through}");
+    assert!((shut / uncut - 1.0).abs() < 5e-3, "{shut} {uncut}");
+    assert!(through < 0.97 * uncut, "{through} {uncut}");
 }

@@ -4,7 +4,7 @@ use palpate_geometry::{NodeId, TetrahedronMesh};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::nonlinear::{
     Against, Conditions, MOST_CONTACTS, Moduli, NonlinearModel, NonlinearState, Pace,
-    TouchingBoundary, TouchingSearch, UnilateralContact, Workspace, advance,
+    TouchingBoundary, TouchingPoint, TouchingSearch, UnilateralContact, Workspace, advance,
 };
 
 /// c₁₀ [Pa].
@@ -63,7 +63,9 @@ impl Touching {
         let model = NonlinearModel::new(mesh, &moduli, fixed, is_loaded).unwrap();
         let one = pieces.iter().all(|piece| *piece == 0);
         let touch = |a, b| (one || a != b).then_some(friction);
-        let boundary = TouchingBoundary::new(&model, pieces, touch).unwrap();
+        let boundary = TouchingBoundary::new(&model, pieces, touch, None)
+            .unwrap()
+            .unwrap();
         let places = model.nodes().iter().enumerate();
         let upper = places.filter(|(_, place)| place.z > high - 1e-9);
         Self {
@@ -86,7 +88,7 @@ impl Touching {
         }
         self.contacts.clear();
         let mut found = Vec::new();
-        let visit = |gap: f64, contact| found.push((gap, contact));
+        let visit = |own: TouchingPoint| found.push((own.gap, own.contact));
         let lost = self
             .search
             .find(&self.boundary, &self.model, &self.state, visit);

@@ -8,7 +8,8 @@
 
 use palpate_geometry::{AabbTree, Surface, TriangleId, Vec3};
 use palpate_mechanics::nonlinear::{
-    Against, MOST_CONTACTS, NonlinearModel, NonlinearState, TouchingSearch, UnilateralContact,
+    Against, MOST_CONTACTS, NonlinearModel, NonlinearState, TouchingPoint, TouchingSearch,
+    UnilateralContact,
 };
 use palpate_mechanics::{Limit, Reached};
 
@@ -23,6 +24,9 @@ const NEAR: f64 = 0.3e-3;
 
 /// The motion of a step counts up to this [m]: hardly any part of an organ moves farther.
 const MOST_MOTION: f64 = 2e-3;
+
+/// Sides of cuts lie on each other at rest. What a step leaves out of them counts where it is deeper than this in the other side [m].
+const SHUT: f64 = 5e-5;
 
 /// Points deeper in a neighbour at rest are not in contact with it [m].
 const GROWN_IN: f64 = 2e-3;
@@ -99,7 +103,7 @@ struct Known {
 #[derive(Debug)]
 pub(super) struct Candidates {
     known: Vec<Known>,
-    found: Vec<(f64, UnilateralContact)>,
+    found: Vec<TouchingPoint>,
     pub(super) contacts: Vec<UnilateralContact>,
     /// Such points beyond those that a step takes.
     left_out: usize,
@@ -143,8 +147,10 @@ impl Candidates {
         self.found.clear();
         if let (Some(search), Some(boundary)) = (&mut self.touching, &organ.touching) {
             let found = &mut self.found;
-            self.lost = search.find(boundary, &organ.model, state, |gap, contact| {
-                found.push((gap, contact));
+            self.lost = search.find(boundary, &organ.model, state, |own| {
+                if !own.is_in_slit || own.gap < near {
+                    found.push(own);
+                }
             });
         }
         let bodies = neighbours.iter().zip(&skin.overlaps);
@@ -174,32 +180,45 @@ impl Candidates {
                         friction: neighbour.friction,
                         against: Against::Still,
                     };
-                    self.found.push((gap, contact));
+                    self.found.push(TouchingPoint {
+                        gap,
+                        is_in_slit: false,
+                        contact,
+                    });
                 }
             }
         }
         for shaft in motion.shafts.iter().flatten() {
             let found = &mut self.found;
             organ.meet_shaft(shaft, motion.parts, state, |gap, contact| {
-                found.push((gap, contact));
+                found.push(TouchingPoint {
+                    gap,
+                    is_in_slit: false,
+                    contact,
+                });
             });
         }
-        self.left_out = self.found.len().saturating_sub(MOST_CONTACTS);
-        if self.left_out > 0 {
+        self.left_out = 0;
+        if self.found.len() > MOST_CONTACTS {
             self.found
-                .select_nth_unstable_by(MOST_CONTACTS, |a, b| a.0.total_cmp(&b.0));
+                .select_nth_unstable_by(MOST_CONTACTS, |a, b| a.gap.total_cmp(&b.gap));
+            let others = self.found[MOST_CONTACTS..].iter();
+            let counts = |own: &&TouchingPoint| !own.is_in_slit || own.gap < -SHUT;
+            self.left_out = others.filter(counts).count();
             self.found.truncate(MOST_CONTACTS);
         }
         self.contacts.clear();
         self.contacts
-            .extend(self.found.iter().map(|(_, contact)| *contact));
+            .extend(self.found.iter().map(|own| own.contact));
     }
 
-    /// Whether places of the body may touch one another in the step.
-    pub(super) fn touches_itself(&self) -> bool {
-        self.contacts
-            .iter()
-            .any(|own| matches!(own.against, Against::Boundary(_)))
+    /// Whether places of the body may touch one another in the step. The sides of cuts always may: they count while they press.
+    pub(super) fn touches_itself(&self, state: &NonlinearState) -> bool {
+        let mut found = self.found.iter();
+        found.any(|own| {
+            let is_itself = matches!(own.contact.against, Against::Boundary(_));
+            is_itself && (!own.is_in_slit || state.force_between(own.contact.point) > 0.0)
+        })
     }
 
     /// Whether places of the body may touch shafts in the step.

@@ -176,16 +176,14 @@ fn wraps(tool: &Tool, wall: f64) -> bool {
     matches!(tool.tip, Tip::Sphere { radius } if tool.slides() && radius > wall)
 }
 
-/// How the pieces touch one another, and the organ itself with this friction if it does; none where nothing does.
+/// How the pieces touch one another, the sides of cuts each other, and the organ itself with this friction if it does; none where
+/// nothing does.
 pub(super) fn touching(
     on_itself: Option<f64>,
     model: &NonlinearModel,
     merged: &Merged,
     soft: &[SoftBody],
 ) -> Result<Option<TouchingBoundary>, Error> {
-    if soft.is_empty() && on_itself.is_none() {
-        return Ok(None);
-    }
     let own = |piece: usize| {
         piece
             .checked_sub(1)
@@ -195,9 +193,11 @@ pub(super) fn touching(
         true => on_itself.filter(|_| one == 0),
         false => Some(own(one).max(own(other))),
     };
-    Ok(Some(TouchingBoundary::new(
+    let in_slits = Some(on_itself.unwrap_or(0.0));
+    Ok(TouchingBoundary::new(
         model,
         &merged.pieces,
         friction,
-    )?))
+        in_slits,
+    )?)
 }

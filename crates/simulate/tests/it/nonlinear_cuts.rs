@@ -275,7 +275,8 @@ fn random_cuts(organ: &str, gestures: usize, seed: u64) {
 }
 
 /// Judge: the warning. What a circle through a wall cuts off has no place in a quasi-static organ: the circle stays closed and the
-/// force what it was. A cut around the tube leaves two pieces that are held, and parts.
+/// force what it was. A cut around the tube leaves two pieces that are held, and parts, but for what
+/// its ends bear where they press on one another: 0.77 of the force without that.
 #[test]
 fn a_piece_that_is_cut_off_stays() {
     let simulation = simulation("builtin = \"esophagus\"", "depth_m = 0.0023", NONLINEAR);
@@ -303,5 +304,49 @@ fn a_piece_that_is_cut_off_stays() {
     let (part, warnings) = cut(&|turn| beside(0.7 * turn.cos(), 7e-3 * turn.sin()));
     assert!((part - 1.0).abs() < 1e-3 && warnings == 1, "{part}");
     let (part, warnings) = cut(&|turn| beside(turn, 8e-3));
-    assert!(part < 0.9 && warnings == 0, "{part}");
+    assert!((0.85..0.95).contains(&part) && warnings == 0, "{part}");
+}
+
+/// A rim that is pushed across its cut presses on the other side. Judge: the organ without a cut; two vertices on either side come
+/// nearer by less than a fifth of the push (by 0.27 of it, where sides pass through one another). The organ has more points on
+/// its cuts than a step takes, and says nothing of it while they lie on each other.
+#[test]
+fn a_rim_presses_on_the_other_side_of_its_cut() {
+    const PUSH: f64 = 3e-3;
+    let simulation = simulation(CUBE, "depth_m = 0.008", NONLINEAR);
+    let rest = simulation.surface().mesh().vertices();
+    let vertex = |place: Vec3| {
+        let far = |at: &Vec3| (at - place).norm();
+        let numbers = rest.iter().enumerate();
+        numbers
+            .min_by(|(_, a), (_, b)| far(a).total_cmp(&far(b)))
+            .unwrap()
+            .0
+    };
+    let sides = [top(0.0, 0.0045), top(0.0, -0.0015)].map(vertex);
+    let push = |hands: &mut Hands<'_>| {
+        let place = top(0.0, 0.004);
+        for k in 0..20 {
+            let up = 2e-3 * (1.0 - f64::from(k) / 10.0).max(0.0);
+            hands.at(None, Some((place + up * Vec3::z(), k > 12)));
+        }
+        for k in 0..=40 {
+            let aside = -PUSH * f64::from(k) / 40.0 * Vec3::y();
+            hands.at(None, Some((place + aside, true)));
+        }
+        let [one, other] = sides.map(|number| hands.state.deformed.vertices()[number].y);
+        let warnings = hands.state.warnings(&simulation);
+        hands.wait(200, None);
+        (one - other, warnings)
+    };
+    let mut hands = Hands::new(&simulation);
+    let (uncut, _) = push(&mut hands);
+    for y in [0.0004, 0.014, -0.014] {
+        hands.cut(top(-0.02, y), top(0.02, y), None);
+        hands.wait(FOLLOWED, None);
+    }
+    let (cut, warnings) = push(&mut hands);
+    println!("{uncut:.5} {cut:.5} {warnings:?}");
+    assert!(warnings.is_empty(), "{warnings:?}");
+    assert!((cut - uncut).abs() < 0.2 * PUSH, "{cut} {uncut}");
 }
