@@ -283,7 +283,7 @@ impl Load {
         let mut sums = [0.0; 4];
         for (weight, radius) in self.punches() {
             let depth = Complex::new(z, -radius);
-            let distance = (depth * depth + r * r).sqrt();
+            let distance = root(depth * depth + r * r);
             let cubed = distance * distance * distance;
             let bent = (distance - depth) / r;
             let around = (bent * (1.0 - 2.0 * poissons_ratio) - bent * z / distance) / r;
@@ -306,6 +306,20 @@ impl Load {
             mean * mean,
             deviator.iter().sum::<f64>() + 2.0 * shear * shear,
         ]
+    }
+}
+
+/// The square root with a positive real part, of what has an imaginary part that is not positive. Without angles it takes a fifth of the
+/// time.
+fn root(of: Complex<f64>) -> Complex<f64> {
+    let size = (of.re * of.re + of.im * of.im).sqrt();
+    // Of the two parts the one that loses no digits, and the other from their product.
+    if of.re > 0.0 {
+        let real = (0.5 * (size + of.re)).sqrt();
+        Complex::new(real, 0.5 * of.im / real)
+    } else {
+        let imaginary = -(0.5 * (size - of.re)).sqrt();
+        Complex::new(0.5 * of.im / imaginary, imaginary)
     }
 }
 
@@ -338,6 +352,18 @@ mod tests {
         let axial = -(1.0 + 3.0 * zeta.powi(2)) / (1.0 + zeta.powi(2)).powi(2) / (2.0 * PI * a * a);
         let found = -mean.sqrt() - (2.0 / 3.0 * deviator).sqrt();
         assert!((found / axial - 1.0).abs() < 1e-3, "{found} {axial}");
+    }
+
+    /// Judge: its square, to rounding; and the sign.
+    #[test]
+    fn a_root_is_that_of_its_square() {
+        for re in [-3.0, -1e-9, 0.0, 1e-9, 2.0, 1e3] {
+            for im in [-2.0, -1e-9, -1e-3, -1e3] {
+                let (of, own) = (Complex::new(re, im), root(Complex::new(re, im)));
+                assert!((own * own - of).norm() < 1e-15 * of.norm(), "{of}: {own}");
+                assert!(own.re >= 0.0 && own.im <= 0.0, "{of}: {own}");
+            }
+        }
     }
 
     /// Judge: the Hankel transform of the load and its integral.

@@ -1,5 +1,7 @@
+use std::collections::HashMap;
+
 use palpate_geometry::{
-    Surface, TriangleId, TriangleMesh, Vec3, closest_on_triangle, on_all_cores,
+    NodeId, Surface, TriangleId, TriangleMesh, Vec3, closest_on_triangle, collect_on_all_cores,
 };
 use palpate_mechanics::contact::Tip;
 use palpate_mechanics::inclusion::{InclusionField, Load};
@@ -25,8 +27,9 @@ const PLACES: usize = 6;
 pub(crate) struct InclusionTable {
     /// Radius of the least area that touches [m].
     least: f64,
-    /// Of each triangle: what is to be interpolated.
-    at: Vec<[Felt; PLACES]>,
+    /// Of each place, and which places each triangle has: what is to be interpolated.
+    felt: Vec<Felt>,
+    at: Vec<[u32; PLACES]>,
 }
 
 /// For each of the radii [1/m], which of a sphere are those without inclusions under the same force.
@@ -52,41 +55,29 @@ impl InclusionTable {
         let (Tip::Flat { radius } | Tip::Sphere { radius }) = tip;
         let radii = radii(tip);
         let least = radii[0];
-        let tips = radii.map(|touching| match tip {
-            Tip::Flat { .. } => Load::punch(radius),
-            Tip::Sphere { .. } => Load::hertz(touching),
-        });
         let loads: [Load; LOADS] =
             std::array::from_fn(|n| Load::bump(LEAST_LOAD * least * LOAD_FACTOR.powi(n as i32)));
-        let triangles = bodies.iter();
-        let triangles = triangles.map(|(surface, _)| surface.mesh().triangles().len());
-        let mut at = vec![[Felt::default(); PLACES]; triangles.sum()];
-        let mut rest = at.as_mut_slice();
+        let (mut felt, mut at) = (Vec::new(), Vec::new());
         for (surface, field) in bodies {
-            let mesh = surface.mesh();
-            let (own, others) = rest.split_at_mut(mesh.triangles().len());
-            on_all_cores(
-                own.iter_mut().zip(mesh.triangle_ids()),
-                |(own, triangle)| {
-                    let corners = mesh.positions(triangle);
-                    let normals = mesh
-                        .corners(triangle)
-                        .map(|node| surface.vertex_normals()[node.index()]);
-                    for (own, [u, v, w]) in own.iter_mut().zip(PLACES_OF) {
-                        let mean = |of: &[Vec3; 3]| of[0] * u + of[1] * v + of[2] * w;
-                        let (place, normal) = (mean(&corners), mean(&normals).normalize());
-                        let tips = field.less(&tips, radius, &place, &normal);
-                        own.tips = match tip {
-                            Tip::Flat { .. } => tips,
-                            Tip::Sphere { .. } => field.less_under_sphere(radii, tips),
-                        };
-                        own.loads = field.less(&loads, radius, &place, &normal);
+            let first = felt.len();
+            let places = places(surface, |places| {
+                at.push(places.map(|own| (first + own) as u32))
+            });
+            felt.extend(collect_on_all_cores(&places, |_, (place, normal)| Felt {
+                tips: match tip {
+                    Tip::Flat { .. } => {
+                        let load = Load::punch(radius);
+                        [field.less(&[load], radius, place, normal)[0]; TIPS]
+                    }
+                    Tip::Sphere { .. } => {
+                        let loads = radii.map(Load::hertz);
+                        field.less_under_sphere(radii, field.less(&loads, radius, place, normal))
                     }
                 },
-            );
-            rest = others;
+                loads: field.less(&loads, radius, place, normal),
+            }));
         }
-        Self { least, at }
+        Self { least, felt, at }
     }
 
     /// At a `place` [m] of a triangle of the shown `mesh`, beside a load of the radius `load` [m]; none where nothing is felt.
@@ -111,7 +102,8 @@ impl InclusionTable {
         ];
         let (below, within) = position::<LOADS>(load / (LEAST_LOAD * self.least), LOAD_FACTOR);
         let mut sums = [0.0; TIPS];
-        for (Felt { tips, loads }, shape) in at.iter().zip(shape) {
+        for (own, shape) in at.iter().zip(shape) {
+            let Felt { tips, loads } = &self.felt[*own as usize];
             let of_load = (1.0 - within) * loads[below] + within * loads[below + 1];
             for (sum, of_tip) in sums.iter_mut().zip(tips) {
                 *sum += shape * (of_load - of_tip);
@@ -180,12 +172,27 @@ fn position<const RADII: usize>(times: f64, factor: f64) -> (usize, f64) {
     (below, position - below as f64)
 }
 
-/// Barycentric coordinates of the places.
-const PLACES_OF: [[f64; 3]; PLACES] = [
-    [1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, 0.0, 1.0],
-    [0.5, 0.5, 0.0],
-    [0.0, 0.5, 0.5],
-    [0.5, 0.0, 0.5],
-];
+/// The places of a surface [m] and the outward normals there [-]: its vertices, then the middles of its edges. `of_triangle` hears
+/// the numbers of each triangle's.
+fn places(surface: &Surface, mut of_triangle: impl FnMut([usize; PLACES])) -> Vec<(Vec3, Vec3)> {
+    let (vertices, normals) = (surface.mesh().vertices(), surface.vertex_normals());
+    let each = vertices.iter().zip(normals);
+    let mut places: Vec<(Vec3, Vec3)> =
+        each.map(|(at, normal)| (*at, normal.normalize())).collect();
+    let mut middles = HashMap::new();
+    for triangle in surface.mesh().triangle_ids() {
+        let [a, b, c] = surface.mesh().corners(triangle).map(NodeId::index);
+        let mut middle = |one: usize, other: usize| {
+            *middles
+                .entry([one.min(other), one.max(other)])
+                .or_insert_with(|| {
+                    let normal = normals[one] * 0.5 + normals[other] * 0.5;
+                    let at = vertices[one] * 0.5 + vertices[other] * 0.5;
+                    places.push((at, normal.normalize()));
+                    places.len() - 1
+                })
+        };
+        of_triangle([a, b, c, middle(a, b), middle(b, c), middle(c, a)]);
+    }
+    places
+}
