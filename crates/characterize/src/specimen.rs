@@ -1,4 +1,4 @@
-//! All that is found about one specimen from its recordings.
+//! Characterization of one specimen from its recordings.
 //!
 //! ```text
 //! CleanRecordings ─▶ relaxation ─▶ laws, given the relaxation ─▶ Characterization
@@ -73,13 +73,13 @@ pub struct Characterization {
     pub uniaxial: Vec<(SoughtLaw, Result<UniaxialFit, Error>)>,
     /// Warnings about the relaxation.
     pub relaxation_warnings: Vec<String>,
-    /// What can be told apart and what cannot, in plain sentences, of relaxation and laws.
+    /// Which parameters of relaxation and laws can be distinguished, in plain sentences.
     pub identifiability: Vec<String>,
     /// Warnings about plain sentences.
     pub warnings: Vec<String>,
 }
 
-/// Characterizes one specimen from all its `recordings`; `at_step` hears what is being done.
+/// Characterizes one specimen from all its `recordings`; `at_step` receives the current step.
 pub fn characterize(
     recordings: &[CleanRecording],
     settings: &CharacterizeSettings,
@@ -178,7 +178,7 @@ pub fn characterize_organ(
     if settings.in_loop && pieces.is_empty() && !is_organ {
         in_loop::refine(&mut found, &pressed, body, settings, at_step);
     }
-    found.speak(&pressed);
+    found.add_warnings(&pressed);
     found
 }
 
@@ -281,8 +281,8 @@ impl Pressed {
         (first <= end).then_some(first..end)
     }
 
-    /// Whether there is a depth and a force at all.
-    fn is_felt(&self) -> bool {
+    /// Whether depth and force are above zero.
+    fn has_force(&self) -> bool {
         self.deepest() > 0.0 && self.largest > 0.0
     }
 
@@ -308,21 +308,21 @@ fn records(pressed: &[Pressed], curve: Option<&UnitCurve>) -> Vec<RelaxationReco
     };
     // One for all: a sensor's noise is as many newtons in each.
     let largest = pressed.iter().map(|each| each.largest).fold(0.0, f64::max);
-    let felt = pressed.iter().filter(|each| each.is_felt());
-    let each = felt.filter_map(|each| {
+    let with_force = pressed.iter().filter(|each| each.has_force());
+    let each = with_force.filter_map(|each| {
         let course = RelaxationRecord::new(&each.time, &each.depth, &each.force, largest, shape)?;
         Some(course.with_zeros(&each.depth, each.zeros, largest, shape))
     });
     each.collect()
 }
 
-/// What was indented: the same in all recordings.
+/// The indented body, the same in all recordings.
 fn body(recordings: &[CleanRecording], deepest: f64) -> Result<Body, Error> {
     let first = recordings.first().ok_or(Error::NothingFelt)?;
     Body::of(&first.header, deepest)
 }
 
-/// What the organ does to the depth, where that is a part worth a word.
+/// Warning about the effect of the organ on the depth, where that is large.
 fn about_organ(far: &FarField) -> Option<String> {
     (far.share.abs() > LARGE).then(|| {
         let percent = 100.0 * far.share.abs();
@@ -368,7 +368,7 @@ fn half_space_factor(
     // E = 6 C₁₀, and the curve is that of C₁₀ = 1 Pa.
     let modulus = mean_modulus(contact, false, deepest, curve.force.force(deepest)).ok()?;
     let factor = modulus / 6.0;
-    ((factor - 1.0).abs() > TELLING).then(|| {
+    ((factor - 1.0).abs() > WORTH_A_WARNING).then(|| {
         format!(
             "mean_elastic_modulus is that of a half-space (6.1): on this specimen, at this depth, {factor:.2} times \
              that of neo-Hookean tissue; the laws take the specimen's size into account"
@@ -420,7 +420,7 @@ impl Characterization {
         pressed.or_else(|| self.preferred_uniaxial().map(|law| law.law))
     }
 
-    fn speak(&mut self, pressed: &[Pressed]) {
+    fn add_warnings(&mut self, pressed: &[Pressed]) {
         let longest = pressed.iter().filter_map(|each| each.time.last().copied());
         let duration = longest.fold(0.0, f64::max);
         if let Ok(relaxation) = &self.relaxation {
@@ -446,7 +446,7 @@ impl Characterization {
     }
 }
 
-/// A part of the depth beyond which an organ is worth a word [-].
+/// Part of the depth from which the effect of an organ gives a warning [-].
 const LARGE: f64 = 0.2;
-/// A part of a modulus that is worth a word [-].
-const TELLING: f64 = 0.02;
+/// Relative change of a modulus from which it gives a warning [-].
+const WORTH_A_WARNING: f64 = 0.02;

@@ -104,7 +104,7 @@ fn column(
     depths.dedup_by(|deeper, before| *deeper < (1.0 + ALIKE) * *before);
     if depths.len() >= STATIC {
         let of = |number: fn(&Hold) -> f64| holds.iter().map(number).collect::<Vec<_>>();
-        return told(fit_column(
+        return if_known(fit_column(
             contact,
             &of(|hold| hold.depth_m),
             &of(|hold| hold.steady_n),
@@ -119,11 +119,11 @@ fn column(
         samples.map(|sample| (own.depth[sample].max(0.0), own.force[sample]))
     });
     let (depths, forces): (Vec<f64>, Vec<f64>) = ramps.unzip();
-    told(fit_column(contact, &depths, &forces)?)
+    if_known(fit_column(contact, &depths, &forces)?)
 }
 
-/// A column whose modulus is known at all.
-fn told(found: ColumnFit) -> Result<ColumnFit, Error> {
+/// The column, if its modulus is known at all.
+fn if_known(found: ColumnFit) -> Result<ColumnFit, Error> {
     let gamma = found.column.gamma_pa;
     match gamma.standard_error {
         Some(error) if error > gamma.value => Err(Error::ColumnUnknown),

@@ -6,24 +6,24 @@ use crate::Kind;
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error)]
 pub enum OpenError {
-    /// Nobody listens where the service should be.
+    /// No server listens at the address of the service.
     #[error(
         "no Haply Inverse Service answers at {address} ({cause}); start it, or say with PALPATE_HAPLY where it is"
     )]
     NoService {
-        /// Where it was looked for.
+        /// The address.
         address: String,
-        /// What the system said.
+        /// The error of the system.
         cause: io::Error,
     },
-    /// Somebody listens there, but does not speak as the service does.
+    /// Another server listens there.
     #[error(
         "what answers at {address} is no Haply Inverse Service: {what}; say with PALPATE_HAPLY where that is"
     )]
     NotTheService {
-        /// Where it was looked for.
+        /// The address.
         address: String,
-        /// What it did.
+        /// Its behavior.
         what: String,
     },
     /// The service knows of no such device.
@@ -31,30 +31,30 @@ pub enum OpenError {
         "the Haply Inverse Service at {address} has {there} of its devices, and number {wanted} is asked for; plug one in"
     )]
     NoDevice {
-        /// Where it is.
+        /// The address of the service.
         address: String,
-        /// How many devices it has.
+        /// The number of devices that it has.
         there: usize,
-        /// Which one is asked for, from one on.
+        /// The requested device, counted from one.
         wanted: usize,
     },
-    /// An address is no address.
+    /// An address is invalid.
     #[error(
         "{found:?} is no address; write HOST:PORT, or HOST:PORT,PORT with that of the events, as in 127.0.0.1:10001,10020"
     )]
     NoAddress {
-        /// What was given.
+        /// The given text.
         found: String,
     },
-    /// What shall be on or off is neither.
+    /// A switch is neither on nor off.
     #[error(
         "PALPATE_DEAD_MAN is {found:?}; set it to 1 for forces only while a button is held, or to 0"
     )]
     NoSwitch {
-        /// What was given.
+        /// The given text.
         found: String,
     },
-    /// A button shall be held, and there is none for it.
+    /// A dead-man's switch is required, and the device has no button for it.
     #[error(
         "{device} has no button besides the first that could be held for forces; take a grip with more, or unset PALPATE_DEAD_MAN"
     )]
@@ -62,14 +62,14 @@ pub enum OpenError {
         /// The device.
         device: String,
     },
-    /// A library is not there.
+    /// A library is missing.
     #[error("the library of `{kind}` is not there: no {names} can be loaded ({cause}); install its driver and its SDK, or say with {variable} where it is", variable = kind.variable())]
     NoLibrary {
         /// The kind of device.
         kind: Kind,
-        /// What was looked for.
+        /// The file names that were tried.
         names: String,
-        /// What the system said.
+        /// The error of the system.
         cause: String,
     },
     /// A library is of another version, or another library.
@@ -79,7 +79,7 @@ pub enum OpenError {
         kind: Kind,
         /// Its file.
         library: String,
-        /// What it has not.
+        /// The missing function.
         function: &'static str,
     },
     /// A library opens no device.
@@ -89,35 +89,35 @@ pub enum OpenError {
     NotOpened {
         /// The kind of device.
         kind: Kind,
-        /// Why.
+        /// The error of the library.
         what: String,
     },
-    /// A library has fewer devices than are asked for.
+    /// A library has fewer devices than requested.
     #[error(
         "the library of `{kind}` has {there} devices, and number {wanted} is asked for; plug one in"
     )]
     NoSuchDevice {
         /// The kind of device.
         kind: Kind,
-        /// How many it has.
+        /// The number of devices that it has.
         there: usize,
-        /// Which one is asked for, from one on.
+        /// The requested device, counted from one.
         wanted: usize,
     },
-    /// Nobody said where a force sensor is.
+    /// The location of a force sensor is not stated.
     #[error("the place of the force sensor is not set; set {variable}, as in {variable}={example}")]
     NoSensorPlace {
-        /// The variable of the environment that says it.
+        /// The environment variable that states it.
         variable: &'static str,
-        /// What it may be.
+        /// Its format.
         example: &'static str,
     },
-    /// The address of a force sensor is no address.
+    /// The address of a force sensor is invalid.
     #[error(
         "{found:?} is no address of a force sensor; write HOST or HOST:PORT in PALPATE_NET_FT, as in 192.168.1.1"
     )]
     NoSensorAddress {
-        /// What was given.
+        /// The given text.
         found: String,
     },
     /// A force sensor does not answer.
@@ -125,39 +125,39 @@ pub enum OpenError {
         "no force sensor answers at {place} ({cause}); connect it and switch it on, or say where it is"
     )]
     NoSensor {
-        /// Where it was looked for.
+        /// Its address.
         place: String,
-        /// What the system said.
+        /// The error of the system.
         cause: io::Error,
     },
-    /// The library of NI-DAQmx is not there.
+    /// The library of NI-DAQmx is missing.
     #[error(
         "the library of NI-DAQmx is not there: no {names} can be loaded ({cause}); install NI-DAQmx, or say with PALPATE_NIDAQMX where it is"
     )]
     NoSensorLibrary {
-        /// What was looked for.
+        /// The file names that were tried.
         names: String,
-        /// What the system said.
+        /// The error of the system.
         cause: String,
     },
-    /// The library of NI-DAQmx is another one.
+    /// The library is not NI-DAQmx.
     #[error(
         "{library} is no library of NI-DAQmx, for it has no function {function}; say with PALPATE_NIDAQMX where that is"
     )]
     NoSensorFunction {
         /// Its file.
         library: String,
-        /// What it has not.
+        /// The missing function.
         function: &'static str,
     },
-    /// The library of NI-DAQmx does not read.
+    /// The library of NI-DAQmx cannot read.
     #[error(
         "NI-DAQmx does not read the force sensor and reports {what} ({code}); compare `channels`, `rate_hz` and `range_v` with the device"
     )]
     SensorLibrary {
-        /// The library's own number for it.
+        /// The library's error code.
         code: i32,
-        /// What it said.
+        /// The library's error text.
         what: String,
     },
 }

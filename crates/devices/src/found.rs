@@ -1,11 +1,11 @@
 use palpate_servo::Capabilities;
 
-/// Where a number of a device comes from.
+/// The source of a device's force limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
-    /// The device said it.
+    /// The device reports it.
     Device,
-    /// It is ours, and cautious, for neither the device nor its documents say it.
+    /// It is our conservative assumption: neither the device nor its documentation states it.
     Ours,
 }
 
@@ -18,10 +18,10 @@ pub struct Found {
     pub model: String,
     /// Its serial number or name.
     pub serial: String,
-    /// What else is known of it, a short sentence each.
+    /// Further facts, a short sentence each.
     pub remarks: Vec<String>,
     /// Its limits.
     pub capabilities: Capabilities,
-    /// Where the limits of its forces come from.
+    /// The source of its force limits.
     pub forces: Origin,
 }

@@ -19,10 +19,10 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// All that there are.
+    /// All kinds.
     pub const ALL: [Self; 3] = [Self::Haply, Self::OpenHaptics, Self::ForceDimension];
 
-    /// Its word, as a scene has it.
+    /// Its name in a scene.
     pub fn word(self) -> &'static str {
         match self {
             Self::Haply => "haply",
@@ -31,7 +31,7 @@ impl Kind {
         }
     }
 
-    /// The variable of the environment that says where it is looked for.
+    /// The environment variable that says where to look for it.
     pub fn variable(self) -> &'static str {
         match self {
             Self::Haply => "PALPATE_HAPLY",
@@ -40,10 +40,10 @@ impl Kind {
         }
     }
 
-    /// The devices of this kind that are there.
+    /// The connected devices of this kind.
     ///
     /// # Errors
-    /// When what they are reached by is not there.
+    /// When their service or library is missing.
     pub fn list(self, places: &Places) -> Result<Vec<Found>, OpenError> {
         match self {
             Self::Haply => haply::list(&places.haply),
@@ -52,8 +52,8 @@ impl Kind {
         }
     }
 
-    /// Opens device `number` of this kind, from zero on. What it gives can be commanded by a servo loop alone, whose
-    /// guard makes every force ([`palpate_servo::Command`]).
+    /// Opens device `number` of this kind, counted from zero. Only a servo loop can command it, since its guard makes
+    /// every force ([`palpate_servo::Command`]).
     ///
     /// # Errors
     /// When it is not there.

@@ -7,12 +7,12 @@
 //!  scheduler of libHD ▶ ServoLoop ─exchange▶ OpenHapticsDevice ────────── a frame per tick ────▶ libHD
 //! ```
 //!
-//! A driver turns the axes of its device into those of every device here (x right, y up, z toward the user, zero in
-//! the middle of where the handle goes), and whatever goes wrong into a [`Fault`](palpate_servo::Fault) with a name.
-//! It limits no force: that is the servo loop's, and the same for all. [`Places`] says where services and libraries
-//! are looked for; nothing is looked for anywhere else.
+//! A driver converts the axes of its device to the common device axes (x right, y up, z toward the user, zero in the
+//! middle of the handle's workspace), and every error to a named [`Fault`](palpate_servo::Fault). It limits no force:
+//! the servo loop does, in the same way for all devices. [`Places`] alone says where to look for services and
+//! libraries.
 //!
-//! *How we know*: every driver is run against a stand-in that speaks its protocol (`crates/device-stand-ins`), with every
+//! *How we know*: every driver runs against a stand-in that speaks its protocol (`crates/device-stand-ins`), with every
 //! fault at random moments in contact (`campaign::…` in the tests).
 //!
 //! *Limits*: the stand-ins were written from the same documents as the drivers. **Nothing here was tried on

@@ -1,24 +1,24 @@
-//! Libraries that are loaded when a device is opened, so that nobody needs them to build.
+//! Libraries that are loaded at run time, when a device is opened, so that the build does not need them.
 
 use std::ffi::{CStr, OsString, c_char};
 use std::path::Path;
 
 use crate::{Kind, OpenError};
 
-/// A library that stays loaded to the end of the program: its threads may outlive whoever opened it.
+/// A library that stays loaded to the end of the program: its threads may outlive its user.
 pub(crate) struct Loaded {
     loaded: &'static libloading::Library,
     name: String,
 }
 
-/// What was looked for, and what the system said.
+/// A failed load: the file names that were tried, and the error of the system.
 pub(crate) struct NotLoaded {
     pub(crate) names: String,
     pub(crate) cause: String,
 }
 
 impl Loaded {
-    /// Loads the first of `names` that is there, or only `named`.
+    /// Loads the first of `names` that exists, or only `named`.
     pub(crate) fn load(names: &[&str], named: Option<&Path>) -> Result<Self, NotLoaded> {
         let names: Vec<OsString> = match named {
             Some(path) => vec![path.into()],
@@ -63,14 +63,14 @@ impl Loaded {
     }
 }
 
-/// The library of a kind of haptic devices.
+/// The library of a kind of haptic device.
 pub(crate) struct Library {
     loaded: Loaded,
     kind: Kind,
 }
 
 impl Library {
-    /// Loads the first of `names` that is there, or only `named`.
+    /// Loads the first of `names` that exists, or only `named`.
     pub(crate) fn load(
         kind: Kind,
         names: &[&str],
@@ -103,7 +103,7 @@ impl Library {
     }
 }
 
-/// With its symbols for all, for libraries of devices load further ones that look for them.
+/// Exports its symbols globally, since device libraries load further libraries that need them.
 #[cfg(unix)]
 #[allow(unsafe_code, reason = "loading a library runs its initialisation")]
 fn open(name: &std::ffi::OsStr) -> Result<libloading::Library, libloading::Error> {
@@ -123,16 +123,16 @@ fn open(name: &std::ffi::OsStr) -> Result<libloading::Library, libloading::Error
 
 fn one_line(cause: Option<&libloading::Error>) -> String {
     use std::error::Error;
-    let said = cause.map(|cause| {
+    let message = cause.map(|cause| {
         cause
             .source()
             .map_or(cause.to_string(), ToString::to_string)
     });
-    let said = said.unwrap_or_default();
-    said.lines().collect::<Vec<_>>().join(" ")
+    let message = message.unwrap_or_default();
+    message.lines().collect::<Vec<_>>().join(" ")
 }
 
-/// A text of a library; empty for none.
+/// Copies a text of a library; empty for null.
 ///
 /// # Safety
 /// `text` has to be null, or end with a zero and live for as long as it is read here.

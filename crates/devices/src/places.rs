@@ -4,8 +4,8 @@ use std::time::Duration;
 use crate::OpenError;
 use crate::haply::HaplyAddress;
 
-/// Where services and libraries of devices are looked for. A scene does not say it, for scenes come from anywhere,
-/// and a library is a program.
+/// Where to look for services and libraries of devices. A scene cannot say it: scenes come from untrusted sources, and
+/// a library is a program.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Places {
     /// The Haply Inverse Service.
@@ -14,17 +14,18 @@ pub struct Places {
     pub openhaptics: Option<PathBuf>,
     /// The library of Force Dimension; none for its usual names.
     pub force_dimension: Option<PathBuf>,
-    /// How long an answer of a service may take.
+    /// Timeout for an answer of a service.
     pub timeout: Duration,
-    /// Whether a button has to be held for forces, one but the first: all of the force while it is, none else.
+    /// Whether a dead-man's switch is required: a button, but not the first one. Forces are on only while it is
+    /// pressed.
     pub dead_man: bool,
 }
 
-/// With what the system adds, a silent device is a fault within 25 ms.
+/// With the delay of the system, a silent device is a fault within 25 ms.
 pub(crate) const TIMEOUT: Duration = Duration::from_millis(20);
 
 impl Default for Places {
-    /// The usual ones, and 20 ms.
+    /// The usual places, and 20 ms.
     fn default() -> Self {
         Self {
             haply: HaplyAddress::default(),
@@ -37,8 +38,8 @@ impl Default for Places {
 }
 
 impl Places {
-    /// The usual ones, but for what the variables `PALPATE_HAPLY`, `PALPATE_OPENHAPTICS`, `PALPATE_FORCE_DIMENSION` and
-    /// `PALPATE_DEAD_MAN` of the environment say.
+    /// The usual places, unless the environment variables `PALPATE_HAPLY`, `PALPATE_OPENHAPTICS`,
+    /// `PALPATE_FORCE_DIMENSION` and `PALPATE_DEAD_MAN` say otherwise.
     ///
     /// # Errors
     /// When the first is no address, or the last neither 0 nor 1.

@@ -1,8 +1,8 @@
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use palpate_servo::Vec3;
 
-/// The rotation next to three `columns` that are nearly unit and perpendicular, as libraries give them; none of what
-/// is far from it.
+/// The rotation closest to three `columns` that are nearly unit and perpendicular, as libraries give them; none if they
+/// are far from a rotation.
 pub(crate) fn rotation(columns: [Vec3; 3]) -> Option<UnitQuaternion<f64>> {
     let z = columns[2].try_normalize(0.5)?;
     let x = (columns[0] - z * z.dot(&columns[0])).try_normalize(0.5)?;

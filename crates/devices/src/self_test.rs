@@ -1,4 +1,4 @@
-//! Three seconds in which a device shows what it can: it answers, it is ready, and it takes a small force.
+//! A self-test of a device, three seconds long: it answers, it is ready, and it takes a small force.
 //!
 //! The force goes through the servo loop and its limits like every other. Once they are on it is
 //! F(t) = F₀ (1 − cos 2πt/T)/2 along right, up and toward the user in turn, with F₀ = 0.2 N and T = 0.5 s; more than
@@ -6,47 +6,47 @@
 //!
 //! *How we know*: `self_test::…` in the tests.
 //!
-//! *Limits*: that a hand feels it where it should is for the hand to say.
+//! *Limits*: only the person at the device can say whether the force points in the right direction.
 
 use palpate_servo::{
     Clock, Controller, Device, DeviceState, Fault, Limits, LoopReport, ServoLoop, ServoSettings,
     ServoThread, Stage, Vec3,
 };
 
-/// The largest force of the test [N], and the largest that its limits let by.
+/// The largest force of the test [N], and the limit of its guard [N].
 const LARGEST: f64 = 0.2;
 const LIMIT: f64 = 0.3;
 
-/// How long forces wait to be armed [s], and how long each of three pushes takes.
+/// Timeout for arming the forces [s], and duration of each of three pushes [s].
 const ARMED_BY: f64 = 1.0;
 const PUSH: f64 = 0.5;
 const WHOLE: f64 = ARMED_BY + 3.0 * PUSH + 0.2;
 
-/// What was found.
+/// Results of the self-test.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SelfTest {
-    /// Where the handle was first and last [m].
+    /// First and last position of the handle [m].
     pub ends: Option<[Vec3; 2]>,
-    /// The corners of where it went [m].
+    /// The corners of the box that the handle moved through [m].
     pub reached: Option<[Vec3; 2]>,
-    /// Whether it was ready when it began.
+    /// Whether the device was ready at the start.
     pub ready: bool,
     /// Whether forces were on at the end.
     pub live: bool,
     /// The largest force that was sent [N].
     pub sent: f64,
-    /// The largest that the device said it displays [N]; none when it does not say.
+    /// The largest force that the device reported as displayed [N]; none if it does not report forces.
     pub displayed: Option<f64>,
-    /// What the loop measured: its work is the round trip.
+    /// The loop's report: its work is the round trip.
     pub report: LoopReport,
-    /// Why it ended early.
+    /// Why the test ended early.
     pub fault: Option<Fault>,
 }
 
 impl SelfTest {
-    /// Whether everything was as it should be.
+    /// Whether the test passed.
     pub fn passed(&self) -> bool {
-        // What a device displays may be filtered; half of it has to come.
+        // The displayed force may be filtered: half of it is enough.
         let shows = self.displayed.is_none_or(|force| force > 0.5 * self.sent);
         self.fault.is_none() && self.live && shows && self.sent > 0.5 * LARGEST
     }

@@ -30,8 +30,8 @@ impl Overwrite {
     }
 }
 
-/// A folder, or a file, that this program alone writes until this is dropped. The operating system ends the claim
-/// of a program that is killed.
+/// A folder or a file, locked by this program until this is dropped. The operating system releases the lock of a
+/// program that is killed.
 #[derive(Debug)]
 pub struct Claim {
     path: PathBuf,
@@ -42,10 +42,10 @@ pub struct Claim {
     _locked: File,
 }
 
-/// What claims of this program have made on the disk.
+/// Files and folders that claims of this program have created.
 static MADE: Mutex<Vec<Made>> = Mutex::new(Vec::new());
 
-/// What a claim has made on the disk.
+/// A file or folder that a claim has created.
 #[derive(Debug)]
 struct Made {
     lock: PathBuf,
@@ -54,7 +54,7 @@ struct Made {
 }
 
 impl Claim {
-    /// Claims a folder, which is made where it does not exist; an empty one that was made is removed in the end.
+    /// Claims a folder, which is created if missing; an empty one that was created is removed at the end.
     ///
     /// # Errors
     /// When another program has claimed it, or the operating system refuses.
@@ -101,8 +101,8 @@ impl Claim {
         })
     }
 
-    /// Claims the files that a command writes, before its work. A device or a pipe is written to as it is: several
-    /// programs may, and it is not replaced. A file without content, as `mktemp` makes one, may be.
+    /// Claims the files that a command writes, before its work. A device or a pipe is written to in place: several
+    /// programs may do so, and it is not replaced. A file without content, as `mktemp` makes one, may be replaced.
     ///
     /// # Errors
     /// When two of them are one file, one is a folder or exists and may not be replaced, another program has claimed
@@ -132,13 +132,13 @@ impl Claim {
         Ok(claims)
     }
 
-    /// What is claimed.
+    /// The claimed path.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Refuses what would replace one of `files`, in the folder, or what is left of one that was not finished,
-    /// unless that is allowed.
+    /// Rejects an output that would replace one of `files` in the folder, or the remains of an unfinished one, unless
+    /// replacing is allowed.
     ///
     /// # Errors
     /// When one exists that may not be replaced.
@@ -166,16 +166,16 @@ impl Drop for Claim {
 
 impl Made {
     fn remove(self) {
-        // A leftover is only untidy: nobody holds it.
+        // A leftover lock file does no harm: nobody holds it.
         let _ = fs::remove_file(&self.lock);
         if let Some(folder) = self.folder {
-            // Refused unless it is empty.
+            // The system refuses this unless it is empty.
             let _ = fs::remove_dir(folder);
         }
     }
 }
 
-/// Removes what all claims of this program have made: for one that ends without dropping them.
+/// Removes all files and folders that claims of this program have created: for one that exits without dropping them.
 pub fn remove_claims() {
     made().drain(..).for_each(Made::remove);
 }
@@ -184,7 +184,7 @@ fn made() -> MutexGuard<'static, Vec<Made>> {
     MADE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Whether there is something to lose; of a file that cannot be asked there may be.
+/// Whether the file has content that could be lost; assumed if the file cannot be read.
 fn has_content(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok_and(|known| !known.is_file() || known.len() > 0)
 }
@@ -198,7 +198,7 @@ fn in_real_folder(path: &Path) -> io::Result<PathBuf> {
     Ok(fs::canonicalize(folder)?.join(path.file_name().unwrap_or_default()))
 }
 
-/// A lock of this program on the file `lock`, for what is called `path`.
+/// A lock of this program on the file `lock`; errors name `path`.
 fn locked(lock: &Path, path: &Path) -> Result<File, Error> {
     let refused = |source| Error::write(path, source);
     loop {
@@ -222,7 +222,7 @@ fn locked(lock: &Path, path: &Path) -> Result<File, Error> {
             }
             Err(TryLockError::Error(source)) => return Err(refused(source)),
         }
-        // The program before may have removed the file between its opening and its locking.
+        // The previous program may have removed the file between its opening and its locking.
         if is_at(lock, &file).map_err(refused)? {
             let process = std::process::id().to_string();
             file.set_len(0)
@@ -261,12 +261,12 @@ mod tests {
         let path = folder.path().join("session");
         let claim = || Claim::of_folder(&path, Overwrite::Refused);
         let first = claim().unwrap();
-        let said = claim().unwrap_err();
-        assert!(!said.is_input());
+        let error = claim().unwrap_err();
+        assert!(!error.is_input());
         let process = std::process::id().to_string();
-        assert!(said.to_string().contains(&process), "{said}");
+        assert!(error.to_string().contains(&process), "{error}");
         drop(first);
-        // Nothing is left, not even the folder that was made.
+        // Nothing is left, not even the created folder.
         assert!(!path.exists());
         let file = path.with_extension("csv");
         let first = Claim::of_file(&file, Overwrite::Refused).unwrap();
@@ -281,21 +281,21 @@ mod tests {
     fn one_of_many_threads_holds_a_claim() {
         use std::sync::atomic::{AtomicU32, Ordering};
         let folder = tempfile::tempdir().unwrap();
-        let (inside, held) = (AtomicU32::new(0), AtomicU32::new(0));
+        let (inside, acquired) = (AtomicU32::new(0), AtomicU32::new(0));
         std::thread::scope(|scope| {
             for _ in 0..8 {
                 scope.spawn(|| {
                     for _ in 0..200 {
                         if let Ok(_claim) = Claim::of_folder(folder.path(), Overwrite::Refused) {
                             assert_eq!(inside.fetch_add(1, Ordering::SeqCst), 0);
-                            held.fetch_add(1, Ordering::SeqCst);
+                            acquired.fetch_add(1, Ordering::SeqCst);
                             inside.fetch_sub(1, Ordering::SeqCst);
                         }
                     }
                 });
             }
         });
-        assert!(held.into_inner() > 0);
+        assert!(acquired.into_inner() > 0);
     }
 
     #[test]
@@ -344,8 +344,8 @@ mod tests {
         let refused = Claim::of_folder(folder.path(), Overwrite::Refused).unwrap();
         refused.check(["session.csv"]).unwrap();
         fs::write(folder.path().join("session.csv.part"), "").unwrap();
-        let said = refused.check(["session.csv"]).unwrap_err();
-        assert!(said.is_input() && said.to_string().contains("--overwrite"));
+        let error = refused.check(["session.csv"]).unwrap_err();
+        assert!(error.is_input() && error.to_string().contains("--overwrite"));
         drop(refused);
         let allowed = Claim::of_folder(folder.path(), Overwrite::Allowed).unwrap();
         allowed.check(["session.csv"]).unwrap();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::words::shortened;
 
-/// Where something is wrong: a file and, when it is known, a line.
+/// The place of an error: a file and, when it is known, a line.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
     /// The file.
@@ -41,23 +41,23 @@ impl fmt::Display for Place {
     }
 }
 
-/// Why a document cannot be read or written. Each message is one sentence with the place, what was
-/// found, what is expected and the remedy.
+/// Why a document cannot be read or written. Each message is one sentence with the place, the value found, the value
+/// expected and the remedy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The operating system does not let the file be read.
+    /// The operating system refuses to read the file.
     #[error("{path} cannot be read: {source}; check the name and that you may read it", path = path.display())]
     Read {
         /// The file.
         path: PathBuf,
-        /// What the operating system says.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// A device or a pipe, which may never end.
     #[error("{path} is no regular file; name one, or copy what it holds into one", path = path.display())]
     NotAFile {
-        /// What is there.
+        /// The kind of the device.
         path: PathBuf,
     },
     /// A file that is larger than any of its kind.
@@ -70,12 +70,12 @@ pub enum Error {
         /// The largest that is read [bytes].
         most: u64,
     },
-    /// The operating system does not let the file be written.
+    /// The operating system refuses to write the file.
     #[error("{path} cannot be written: {source}; check that its folder exists, that you may write there and that the disk has room", path = path.display())]
     Write {
         /// The file.
         path: PathBuf,
-        /// What the operating system says.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// A file would be replaced.
@@ -110,10 +110,10 @@ pub enum Error {
     Syntax {
         /// The line where reading stopped.
         place: Place,
-        /// What the reader stumbled over.
+        /// The error of the TOML reader.
         message: String,
     },
-    /// The document does not say which format it is in.
+    /// The document does not state its format.
     #[error("{path}: `format` is missing; add the line `{remedy}` at the top", path = path.display())]
     MissingFormat {
         /// The file.
@@ -163,14 +163,14 @@ pub enum Error {
         /// The second key or column.
         second: String,
     },
-    /// A key that must be there is not.
+    /// A required key is missing.
     #[error("{place}: `{key}` is missing; give {expected}", key = shortened(key))]
     MissingKey {
         /// The table that lacks it.
         place: Place,
         /// The key with its tables, such as `organ.tissue`.
         key: String,
-        /// What to give.
+        /// The value to give.
         expected: Cow<'static, str>,
     },
     /// A key or a field with a value that cannot be used.
@@ -224,9 +224,9 @@ pub enum Error {
     BadRow {
         /// The line of the row.
         place: Place,
-        /// What the row holds.
+        /// The content of the row.
         found: String,
-        /// What it should hold.
+        /// The expected content.
         expected: String,
     },
     /// A table of numbers without a row.
@@ -235,7 +235,7 @@ pub enum Error {
         /// The file.
         path: PathBuf,
     },
-    /// Times that stand still or go back.
+    /// Times that do not increase.
     #[error(
         "{place}: `{column}` is {found} after {previous}; \
          sort the rows so that the time grows from each to the next", found = shortened(found), column = shortened(column), previous = shortened(previous))]
@@ -249,14 +249,14 @@ pub enum Error {
         /// The time before it, as written.
         previous: String,
     },
-    /// A stored response that takes more memory than may be taken, or than there is.
+    /// A stored response that needs more memory than is allowed or available.
     #[error("{path} takes {} of memory, and {} may be taken; close other programs, or delete the file, and it is made again when it is needed", gigabytes(*bytes), gigabytes(*memory as u64), path = path.display())]
     NoMemoryForResponse {
         /// The file.
         path: PathBuf,
-        /// What it takes [bytes].
+        /// The memory that it needs [bytes].
         bytes: u64,
-        /// What may be taken [bytes].
+        /// The memory that is allowed [bytes].
         memory: usize,
     },
     /// A stored response that cannot be used.
@@ -264,17 +264,17 @@ pub enum Error {
     DamagedResponse {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Its defect.
         what: String,
     },
-    /// A file of an instrument that is damaged, or written in a way that is not read.
+    /// A file of an instrument that is damaged, or in a form that is not supported.
     #[error("{path}: {part} {cause}; save or copy the file again", path = path.display(), part = shortened(part))]
     DamagedInstrumentFile {
         /// The file.
         path: PathBuf,
-        /// Where in it.
+        /// The place in it.
         part: String,
-        /// What is wrong.
+        /// Its defect.
         cause: &'static str,
     },
     /// A file of an instrument that does not state a number which its forces need.
@@ -284,13 +284,13 @@ pub enum Error {
         path: PathBuf,
         /// The key of a recording.
         key: &'static str,
-        /// What is missing, with its unit.
+        /// The missing number, with its unit.
         what: &'static str,
     },
     /// Values made by a program, not read from a file, that no document can hold.
     #[error("{what} is {found}; give {expected}", found = shortened(found))]
     BadContent {
-        /// What the value is, such as `force_n of sample 3`.
+        /// The name of the value, such as `force_n of sample 3`.
         what: String,
         /// The value found.
         found: String,
@@ -304,8 +304,8 @@ fn gigabytes(bytes: u64) -> String {
 }
 
 impl Error {
-    /// Whether the input is at fault: true for a file that must be corrected or a name that must be
-    /// corrected (exit status 2), false for a failure such as a full disk (exit status 1).
+    /// Whether the input is invalid: true for a file or a name that must be corrected (exit status 2), false for a
+    /// failure such as a full disk (exit status 1).
     pub fn is_input(&self) -> bool {
         match self {
             Self::Read { source, .. } | Self::Write { source, .. } => names_wrong_path(source),
@@ -337,7 +337,7 @@ impl Error {
         }
     }
 
-    /// The same, when the document that was refused is one that a program was about to write.
+    /// The same, when the refused document is one that a program was about to write.
     pub(crate) fn of_content(self) -> Self {
         let (key, found, expected) = match self {
             Self::BadValue {
@@ -371,7 +371,7 @@ impl Error {
     }
 }
 
-/// Whether the operating system refuses because of the name that was given, which is invalid input.
+/// Whether the operating system refuses because of the given name, which is invalid input.
 pub fn names_wrong_path(source: &io::Error) -> bool {
     use io::ErrorKind;
     matches!(

@@ -1,7 +1,7 @@
 use crate::toml_document::{Value, toml_number};
 use crate::{Domain, Error, Key, Keys};
 
-/// A number and how well it is known.
+/// A number with its uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
     /// The number [unit of its key].
@@ -11,7 +11,7 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// A number of which nothing more is known [unit of its key].
+    /// A number without a standard error [unit of its key].
     pub const fn exactly(value: f64) -> Self {
         Self {
             value,
@@ -55,7 +55,7 @@ impl Keys<'_> {
         self.estimate_within(key, self.declared(key).domain())
     }
 
-    /// An estimate in a `domain` that other keys decide.
+    /// An estimate in a `domain` that depends on other keys.
     ///
     /// # Errors
     /// When the value is neither or outside its `domain`.
@@ -73,7 +73,7 @@ impl Keys<'_> {
         let Some(parts) = self.table_of(key, PARTS)? else {
             return Ok(None);
         };
-        // The domain is that of the key's own unit, so the parts are converted before they are asked.
+        // The domain is that of the key's own unit, so the parts are converted before the check.
         let part = |name, domain: Domain| {
             parts.find(name)?.map_or(Ok(None), |mut part| {
                 part.unit = found.unit;
@@ -88,7 +88,7 @@ impl Keys<'_> {
         }))
     }
 
-    /// An estimate that must be there.
+    /// A required estimate.
     ///
     /// # Errors
     /// When it is missing, the value is neither or outside its `domain`.

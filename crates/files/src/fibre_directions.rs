@@ -1,4 +1,4 @@
-//! Directions of fibres in a body, a table with a row for each place.
+//! Directions of fibres in a body: a table with a row for each location.
 //!
 //! ```text
 //! # format = 1

@@ -1,19 +1,19 @@
-//! The six open documents of palpate: what shall be measured, what was, what is played, what happened, what an
-//! organ is made of and what stands in a scene.
+//! The six open documents of palpate: the protocol of a measurement, its recording, the motion of tools, the session
+//! of a simulation, the tissue of an organ, and the scene.
 //!
 //! [`Recording`], [`Motion`] and [`Session`] are tables of numbers (CSV), [`Tissue`], [`Scene`] and
 //! [`Protocol`] are TOML. All are in SI units; a key or a column in another unit says so in its name
 //! (`depth_mm`) and is converted on reading, see [`units`]. An [`Error`] names the file, the line,
 //! the value found and the value expected.
 //!
-//! Beside them stands [`StoredResponse`], which is not for people: what a model has prepared of an organ,
-//! kept because it takes minutes.
+//! In addition, [`StoredResponse`] caches the response of an organ that a model has prepared, which takes minutes; it
+//! is not for people.
 //!
-//! Text from elsewhere is shown by [`printable`], and put into cells of tables by [`text_cell`]; numbers are written by
-//! [`quantity`].
+//! [`printable`] shows text from elsewhere, [`text_cell`] puts it into cells of tables, and [`quantity`] writes
+//! numbers.
 //!
-//! The documents hold plain numbers. They know nothing of meshes, mechanics or devices, so that
-//! each verb (measure, characterize, simulate) can be used without the others.
+//! The documents hold plain numbers. They do not depend on meshes, mechanics or devices, so that each verb (measure,
+//! characterize, simulate) can be used without the others.
 //!
 //! ```
 //! use palpate_files::{Scene, Tissue};

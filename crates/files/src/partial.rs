@@ -1,6 +1,6 @@
-//! The file beside another one that is written and then takes its name: `.NAME.1.partial`, or with the next number that
-//! nobody writes. It is locked while it is written. One that a killed program left is not, and is removed when the
-//! same file is written again.
+//! Temporary files for atomic replacement: `.NAME.1.partial` next to the target, or with the next free number, which
+//! then takes the target's name. It is locked while it is written. A file that a killed program left has no lock, and
+//! is removed when the same target is written again.
 
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
@@ -17,11 +17,11 @@ pub(crate) struct Partial {
 }
 
 impl Partial {
-    /// A new file that nobody else writes, in the folder of `path`, so that renaming is one act on one disk.
+    /// A new file that nobody else writes, in the folder of `path`, so that renaming is atomic on one disk.
     pub(crate) fn create(path: &Path) -> io::Result<Self> {
         let no_name = || io::Error::new(ErrorKind::InvalidInput, "the path names no file");
         let name = path.file_name().ok_or_else(no_name)?;
-        let beside = |number: u32| {
+        let candidate = |number: u32| {
             let mut partial = OsString::from(".");
             partial.push(name);
             partial.push(format!(".{number}.partial"));
@@ -29,20 +29,20 @@ impl Partial {
         };
         let mut number = 1;
         let created = loop {
-            match Self::create_at(beside(number))? {
+            match Self::create_at(candidate(number))? {
                 Some(created) => break created,
                 None => number += 1,
             }
         };
         // Several programs may have been killed at once.
-        let others = (number + 1..).map(beside);
+        let others = (number + 1..).map(candidate);
         for other in others.take_while(|other| other.exists()) {
             remove_if_left(&other);
         }
         Ok(created)
     }
 
-    /// None when somebody else writes there.
+    /// None when another program writes there.
     fn create_at(path: PathBuf) -> io::Result<Option<Self>> {
         loop {
             let file = match OpenOptions::new().write(true).create_new(true).open(&path) {
@@ -55,8 +55,8 @@ impl Partial {
                 }
                 Err(error) => return Err(error),
             };
-            // Between its making and its locking another program may have taken it for one that was left. A disk
-            // without locks keeps it: its name was free.
+            // Between its creation and its locking another program may have treated it as a leftover. A disk without
+            // locks keeps it: its name was free.
             if matches!(file.try_lock(), Err(fs::TryLockError::WouldBlock)) || !is_at(&path, &file)?
             {
                 continue;
@@ -69,7 +69,7 @@ impl Partial {
         }
     }
 
-    /// Brings all to the disk and gives the file its name.
+    /// Writes all data to the disk and gives the file its name.
     pub(crate) fn rename(mut self, path: &Path) -> io::Result<()> {
         // Without this the new name could reach the disk before the bytes do.
         self.file.sync_all()?;
@@ -82,13 +82,13 @@ impl Partial {
 impl Drop for Partial {
     fn drop(&mut self) {
         if !self.is_renamed {
-            // The failure before this is the one to report; a leftover is removed by the next who writes here.
+            // Report the earlier failure; the next writer of this target removes a leftover.
             let _ = fs::remove_file(&self.path);
         }
     }
 }
 
-/// Removes a file that nobody writes any more; whether its name is free now.
+/// Removes a file that nobody writes any more; returns whether its name is free now.
 fn remove_if_left(path: &Path) -> bool {
     let Ok(file) = File::open(path) else {
         return !path.exists();
@@ -114,7 +114,7 @@ mod tests {
         names
     }
 
-    /// Killed programs leave files without a lock; the next who writes the same file removes them, and nothing else.
+    /// Killed programs leave files without a lock; the next writer of the same target removes them, and nothing else.
     #[test]
     fn leftovers_of_killed_programs_are_removed_by_the_next_write() {
         let folder = tempfile::tempdir().unwrap();

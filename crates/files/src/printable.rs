@@ -1,8 +1,8 @@
 //! Text from elsewhere, made safe to show: names in documents, names of files and of devices, messages of libraries.
 //!
-//! A terminal obeys control characters, and a reader is misled by characters that nobody sees. Both are shown as
-//! escapes, `\u{1b}`. A spreadsheet takes a text that begins with `=` for a formula; [`text_cell`] puts an apostrophe
-//! before it, as people do.
+//! Control characters control a terminal, and invisible characters mislead a reader. Both are shown as escapes,
+//! `\u{1b}`. A spreadsheet treats a text that begins with `=` as a formula; [`text_cell`] puts an apostrophe before
+//! it, as people do.
 //!
 //! *How we know*: the tests below; `foreign_text::…` of the command, with hostile names in every kind of document.
 //!
@@ -13,10 +13,10 @@ use std::borrow::Cow;
 
 use unicode_properties::{GeneralCategory, UnicodeGeneralCategory};
 
-/// How a formula begins in a spreadsheet; the last four are the wide forms that some take for the others.
+/// Beginnings of a formula in a spreadsheet; the last four are the wide forms that some programs accept.
 const FORMULA: [char; 11] = ['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠'];
 
-/// Whether a character controls what shows it, or is not seen: control characters (C0, DEL, C1), format characters
+/// Whether a character controls its display, or is invisible: control characters (C0, DEL, C1), format characters
 /// such as those that turn the direction of writing, separators of lines, and letters without a shape.
 pub fn is_hidden(letter: char) -> bool {
     use GeneralCategory::{Control, Format, LineSeparator, ParagraphSeparator};
@@ -53,7 +53,7 @@ fn shown(text: &str, is_hidden: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// `text` as a cell that no spreadsheet takes for a formula. Numbers stay as they are. [`cell_text`] gives the text
+/// `text` as a cell that no spreadsheet treats as a formula. Numbers are unchanged. [`cell_text`] gives the text
 /// back.
 pub fn text_cell(text: &str) -> Cow<'_, str> {
     match is_formula(text) {
@@ -70,8 +70,8 @@ pub fn cell_text(cell: &str) -> &str {
     }
 }
 
-/// Whether a text begins as a formula. One with apostrophes before that counts too, so that [`cell_text`] knows which
-/// were put there.
+/// Whether a text begins as a formula. One with apostrophes before that counts too, so that [`cell_text`] can tell
+/// which were added.
 fn is_formula(text: &str) -> bool {
     let text = text.trim_start_matches('\'');
     text.starts_with(FORMULA) && text.parse::<f64>().is_err()

@@ -1,17 +1,17 @@
-//! Numbers for people: as many digits as their errors allow, in a unit that fits their size.
+//! Numbers for people: with as many digits as their errors allow, in a unit of suitable size.
 
 /// Between a number and its unit, where no line may break.
 const SPACE: char = '\u{202f}';
-/// From this exponent of ten on, either way, numbers are written with one.
+/// From this exponent of ten on, either way, numbers are written in scientific notation.
 const LONG: i32 = 5;
 
-/// An error so many times its value says only that nothing is known.
+/// An error this many times the value means that the value is unknown.
 const FAR: f64 = 3.0;
 
-/// A unit, and what numbers in SI are multiplied with to be in it.
+/// A unit, and the factor from SI to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scale {
-    /// Of a number in SI [1/unit].
+    /// Factor on a number in SI [1/unit].
     pub factor: f64,
     /// As people write it.
     pub unit: &'static str,
@@ -62,7 +62,7 @@ pub fn quantity(key: &str, value: f64, error: Option<f64>) -> String {
     }
 }
 
-/// The same with a space that every terminal has, for sentences and tables of plain text.
+/// The same with an ordinary space, for sentences and tables of plain text.
 pub fn plain_quantity(key: &str, value: f64, error: Option<f64>) -> String {
     quantity(key, value, error).replace(SPACE, " ")
 }
@@ -98,7 +98,7 @@ pub fn rounded(value: f64, digits: i32) -> String {
     format!("{value} × 10{}", superscript(power))
 }
 
-/// A number without a unit: a whole one as it is, else to four digits.
+/// A number without a unit: a whole number as it is, else to four digits.
 pub fn number(value: f64) -> String {
     match value.fract() == 0.0 && value.abs() < 1e4 {
         true => format!("{value}"),

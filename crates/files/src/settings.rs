@@ -1,4 +1,4 @@
-//! What a person has set in the window, in a file of the user's.
+//! Settings of the window, in a file of the user.
 
 use std::fmt::Write;
 use std::ops::Bound::Included;
@@ -34,14 +34,14 @@ words! {
     }
 }
 
-/// What a person has set.
+/// The settings of a user.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     /// Whose tool the mouse moves at first.
     pub mouse_hand: MouseHand,
     /// The language of the trainer's window.
     pub language: Language,
-    /// The size of texts and buttons beside that of the display [-].
+    /// The scale of texts and buttons, relative to that of the display [-].
     pub scale: f64,
     /// The folder of sessions and results; none for that of the system.
     pub training_folder: Option<PathBuf>,
@@ -58,7 +58,7 @@ impl Default for Settings {
     }
 }
 
-/// Sizes of texts that still fit into the least window and that can still be read [-].
+/// Scales at which texts fit into the smallest window and are readable [-].
 const SCALE: Domain = Domain::number("a factor", [Included(0.75), Included(2.0)]);
 
 impl Settings {
@@ -92,7 +92,7 @@ impl Settings {
     /// Least and largest [`Self::scale`] [-].
     pub const SCALES: [f64; 2] = [0.75, 2.0];
 
-    /// Reads a file; without one nothing is set.
+    /// Reads a file; without one all settings have their defaults.
     ///
     /// # Errors
     /// When there is a file and it cannot be read, or holds no settings.
@@ -101,8 +101,8 @@ impl Settings {
             return Ok(Self::default());
         }
         let mut settings = Self::of(&Document::read(path)?)?;
-        if let (Some(folder), Some(beside)) = (&mut settings.training_folder, path.parent()) {
-            *folder = beside.join(&*folder);
+        if let (Some(folder), Some(base)) = (&mut settings.training_folder, path.parent()) {
+            *folder = base.join(&*folder);
         }
         Ok(settings)
     }
@@ -171,9 +171,9 @@ mod tests {
         }
     }
 
-    /// Each fault is one sentence with the file and the line or key.
+    /// Each error is one sentence with the file and the line or key.
     #[test]
-    fn damaged_settings_are_told() {
+    fn damaged_settings_give_an_error() {
         for (text, word) in [
             ("format = 1\nscale = 9.0\n", "scale"),
             ("format = 1\nmouse_hand = \"third\"\n", "mouse_hand"),
@@ -182,13 +182,13 @@ mod tests {
             ("format = 1\nscale = \n", "line 2"),
             ("\u{0}", "settings.toml"),
         ] {
-            let told = Document::parse(text, "settings.toml")
+            let error = Document::parse(text, "settings.toml")
                 .and_then(|document| Settings::of(&document))
                 .unwrap_err();
-            let told = told.to_string();
+            let error = error.to_string();
             assert!(
-                told.contains("settings.toml") && told.contains(word),
-                "{told}"
+                error.contains("settings.toml") && error.contains(word),
+                "{error}"
             );
         }
     }

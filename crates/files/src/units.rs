@@ -1,8 +1,8 @@
 //! Units carried in names: `depth_mm` is read wherever `depth_m` is expected, and converted.
 //!
-//! A name is a base and the suffix of a unit, `depth` and `mm`. One table holds every unit; those
-//! with the same SI unit may stand for one another. A suffix is accepted in lower case (`force_mn`)
-//! and as the unit is spelled (`force_mN`), in no other way: `mPa` is not taken for `MPa`.
+//! A name is a base and the suffix of a unit, `depth` and `mm`. One table holds every unit; those with the same SI
+//! unit may replace one another. A suffix is accepted in lower case (`force_mn`) and as the unit is spelled
+//! (`force_mN`), in no other way: `mPa` is not read as `MPa`.
 
 /// A unit of measurement: one `spelling` is `multiply / divide` of the SI unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -132,12 +132,12 @@ fn written(end: &str) -> Option<&'static Unit> {
         .find(|unit| unit.suffix == end || unit.spelling == end)
 }
 
-/// How a given name answers to an expected one.
+/// The match of a given name with an expected one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Match {
-    /// The very name.
+    /// The same name.
     Exact,
-    /// The same quantity in the first unit, wanted in the second.
+    /// The same quantity in the first unit, expected in the second.
     Converted(&'static Unit, &'static Unit),
 }
 
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn strange_units_are_told_from_misspelled_keys() {
+    fn strange_units_differ_from_misspelled_keys() {
         let accepted = accepted_instead("depth_inch", "depth_m").unwrap();
         assert!(accepted.starts_with("`depth_m`, `depth_cm`"), "{accepted}");
         assert!(accepted_instead("depth", "depth_m").is_some());

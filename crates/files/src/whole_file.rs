@@ -6,16 +6,16 @@ use crate::Error;
 use crate::error::Place;
 use crate::partial::Partial;
 
-/// Writes a file whole or not at all: `bytes` go to a file beside `path`, which then takes its name. A device or a
-/// pipe is written to as it is. The folder must exist.
+/// Writes a file whole or not at all: `bytes` go to a file next to `path`, which then takes its name. A device or a
+/// pipe is written to in place. The folder must exist.
 ///
 /// # Errors
-/// When the operating system refuses; a file at `path` is then as it was, and nothing is left beside it.
+/// When the operating system refuses; a file at `path` is then unchanged, and no other file is left.
 pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), Error> {
     write_whole_by(path, |file| file.write_all(bytes))
 }
 
-/// As [`write_whole`], of what `put` writes.
+/// As [`write_whole`], with the output of `put`.
 pub(crate) fn write_whole_by(
     path: impl AsRef<Path>,
     put: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -32,12 +32,12 @@ pub(crate) fn write_whole_by(
     write().map_err(|source| Error::write(path, source))
 }
 
-/// Whether a new file takes the place of what is at `path`, rather than going into the device or pipe there.
+/// Whether a new file replaces the one at `path`, rather than going into the device or pipe there.
 pub(crate) fn is_replaced(path: &Path) -> io::Result<bool> {
     match fs::metadata(path) {
         Ok(known) if known.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
         Ok(known) => Ok(known.is_file()),
-        // It is made, or its creation tells what is wrong.
+        // It will be created, or creating it reports the error.
         Err(_) => Ok(true),
     }
 }
@@ -49,7 +49,7 @@ pub const MOST_OF_DOCUMENT: u64 = 4 << 20;
 /// has 1.4 GB.
 pub const MOST_OF_TABLE: u64 = 2 << 30;
 
-/// Opens a regular file for reading. What is none, a device or a pipe, may never end.
+/// Opens a regular file for reading. A device or a pipe may never end.
 pub(crate) fn open_regular(path: &Path) -> Result<File, Error> {
     let refused = |source| Error::read(path, source);
     // Before it is opened: opening a pipe waits for its writer.
@@ -117,7 +117,7 @@ pub(crate) fn text(mut bytes: Vec<u8>, path: &Path) -> Result<String, Error> {
     })
 }
 
-/// What some programs put before UTF-8.
+/// The mark that some programs put before UTF-8.
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
 /// How many lines end in `bytes`.
@@ -130,7 +130,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_is_left_beside() {
+    fn no_temporary_file_is_left() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("summary.json");
         write_whole(&path, b"{}").unwrap();

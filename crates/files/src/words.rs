@@ -60,10 +60,10 @@ macro_rules! words {
 
 pub(crate) use words;
 
-/// What an error quotes of a file at most [characters]: a damaged file may have megabytes on one line.
+/// The longest quotation of a file in an error [characters]: a damaged file may have megabytes on one line.
 const LONGEST_QUOTATION: usize = 200;
 
-/// A text as an error quotes it: one that is longer than 200 characters is cut there, and its length told.
+/// A text as an error quotes it: one that is longer than 200 characters is cut there, with its length.
 pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
     match text.char_indices().nth(LONGEST_QUOTATION) {
         None => Cow::Borrowed(text),
@@ -83,7 +83,7 @@ pub(crate) fn either(names: &[impl AsRef<str>]) -> String {
 
 /// The one of `known` that looks most like `name`, and how alike they are (1 is equal) [-].
 pub(crate) fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<(&'k str, f64)> {
-    // What follows is not looked at: the time grows with the length.
+    // The rest is ignored: the time grows with the length.
     let name = match name.char_indices().nth(LONGEST_QUOTATION) {
         None => name.to_lowercase(),
         Some((end, _)) => name[..end].to_lowercase(),
@@ -91,7 +91,7 @@ pub(crate) fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<(&'k str, f64
     known
         .iter()
         .map(|known| (*known, strsim::normalized_damerau_levenshtein(&name, known)))
-        // The first of equals, so that the answer does not depend on chance.
+        // The first of equals, so that the answer is deterministic.
         .reduce(|best, next| if next.1 > best.1 { next } else { best })
 }
 

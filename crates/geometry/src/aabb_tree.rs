@@ -1,7 +1,7 @@
 //! A binary tree of axis-aligned boxes over the triangles of a mesh (section 7.6).
 //!
-//! One triangle to a leaf, two boxes to the next higher one, as in the source. The tree holds boxes
-//! only: the mesh is handed to every query, so that it can deform and the tree be refitted.
+//! One triangle to a leaf, two boxes to the next higher one, as in the source. The tree contains
+//! boxes only: every query takes the mesh, so that it can deform and the tree be refitted.
 //!
 //! *How we know*: `agreement::closest_point_is_that_of_parry`, `invariants::refit_is_rebuild`.
 

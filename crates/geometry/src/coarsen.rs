@@ -1,11 +1,11 @@
 //! Fewer tetrahedra in the same body: edges collapse, the shortest first, until few enough nodes of quadratic elements
 //! are left.
 //!
-//! A collapse must keep the body what it is: the links of the two ends meet in the link of their edge alone [Dey,
+//! A collapse must preserve the topology of the body: the links of the two ends meet in the link of their edge alone [Dey,
 //! Edelsbrunner, Guha and Nekhayev 1999], no tetrahedron becomes flat, and no face of the boundary turns far. A vertex of the
-//! boundary goes where the squared distances to the planes that it stands for are least [Garland and Heckbert 1997]. These are
-//! the planes of the surface that was filled (`planes`), not of the filling, which cuts off sharp edges: they come back. What
-//! volume flat faces between few vertices then lack or have too much the boundary gives or takes as it moves outward in the end.
+//! boundary moves to the minimum of the squared distances to the planes that it represents [Garland and Heckbert 1997]. These
+//! are the planes of the filled surface (`planes`), not of the filling, which cuts off sharp edges: so these are restored. In
+//! the end the boundary moves along its normals to correct the volume that flat faces between few vertices lack or add.
 //!
 //! A wall needs no more than one element through its thickness, which no lattice gives ([`fill`](crate::fill)).
 //!
@@ -25,14 +25,14 @@ use crate::memoized::Memoized;
 use crate::mesh::tetrahedra::six_fold_volume;
 use crate::{Surface, TetrahedronError, TetrahedronMesh, Vec3};
 
-/// Volume over that of a regular tetrahedron with the same mean square edge [-]: none below this is made, unless one
-/// beside it is worse.
+/// Volume over that of a regular tetrahedron with the same mean square edge [-]: none below this is made, unless an
+/// adjacent one is worse.
 const FLATTEST: f64 = 0.2;
 
 /// Cosine of the angle by which a face of the boundary may turn at once [-].
 const MOST_TURNED: f64 = 0.5;
 
-/// What a distance from the planes of the boundary counts beside the same length of an edge [-].
+/// Weight of a distance from the planes of the boundary relative to the same length of an edge [-].
 const OFF_SURFACE: f64 = 5.0;
 
 /// How often the vertices of the boundary go to their planes, before and after the collapses.
@@ -44,7 +44,7 @@ const STALE: usize = 2;
 /// Nodes that are removed between two reports of progress.
 const REPORTED: usize = 1_000;
 
-/// How often the boundary moves outward; each time it comes a hundred times nearer to the volume.
+/// Moves of the boundary; each reduces the error of the volume a hundred times.
 const INFLATIONS: usize = 4;
 
 /// A filling `mesh` of `surface` with about as many nodes of quadratic elements as `nodes`, its vertices and edges, and the volume
@@ -52,7 +52,7 @@ const INFLATIONS: usize = 4;
 /// both by this factor.
 ///
 /// # Errors
-/// When what is left is no mesh, which does not happen to a sound one.
+/// When the result is no mesh, which does not happen to a valid one.
 pub fn coarsen(
     mesh: &TetrahedronMesh,
     surface: &Surface,
@@ -64,7 +64,7 @@ pub fn coarsen(
     })
 }
 
-/// The same. `progress` hears the part of the nodes to go that are gone [-], and may cancel.
+/// The same. `progress` receives the fraction of the surplus nodes removed [-], and may cancel.
 ///
 /// # Errors
 /// As [`coarsen`], and when the work is cancelled.
@@ -163,7 +163,7 @@ impl Net {
             self.collapse(edge, &place);
             let around = self.neighbours(edge[0]);
             for &other in &around {
-                // What could not collapse may now.
+                // Edges that could not collapse may now.
                 self.versions[other as usize] += 1;
             }
             for vertex in around {
@@ -183,7 +183,7 @@ impl Net {
         edge.map(|end| self.versions[end as usize])
     }
 
-    /// What counts against a collapse of `edge` to `place` [m²].
+    /// Cost of a collapse of `edge` to `place` [m²].
     fn cost(&self, edge: [u32; 2], place: &Vec3, detail: &dyn Fn(&Vec3) -> f64) -> f64 {
         let [a, b] = edge.map(|end| end as usize);
         let [from, to] = [self.vertices[a], self.vertices[b]];
@@ -203,7 +203,7 @@ impl Net {
         (then - now[0] - now[1]) / (self.areas[a] + self.areas[b])
     }
 
-    /// Where the ends of an edge may go together, the best place first.
+    /// Candidate places for the collapse of an edge, the best first.
     fn places(&self, edge: [u32; 2]) -> [Vec3; 3] {
         let [a, b] = edge.map(|end| end as usize);
         let [from, to] = [self.vertices[a], self.vertices[b]];

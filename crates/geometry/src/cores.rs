@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread::{self, Builder};
 
-/// How many threads can run at once.
+/// Number of threads that can run at the same time.
 pub fn cores() -> usize {
     thread::available_parallelism().map_or(1, NonZero::get)
 }
@@ -14,15 +14,15 @@ pub fn cores() -> usize {
 /// Whether the system refused a thread.
 static REFUSED: AtomicBool = AtomicBool::new(false);
 
-/// Whether the system refused a thread of [`on_all_cores`] since the program began. What was computed is the same; it
+/// Whether the system refused a thread of [`on_all_cores`] since the program began. The results are the same, but
 /// took longer.
 pub fn threads_were_refused() -> bool {
     REFUSED.load(Ordering::Relaxed)
 }
 
-/// Does `work` on every item, on all cores: whoever is idle takes the next one. What is done on an item
-/// does not depend on the number of cores. Where the system gives fewer threads than there are cores, or none, the
-/// calling thread works too.
+/// Does `work` on every item, on all cores: an idle thread takes the next one. The result for an item does not
+/// depend on the number of cores. Where the system gives fewer threads than there are cores, or none, the calling
+/// thread works too.
 ///
 /// # Panics
 /// When `work` does, as if there was one thread.
@@ -33,7 +33,7 @@ where
     with_threads(cores(), items, work);
 }
 
-/// What `work` makes of each of `items`, in their order, on all cores.
+/// The results of `work` for `items`, in their order, on all cores.
 ///
 /// # Panics
 /// When `work` does.

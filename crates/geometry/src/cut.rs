@@ -1,13 +1,13 @@
-//! A surface that a blade cuts while it moves (section 7.7), and what the cut leaves.
+//! A surface that a moving blade cuts (section 7.7), and the resulting openings.
 //!
 //! A [`CutSurface`] is a [`Surface`] with openings. A cut goes from vertex to vertex. While the blade is
 //! among the triangles around the last one nothing happens; when it leaves them over an edge, that
 //! edge gives the next vertex: one of its ends, moved under the blade ([`CutMethod::SnapVertices`], the
 //! source's), or a new one there ([`CutMethod::SplitTriangles`]). The edge between the two opens, and
 //! where two open edges meet, each fan of triangles between them gets a vertex of its own. So a cut may
-//! turn, cross another, go on from its end or free a flap, and needs no rule for any of these. Openings
-//! have no width here: positions are those at rest, and each vertex of an opening knows where it is
-//! pulled.
+//! turn, cross another, continue from its end or free a flap, without special rules. Openings have no
+//! width here: positions are those at rest, and each vertex of an opening stores the direction of
+//! its pull.
 //!
 //! *Equations*: the blade goes along the plane through it, its goal and the surface's normal n. A vertex
 //! right of the cutting vector c is pulled along c × n, one left of it along n × c (7.7, whose product
@@ -19,9 +19,10 @@
 //!
 //! *Limits*: a cut shorter than two edges opens nothing, and its end may lack part of an edge. Where a
 //! triangle would become a sliver, and in the source's mode where a vertex is already part of an
-//! opening, the cut goes through a vertex as it lies, up to half an edge beside the blade. A width
-//! beyond the triangles along an opening folds them over. Walk and pull are those of the surface at
-//! rest: whoever deforms it takes the blade back there, and lifts a blade that has left it.
+//! opening, the cut goes through a vertex as it lies, up to half an edge off the blade. A width
+//! beyond the triangles along an opening folds them over. Path and pull are those of the surface at
+//! rest: the caller maps the blade from a deformed surface back to it, and lifts a blade that has
+//! left it.
 
 mod cut_path;
 pub(crate) mod error;
@@ -49,7 +50,7 @@ const SHORTEST: f64 = 0.1;
 /// Splitting ends at this many triangles per triangle of the surface.
 const MOST_GROWTH: usize = 8;
 
-/// A surface has room for this part of its vertices and triangles more [-], and for this many: beyond, a cut may
+/// Spare capacity for vertices and triangles, as a part of the surface's [-] and at least: beyond it, a cut may
 /// allocate.
 const ROOM: f64 = 0.25;
 const LEAST_ROOM: usize = 2048;
@@ -58,7 +59,7 @@ const LEAST_ROOM: usize = 2048;
 const MOST_AREA_CHANGE: f64 = 0.01;
 
 /// More edges than this in one step are cut in the next one.
-const LONGEST_WALK: usize = 256;
+const MOST_CROSSED_EDGES: usize = 256;
 
 /// How a cut gets its vertices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,16 +70,16 @@ pub enum CutMethod {
     SplitTriangles,
 }
 
-/// What a step of a blade has done.
+/// The result of a step of a blade.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CutProgress {
     /// Edges that were opened.
     pub opened: usize,
     /// Triangles from the end of the opening to the blade: none when it is there, one when it is among
-    /// those around, and one more while the first edge of a slit waits for the second.
+    /// those around, and one more while the first edge of a slit is pending.
     pub lag: usize,
-    /// From where the blade was sent to where it is on the surface [m]: large when it has left the
-    /// surface, gone over a fold, or gone too far for one step.
+    /// Distance from the target of the blade to its place on the surface [m]: large when it has
+    /// left the surface, passed over a fold, or moved too far for one step.
     pub away: f64,
 }
 
@@ -147,7 +148,8 @@ impl CutSurface {
         self.net.facet(triangle).parent
     }
 
-    /// Where an opening pulls a vertex: a unit vector, or zero where nothing opens [-].
+    /// Direction in which an opening pulls a vertex: a unit vector, or zero where nothing opens
+    /// [-].
     pub fn opening(&self, node: NodeId) -> Vec3 {
         self.net.nodes[node.index()].opening
     }
@@ -163,8 +165,8 @@ impl CutSurface {
         self.cuts.len()
     }
 
-    /// Where the vertices are [m] when those of `surface` are at `moved` [m] and openings are `width`
-    /// wide [m]; into `places`, which is cleared.
+    /// Positions of the vertices [m] when those of `surface` are at `moved` [m] and openings are
+    /// `width` wide [m]; into `places`, which is cleared.
     ///
     /// # Panics
     /// When `moved` is shorter than the surface's vertices.
@@ -212,7 +214,7 @@ impl CutSurface {
         let blade = self.first_vertex(surface, triangle, &on.position);
         self.cut_path = Some(CutPath {
             blade,
-            held: None,
+            pending: None,
             opened: 0,
             before,
         });
@@ -228,7 +230,7 @@ impl CutSurface {
         let mut cut_path = self.cut_path.ok_or(CutError::NotBegun)?;
         let before = cut_path.opened;
         self.turn(surface, &mut cut_path, to);
-        for _ in 0..LONGEST_WALK {
+        for _ in 0..MOST_CROSSED_EDGES {
             if !self.pass(surface, &mut cut_path, to) {
                 break;
             }

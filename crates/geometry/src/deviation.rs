@@ -6,7 +6,7 @@ use crate::{AabbTree, TriangleId, TriangleMesh, Vec3};
 const SAMPLES: f64 = 40_000.0;
 const ROWS: f64 = 24.0;
 
-/// How far the points of one mesh are from another.
+/// Distances of the points of one mesh from another.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Deviation {
     /// Of the farthest point that was looked at [m].
@@ -24,7 +24,7 @@ impl fmt::Display for Deviation {
     }
 }
 
-/// How far the surface `from` is from the surface `to`: one side of the distance of Hausdorff. Its
+/// Distance of the surface `from` to the surface `to`: the one-sided Hausdorff distance. Its
 /// vertices are looked at, and some 40,000 points that are spread evenly over its triangles.
 pub fn deviation(from: &TriangleMesh, to: &TriangleMesh) -> Deviation {
     deviation_with_tree(from, to, &AabbTree::new(to))

@@ -2,8 +2,8 @@
 //!
 //! A body-centred cubic lattice covers the body. Each of its points is inside, outside, or on the
 //! surface; where an edge passes from inside to outside, a ray finds the cut. A point that a cut
-//! comes too near to moves there. What is left inside of each tetrahedron of the lattice is one of
-//! a few shapes, each cut into tetrahedra in a fixed way (`stencil`). All vertices of the boundary
+//! comes too near to moves there. The part inside of each tetrahedron of the lattice is one of a
+//! few shapes, each cut into tetrahedra in a fixed way (`stencil`). All vertices of the boundary
 //! lie on the surface, and between the faces of a tetrahedron there are 10.7° at least and 164.8°
 //! at most, whatever the surface.
 //!
@@ -11,11 +11,10 @@
 //! `fill::real_organs_are_filled`, `fill::a_thin_rim_is_filled_where_it_is_asked_for`,
 //! `fill::a_lost_rod_is_told_with_its_end`.
 //!
-//! *Limits*: sharp edges are cut off by up to a third of an edge; [`follow_sharp_edges`](crate::follow_sharp_edges) brings them
-//! back. What is thinner than about two
-//! edges may be lost; then the coarseness is refused, or [`Fidelity`] tells what is missing and
-//! where. [`fill_graded`] is finer where it is asked to be. Where a thin gap would leave tetrahedra that
-//! touch in an edge or a vertex only, a few are taken away and the boundary lies off the surface.
+//! *Limits*: sharp edges are cut off by up to a third of an edge; [`follow_sharp_edges`](crate::follow_sharp_edges) restores
+//! them. Parts thinner than about two edges may be lost; then the coarseness is refused, or [`Fidelity`] reports the missing
+//! part. [`fill_graded`] is finer where requested. Where a thin gap would leave tetrahedra that touch in an edge or a vertex
+//! only, a few are removed and the boundary lies off the surface.
 
 mod background;
 mod fidelity;
@@ -31,7 +30,7 @@ use self::lattice::Lattice;
 use self::stencil::Filling;
 use crate::{AabbTree, Surface, TetrahedronError, TetrahedronMesh, Vec3};
 
-/// Part of the volume that may be lost in pieces that fall off [-].
+/// Part of the volume that may be lost in fragments [-].
 const MOST_LOST: f64 = 0.01;
 
 /// How to fill a surface.
@@ -59,8 +58,8 @@ impl FillSettings {
     }
 }
 
-/// Fills `surface` with tetrahedra in one piece; crumbs that fall off where it is thin are dropped
-/// while they are less than a hundredth of the volume. The same input gives the same bytes.
+/// Fills `surface` with tetrahedra in one piece; fragments where it is thin are dropped while they
+/// are less than a hundredth of the volume. The same input gives the same bytes.
 ///
 /// # Errors
 /// When the edge is not a positive length, so short that too many tetrahedra would come, or so long
@@ -78,9 +77,9 @@ pub fn fill(
     )
 }
 
-/// The same with cells that were bisected until no edge was longer than `longest_edge` [m] says at its place [m]: what
-/// is thin there is filled, while the rest stays as coarse as `settings` say. The angles of a lattice are not kept:
-/// some tetrahedra are flat until they are relaxed, as by [`refine_to`](crate::refine_to).
+/// The same with cells that are bisected until no edge is longer than `longest_edge` [m] at its place [m]: thin parts
+/// there are filled, while the rest stays as coarse as in `settings`. The bounds on angles do not hold: some
+/// tetrahedra are flat until they are relaxed, as by [`refine_to`](crate::refine_to).
 ///
 /// # Errors
 /// As [`fill`].
@@ -132,7 +131,7 @@ impl FillSettings {
     }
 }
 
-/// What `background` keeps inside, in one piece.
+/// The inside part of `background`, in one piece.
 fn stuffed(
     background: &dyn Background,
     surface: &Surface,

@@ -10,7 +10,7 @@ pub(crate) enum Connectivity {
 }
 
 /// Visits the connected component of the voxel `start` in a block of `size`, whose first index runs fastest. `take` marks a
-/// voxel and says whether it belongs to the component and was not marked before; it is called several times for a voxel.
+/// voxel and returns whether it belongs to the component and was not marked before; it is called several times for a voxel.
 /// Returns the number of voxels, with `start`.
 pub(crate) fn flood(
     size: [usize; 3],

@@ -1,10 +1,10 @@
 //! The surface of one label of a segmented picture.
 //!
-//! The largest piece of the label's voxels, with what is shut in filled, is bounded by marching
-//! cubes that never branch; the border of the picture counts as outside, so that a cut organ is
-//! closed by a flat side. The steps of the voxels are smoothed away [Taubin 1995] as far as the
-//! voxels leave it open, half of one to each side; the surface is then moved along its normals until
-//! it holds the volume of the voxels, and simplified to even triangles.
+//! Marching cubes that never branch bound the largest piece of the label's voxels, with enclosed
+//! voids filled; the border of the picture counts as outside, so that a cut organ is closed by a
+//! flat side. The steps of the voxels are smoothed [Taubin 1995] by at most half a voxel to each
+//! side; the surface is then moved along its normals until it encloses the volume of the voxels,
+//! and simplified to even triangles.
 //!
 //! *How we know*: `isosurface::every_pattern_of_eight_voxels_is_closed`,
 //! `isosurface::random_voxels_bound_one_solid`, `isosurface::a_ball_keeps_its_volume_and_shape`,
@@ -75,7 +75,7 @@ pub enum IsosurfaceError {
     Absent {
         /// The label.
         label: u16,
-        /// What there is, as a list.
+        /// The labels present, as a list.
         present: String,
     },
     /// More triangles than are simplified: noise, a sponge, or very small voxels.
@@ -108,7 +108,7 @@ const FOUND: f64 = 0.1;
 ///
 /// # Errors
 /// When no voxel has the label, its surface has more than [`MOST_VOXEL_TRIANGLES`], or fewer than four triangles are
-/// asked for.
+/// requested.
 pub fn isosurface(
     map: &LabelMap,
     label: u16,
@@ -117,7 +117,7 @@ pub fn isosurface(
     isosurface_with_progress(map, label, settings, &mut |_| ControlFlow::Continue(()))
 }
 
-/// The same. `progress` hears the part of the work that is done, from 0 to 1 [-], and may cancel it.
+/// The same. `progress` receives the fraction of the work done, from 0 to 1 [-], and may cancel it.
 ///
 /// # Errors
 /// As [`isosurface`], and when the work is cancelled.

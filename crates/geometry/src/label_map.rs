@@ -24,9 +24,9 @@ pub struct LabelMap {
 /// One label of a [`LabelMap`].
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Label {
-    /// As it stands in the voxels, never zero.
+    /// Its value in the voxels, never zero.
     pub number: u16,
-    /// As the file calls it.
+    /// Its name in the file.
     pub name: Option<String>,
     /// How many voxels have it.
     pub voxels: usize,
@@ -75,7 +75,8 @@ impl LabelMap {
         }
     }
 
-    /// The same with the voxels of `others` as voxels of `organ`: an organ with what lies in it.
+    /// The same with the voxels of `others` as voxels of `organ`: an organ with the labels inside
+    /// of it.
     #[must_use]
     pub fn with_inside(&self, organ: u16, others: &[u16]) -> Self {
         let joined = |label: &u16| match others.contains(label) {
@@ -96,8 +97,8 @@ impl LabelMap {
         }
     }
 
-    /// The same where every voxel of the labels `inside` has only `organ` and its own label around it: what touches something else
-    /// or an earlier one of them, over a corner too, becomes `organ`. And how many voxels of each that were.
+    /// The same where every voxel of the labels `inside` has only `organ` and its own label around it: voxels that touch another
+    /// label or an earlier one of them, over a corner too, become `organ`. Also returns the number of these voxels of each.
     #[must_use]
     pub fn separated(&self, organ: u16, inside: &[u16]) -> (Self, Vec<usize>) {
         let [nx, ny, nz] = self.size;
@@ -130,7 +131,7 @@ impl LabelMap {
         self.steps.determinant().abs()
     }
 
-    /// Where an index, whole or not, is in space [m].
+    /// Position of an index, whole or not, in space [m].
     pub(crate) fn position(&self, index: &Vec3) -> Vec3 {
         self.origin + self.steps * index
     }

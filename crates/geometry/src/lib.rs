@@ -1,7 +1,7 @@
-//! Triangle and tetrahedron meshes and what can be asked of them without mechanics.
+//! Triangle and tetrahedron meshes, and geometric queries on them.
 //!
 //! A [`TriangleMesh`] is any list of triangles; a [`Surface`] is one that has been checked: closed,
-//! manifold, oriented outward, in one piece. Everything that touches an organ asks for a `Surface`.
+//! manifold, oriented outward, in one piece. Code that works on an organ takes a `Surface`.
 //! A [`TetrahedronMesh`] fills one, for finite elements.
 //!
 //! ```
@@ -85,5 +85,5 @@ pub use surface::{SHARP_EDGE, Surface};
 pub use weld::{Repairs, repair, weld_exactly};
 pub use wrap::{Gaps, WrapError, WrapSettings, Wrapped, wrap, wrap_with_progress};
 
-/// A point or a vector in space [m, unless said otherwise].
+/// A point or a vector in space [m, unless stated otherwise].
 pub type Vec3 = nalgebra::Vector3<f64>;

@@ -3,14 +3,15 @@
 //! A tip at p that slides along an organ keeps its contact point c where p = c − d n(c), n being the
 //! averaged normal of a [`PatchField`]: c and d are continuous in p, while the nearest point of a mesh
 //! leaps at every edge. Inside a triangle c and n are linear in the barycentric weights, so
-//! p = Σ bᵢ (xᵢ − t nᵢ) is three equations for b and t, solved by Newton; a negative weight says
-//! which neighbour to go to [Panozzo et al. 2013, Phong projection].
+//! p = Σ bᵢ (xᵢ − t nᵢ) is three equations for b and t, solved by Newton's method; a negative
+//! weight selects the next neighbour [Panozzo et al. 2013, Phong projection].
 //!
 //! *How we know*: `analytic::contact_point_on_sphere_is_radial`, `invariants::slide_has_no_leaps`.
 //!
 //! *Limits*: deeper than the organ is round, the normals cross and the equation has no solution near by;
-//! the contact point then creeps towards the tip along the surface. It never turns its normal faster
-//! than [`FASTEST_TURN`] nor runs far ahead of the tip, so that the force stays continuous over ridges.
+//! the contact point then moves towards the tip along the surface at a limited rate. It never turns its
+//! normal faster than [`FASTEST_TURN`] nor runs far ahead of the tip, so that the force stays
+//! continuous over ridges.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -33,7 +34,7 @@ pub struct ContactPoint {
 }
 
 /// More triangles than this in one step is a leap, not a slide: the caller searches anew.
-const LONGEST_WALK: usize = 256;
+const MOST_CROSSED_TRIANGLES: usize = 256;
 
 /// Fastest turn of the contact's normal per travel of the tip [rad/m]: 0.03 rad, or 3 % of the force, in
 /// a tenth of a millimetre.
@@ -42,8 +43,8 @@ pub const FASTEST_TURN: f64 = 300.0;
 /// Fastest travel of the contact point per travel of the tip [-].
 const FASTEST_TRAVEL: f64 = 2.0;
 
-/// The contact point of a tip that has gone from `before` to `tip` [m], starting from the last one,
-/// `from`. `None` when the tip has gone too far to follow.
+/// The contact point of a tip that moved from `before` to `tip` [m], starting from the last one,
+/// `from`. `None` when the tip moved too far to follow.
 pub fn follow(
     surface: &Surface,
     field: &PatchField,
@@ -112,7 +113,7 @@ pub fn project_contact_point(
         along: from.depth,
     };
     let mut before = None;
-    for _ in 0..LONGEST_WALK {
+    for _ in 0..MOST_CROSSED_TRIANGLES {
         let solved = solve_in_triangle(surface, normals, &at, tip)?;
         let (lowest, weight) = lowest(&solved.barycentric);
         if weight >= -1e-10 {
@@ -223,7 +224,7 @@ fn nearest_among_neighbors(
     let mut triangle = start;
     let mut on = closest_on_triangle(&mesh.positions(triangle), tip);
     let mut distance = (on.position - tip).norm();
-    for _ in 0..LONGEST_WALK {
+    for _ in 0..MOST_CROSSED_TRIANGLES {
         let mut better = None;
         for node in mesh.corners(triangle) {
             for &other in surface.adjacency().around(node) {

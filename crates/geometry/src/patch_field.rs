@@ -1,4 +1,4 @@
-//! The surface as a tool of a given size feels it: normals and curvatures averaged over patches.
+//! Normals and curvatures of a surface averaged over patches of the size of a tool.
 //!
 //! A mesh has neither: its normal jumps at every edge and its curvature sits in the edges. The normal at a
 //! vertex v is the mean over the connected surface within a radius, with the weight (1 − (r/radius)²)² times the
@@ -10,7 +10,7 @@
 //! `invariants::patch_field_turns_along`.
 //!
 //! *Limits*: where the mesh is coarser than the radius, the radius grows to the longest edge at the vertex, for the curvature
-//! to one and a half times that; a feature smaller than the patch is felt blunt.
+//! to one and a half times that; a feature smaller than the patch is smoothed.
 
 use nalgebra::{Matrix3, Matrix6, Vector6};
 
@@ -51,8 +51,8 @@ fn principal(curvature: &Matrix3<f64>) -> [f64; 2] {
     [mean + half, mean - half]
 }
 
-/// Weight of the curvature against the data: a hundredth of a vertex is enough to settle a patch with
-/// too few vertices to tell, and far too little to flatten a real one.
+/// Weight of the curvature against the data: a hundredth of a vertex determines a patch with too few
+/// vertices, and is far too little to flatten a real one.
 const RIDGE: f64 = 1e-2;
 
 impl PatchField {

@@ -18,7 +18,7 @@ pub struct PointOnTriangle {
 }
 
 impl PointOnTriangle {
-    /// What a search starts from.
+    /// The start value of a search.
     pub(crate) const NOWHERE: Self = Self {
         barycentric: [1.0, 0.0, 0.0],
         position: Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY),

@@ -1,12 +1,11 @@
-//! Finer tetrahedra where they are asked for, tetrahedra that do not cross given levels, and that follow sharp edges.
+//! Refinement of tetrahedra, and tetrahedra that do not cross given levels or that follow sharp edges.
 //!
-//! By bisection with marked edges [Arnold, Mukherjee and Pouly 2000]: each
-//! tetrahedron knows which of its edges is cut next and which edge of each face, and its children
-//! inherit that, so that only finitely many shapes come of one tetrahedron and neighbours always
-//! agree. New vertices of the boundary move onto the surface (`shell`), unless that would spoil a tetrahedron; vertices
-//! inside move where that opens a flat one (`relax`), those between regions excepted. A level (`level`) gets vertices where
-//! edges cross it: ends that move there, or new ones. The sharp edges of a surface (`sharp`) are what its `facets` meet in; an edge
-//! of the boundary from one facet to another gets a vertex there in the same way.
+//! By bisection with marked edges [Arnold, Mukherjee and Pouly 2000]: each tetrahedron stores which of its edges is cut next and
+//! which edge of each face, and its children inherit that, so that only finitely many shapes come of one tetrahedron and neighbours
+//! always agree. New vertices of the boundary move onto the surface (`shell`), unless that would spoil a tetrahedron; vertices
+//! inside move where that opens a flat one (`relax`), those between regions excepted. A level (`level`) gets vertices where edges
+//! cross it: ends that move there, or new ones. The sharp edges of a surface (`sharp`) are what its `facets` meet in; an edge of
+//! the boundary from one facet to another gets a vertex there in the same way.
 //!
 //! *How we know*: `refine::stays_sound_and_well_shaped`, `refine::real_organs_are_refined`,
 //! `refine::a_circle_is_resolved`, `refine::balls_become_sets_of_tetrahedra`,

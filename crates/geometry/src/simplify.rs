@@ -1,13 +1,12 @@
 //! The same surface with fewer triangles.
 //!
-//! Edges are collapsed in the order of a cost: the squared distance from the planes that a vertex
-//! has taken the place of, as a quadratic form [Garland and Heckbert 1997], and a small term that
-//! keeps triangles even. Planes that stand on borders and sharp edges keep these. A collapse must
-//! keep the kind of the surface [Dey et al. 1999], turn no triangle over, make no needle and pass
-//! through nothing; only the last three yield when the number of triangles cannot be met otherwise.
-//! Then edges are flipped and vertices slide along the surface, which makes triangles even, and each
-//! vertex stands so that its triangles are on the mean neither outside of the original nor inside:
-//! the volume stays. Large meshes are first simplified in blocks, on all cores (`blocks`); the result does not depend on their number.
+//! Edges are collapsed in the order of a cost: the squared distance from the planes that a vertex represents, as a quadratic form
+//! [Garland and Heckbert 1997], and a small term that keeps triangles even. Planes that stand on borders and sharp edges keep these. A
+//! collapse must keep the kind of the surface [Dey et al. 1999], turn no triangle over, make no needle and pass through nothing; only
+//! the last three yield when the number of triangles cannot be met otherwise. Then edges are flipped and vertices slide along the
+//! surface, which makes triangles even, and each vertex stands so that its triangles are on the mean neither outside of the original
+//! nor inside: the volume stays. Large meshes are first simplified in blocks, on all cores (`blocks`); the result does not depend on
+//! their number.
 //!
 //! *How we know*: `simplify::organs_stay_closed_and_keep_their_volume`,
 //! `simplify::deviation_is_that_of_parry`, `simplify::a_cube_keeps_its_edges`,
@@ -39,12 +38,12 @@ use crate::{AabbTree, TriangleMesh};
 /// The fewest triangles of a closed surface.
 const FEWEST: usize = 4;
 
-/// What [`simplify`] shall do.
+/// Settings of [`simplify`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SimplifySettings {
     /// The number of triangles to reach; a closed mesh has an even number.
     pub triangles: usize,
-    /// How much even triangles count beside a small distance from the original [-]; 0 leaves large
+    /// Weight of even triangles relative to a small distance from the original [-]; 0 leaves large
     /// triangles on flat sides.
     pub evenness: f64,
 }
@@ -64,9 +63,9 @@ impl SimplifySettings {
 pub struct Simplified {
     /// The triangles [m].
     pub mesh: TriangleMesh,
-    /// How far the original is from the result.
+    /// Distance of the original from the result.
     pub of_original: Deviation,
-    /// How far the result is from the original.
+    /// Distance of the result from the original.
     pub of_result: Deviation,
     /// Triangles of the result that meet another one.
     pub self_intersections: usize,
@@ -76,8 +75,9 @@ impl Simplified {
     /// A sentence where triangles of the result meet.
     pub fn warning(&self) -> Option<String> {
         let meet = self.self_intersections;
-        let said = || format!("{meet} triangles of the result meet others; ask for more triangles");
-        (meet > 0).then(said)
+        let warning =
+            || format!("{meet} triangles of the result meet others; ask for more triangles");
+        (meet > 0).then(warning)
     }
 }
 
@@ -88,7 +88,7 @@ pub enum SimplifyError {
     /// Fewer triangles than bound a solid.
     #[error("{asked} triangles bound no solid; ask for {FEWEST} or more")]
     TooFew {
-        /// How many were asked for.
+        /// The requested number.
         asked: usize,
     },
     /// Another number of sizes than of vertices.
@@ -105,7 +105,7 @@ pub enum SimplifyError {
         /// What was given.
         found: f64,
     },
-    /// The caller asked for it.
+    /// The caller cancelled it.
     #[error("the simplification was cancelled; start it again")]
     Cancelled,
 }
@@ -120,7 +120,7 @@ impl SimplifyError {
     }
 }
 
-/// The surface of `mesh` with fewer triangles, at most as many as asked for. A mesh that has so few
+/// The surface of `mesh` with fewer triangles, at most the requested number. A mesh that has so few
 /// already stays as it is.
 ///
 /// # Errors
@@ -132,7 +132,7 @@ pub fn simplify(
     simplify_with_progress(mesh, settings, &mut |_| ControlFlow::Continue(()))
 }
 
-/// The same. `progress` hears the part of the work that is done, from 0 to 1 [-], and may cancel it.
+/// The same. `progress` receives the fraction of the work done, from 0 to 1 [-], and may cancel it.
 ///
 /// # Errors
 /// When fewer than four triangles are asked for, or the work is cancelled.
@@ -148,8 +148,8 @@ pub fn simplify_with_progress(
     }
 }
 
-/// The same with triangles that are smaller in some places than in others: as `sizes` are at the vertices of `mesh`,
-/// which are lengths of edges beside one another [-].
+/// The same with triangles that are smaller in some places than in others: by `sizes` at the vertices of `mesh`,
+/// which are lengths of edges relative to one another [-].
 ///
 /// # Errors
 /// When fewer than four triangles are asked for, there are not as many sizes as vertices, or one of them is not

@@ -1,8 +1,8 @@
-//! Slits in tetrahedra: their sides are faces, so that elements carry nothing across.
+//! Slits in tetrahedra: their sides are faces, so that elements transmit no force across.
 //!
 //! The sheet below a path over the surface crosses edges. A vertex that is close to it moves onto it; the other edges that
-//! cross it are split there, and after them, within the sheet, those that cross its ends and its floor. Then the faces that
-//! make up the sheet part.
+//! cross it are split there, and after them, within the sheet, those that cross its ends and its floor. Then the faces of
+//! the sheet separate.
 //!
 //! *How we know*: `slit::…`.
 //!
@@ -43,11 +43,11 @@ const ABOVE: f64 = 0.5;
 /// A point of the path of a slit over the surface of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlitPoint {
-    /// Where it is [m].
+    /// Its position [m].
     pub place: Vec3,
     /// Unit outward normal of the surface [-].
     pub normal: Vec3,
-    /// How deep the slit goes there [m].
+    /// Depth of the slit there [m].
     pub depth: f64,
 }
 
@@ -57,7 +57,7 @@ pub struct SlitTetrahedra {
     net: Net,
 }
 
-/// What is known of a slit that is being opened, per vertex.
+/// Data of a slit that is being opened, per vertex.
 struct Slit<'a> {
     sheet: &'a Sheet,
     /// Coordinates of the vertices near the sheet.
@@ -78,8 +78,8 @@ impl SlitTetrahedra {
         }
     }
 
-    /// Opens a slit below `path`; the area that it parts [m²]. That is less than the sheet's where the path turns within the length
-    /// of an edge, as at a rim, and nothing beside the body.
+    /// Opens a slit below `path`. Returns its area [m²], which is less than the sheet's where the path turns within the length of
+    /// an edge, as at a rim, and zero outside the body.
     pub fn open(&mut self, path: &[SlitPoint]) -> f64 {
         let net = &mut self.net;
         let longest = net.longest_edge_around(path);
@@ -101,20 +101,20 @@ impl SlitTetrahedra {
         0.5 * (net.boundary().area - before)
     }
 
-    /// Whether every piece that hangs together by faces has a vertex on its boundary that `holds` says so of [m].
+    /// Whether every face-connected piece has a vertex [m] on its boundary for which `holds` is true.
     pub fn is_held(&self, holds: impl Fn(&Vec3) -> bool) -> bool {
         let tetrahedra = self.net.corners();
         let boundary = self.net.boundary();
         let vertices = self.net.split.vertices.iter().zip(&boundary.normals);
-        let held: Vec<bool> = vertices
+        let fixed: Vec<bool> = vertices
             .map(|(place, normals)| !normals.is_empty() && holds(place))
             .collect();
         let pieces = pieces(&tetrahedra);
         let mut is_held = vec![false; pieces.iter().max().map_or(0, |last| last + 1)];
         for (piece, nodes) in pieces.iter().zip(&tetrahedra) {
-            is_held[*piece] |= nodes.iter().any(|node| held[node.index()]);
+            is_held[*piece] |= nodes.iter().any(|node| fixed[node.index()]);
         }
-        is_held.into_iter().all(|held| held)
+        is_held.into_iter().all(|fixed| fixed)
     }
 
     /// The tetrahedra, and of which of the whole body each is a part.
@@ -151,7 +151,7 @@ impl<'a> Slit<'a> {
         }
     }
 
-    /// How far a vertex is within a limit [m].
+    /// Distance of a vertex inside a limit [m].
     fn within(&self, vertex: u32, limit: usize) -> Option<f64> {
         match self.on_limit[limit].contains(&vertex) {
             true => Some(0.0),
@@ -348,7 +348,8 @@ impl<'a> Slit<'a> {
                 .within(vertex, limit)
                 .is_some_and(|within| within < 0.0);
             let is_inner = boundary.normals[vertex as usize].is_empty();
-            // The slit bends to one that cannot move; but a shallow one goes on below the surface.
+            // The slit bends to a vertex that cannot move; but a shallow one continues below the
+            // surface.
             let bends = part < BEND && (is_outside || is_inner);
             if (!on_others && net.shift(vertex, &way, &boundary)) || bends {
                 self.at

@@ -9,7 +9,7 @@ pub const SHARP_EDGE: f64 = 0.64;
 /// [together](Self::together), without triangles that have no area and without vertices that no triangle uses.
 ///
 /// That it does not pass through itself is not checked here: the check takes seconds on a large
-/// organ (see [`crate::inspect`]), and nothing that takes a `Surface` breaks without it.
+/// organ (see [`crate::inspect`]), and code that takes a `Surface` does not depend on it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
     mesh: TriangleMesh,
@@ -59,7 +59,7 @@ impl Surface {
         &self.mesh
     }
 
-    /// Who shares an edge or a vertex with whom.
+    /// Triangles that share an edge or a vertex.
     pub fn adjacency(&self) -> &Adjacency {
         &self.adjacency
     }

@@ -7,7 +7,7 @@ use crate::{MeshError, NodeId, TriangleMesh, Vec3};
 /// Border vertices nearer than this part of the diagonal are one.
 const TOLERANCE: f64 = 1e-6;
 
-/// What [`repair`] did to a mesh.
+/// The changes of a mesh by [`repair`].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize)]
 pub struct Repairs {
     /// Vertices that were joined to another in the same place.

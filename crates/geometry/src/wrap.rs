@@ -1,10 +1,11 @@
 //! A closed envelope of any triangles: open, crossing, doubled or unoriented.
 //!
-//! The rims of holes are capped by fans. On a grid somewhat finer than the asked distance, the outside is what a ball of radius r
-//! reaches from the border without touching a triangle; the inside is what no such ball covers (a morphological closing
-//! [Serra 1982]). Its surface is closed, manifold and in one piece ([`isosurface`](crate::isosurface)), and its vertices
+//! The rims of holes are capped by fans. On a grid somewhat finer than the asked distance, the outside is the part that a ball of
+//! radius r reaches from the border without touching a triangle; the inside is the part that no such ball covers (a morphological
+//! closing [Serra 1982]). Its surface is closed, manifold and in one piece ([`isosurface`](crate::isosurface)), and its vertices
 //! are moved to the nearest point of the triangles where one is near and no triangle is turned by it. Where that encloses
-//! nothing, wider openings get a cap where they are narrowest (`openings`). Closed surfaces inside are given beside it (`inner`).
+//! nothing, wider openings get a cap where they are narrowest (`openings`). Closed surfaces inside are returned as well
+//! (`inner`).
 //!
 //! *How we know*: `wrap::…`: balls of crossing, doubled, turned and missing triangles keep their volume and distance.
 //!
@@ -61,7 +62,7 @@ impl Gaps {
 /// How [`wrap`] works.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WrapSettings {
-    /// How far the envelope may be from the triangles [m].
+    /// Largest distance of the envelope from the triangles [m].
     pub distance: f64,
     /// Which gaps are closed.
     pub gaps: Gaps,
@@ -87,9 +88,9 @@ impl Default for WrapSettings {
 pub struct Wrapped {
     /// Closed, manifold, oriented outward and in one piece [m].
     pub surface: Surface,
-    /// How far the envelope is from the triangles.
+    /// Distance of the envelope from the triangles.
     pub to_input: Deviation,
-    /// How far the triangles are from the envelope; large where they lie inside.
+    /// Distance of the triangles from the envelope; large where they lie inside.
     pub of_input: Deviation,
     /// Holes with a rim that were capped.
     pub holes: usize,
@@ -99,11 +100,11 @@ pub struct Wrapped {
     pub gaps: f64,
     /// Width of the widest opening without a rim that was closed, where closing the gaps enclosed nothing [m].
     pub opening: Option<f64>,
-    /// Pieces beside the largest that were left out.
+    /// Pieces other than the largest, which were dropped.
     pub other_pieces: usize,
     /// Volume of cavities that were filled [m³].
     pub filled: f64,
-    /// Closed surfaces inside, the largest first, if they were asked for: of cavities, vessels and parts, and inner walls. One may
+    /// Closed surfaces inside, the largest first, if requested: of cavities, vessels and parts, and inner walls. One may
     /// lie within another.
     pub inner: Vec<Surface>,
 }
@@ -131,7 +132,7 @@ pub enum WrapError {
     TooFine {
         /// What was asked [m].
         distance: f64,
-        /// What it takes.
+        /// Voxels needed.
         voxels: f64,
         /// The least distance that fits [m].
         least: f64,
@@ -169,7 +170,7 @@ pub fn wrap(mesh: &TriangleMesh, settings: &WrapSettings) -> Result<Wrapped, Wra
     wrap_with_progress(mesh, settings, &mut |_| ControlFlow::Continue(()))
 }
 
-/// The same. `progress` hears the part of the work that is done, from 0 to 1 [-], and may cancel it.
+/// The same. `progress` receives the fraction of the work done, from 0 to 1 [-], and may cancel it.
 ///
 /// # Errors
 /// As [`wrap`], and when the work is cancelled.

@@ -1,4 +1,4 @@
-//! A closed envelope around triangles of any kind, and what its user has to know of it.
+//! A closed envelope around triangles of any kind, with warnings.
 
 use std::ops::ControlFlow;
 
@@ -11,7 +11,7 @@ use crate::{Error, Watch};
 pub struct Envelope {
     /// The envelope, the closed surfaces inside, and how far both are from the triangles.
     pub wrapped: Wrapped,
-    /// What deserves a look, in sentences.
+    /// Warnings, in sentences.
     pub warnings: Vec<String>,
 }
 
@@ -21,7 +21,7 @@ const WIDE_RIM: f64 = 0.25;
 /// The envelope of `mesh`.
 ///
 /// # Errors
-/// When a setting is none, the mesh encloses nothing or is too large for the distance, or `watch` asks to stop.
+/// When a setting is invalid, the mesh encloses nothing or is too large for the distance, or `watch` asks to stop.
 pub fn envelope(
     mesh: &TriangleMesh,
     settings: &WrapSettings,

@@ -35,7 +35,7 @@ pub enum Error {
     /// The envelope of triangles.
     #[error(transparent)]
     Wrap(#[from] WrapError),
-    /// A material card of a law that its package has not.
+    /// A material card for a law that the package lacks.
     #[error(transparent)]
     Card(#[from] NoCard),
     /// A law or a solver.
@@ -56,7 +56,7 @@ pub enum Error {
     /// A device that fails while it is used.
     #[error(transparent)]
     Device(#[from] palpate_servo::Fault),
-    /// Any of these, with the file that it is about.
+    /// Any of these, with the file that it concerns.
     #[error("{}: {error}", file.display())]
     About {
         /// The file.
@@ -65,20 +65,20 @@ pub enum Error {
         #[source]
         error: Box<Error>,
     },
-    /// The folder for what a job makes.
+    /// The output folder of a job.
     #[error("the folder {} cannot be made or written ({source}); give another with {option}", folder.display())]
     Folder {
         /// The folder.
         folder: PathBuf,
-        /// The option that names another.
+        /// The option that selects another folder.
         option: &'static str,
-        /// What the operating system says.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// None of several recordings can be used.
     #[error("none of the {count} recordings can be used; the first: {first}")]
     NoRecording {
-        /// How many there are.
+        /// The number of recordings.
         count: usize,
         /// Why the first cannot be used.
         #[source]
@@ -103,7 +103,7 @@ impl Error {
         Self::Failed(message.to_string())
     }
 
-    /// Whether the input is invalid, rather than something else at fault.
+    /// Whether the input is invalid; otherwise it is another failure.
     pub fn is_input(&self) -> bool {
         match self {
             Self::File(error) => error.is_input(),
@@ -131,7 +131,7 @@ impl Error {
         exit_status(self.is_input())
     }
 
-    /// A folder that cannot be written, with the option that names another; other errors stay as they are.
+    /// A folder that cannot be written, with the option that selects another; other errors are unchanged.
     pub fn of_folder(option: &'static str, error: palpate_files::Error) -> Self {
         match error {
             palpate_files::Error::Write { path, source } => Self::Folder {
@@ -143,7 +143,7 @@ impl Error {
         }
     }
 
-    /// The same, with the file that it is about.
+    /// The same, with the file that it concerns.
     pub fn about(self, file: &Path) -> Self {
         match self.to_string().contains(&*file.to_string_lossy()) {
             true => self,

@@ -1,4 +1,4 @@
-//! Labels of a segmented volume, as people name them, and what their surfaces leave in warning.
+//! Labels of a segmented volume by name or number, and warnings about their surfaces.
 
 use palpate_geometry::{Isosurface, Label};
 
@@ -7,7 +7,7 @@ use crate::{Error, nearest};
 /// The label of this number, or else of this name.
 ///
 /// # Errors
-/// When there is none, with those that there are, or when several have the name.
+/// When there is none, with the available labels, or when several have the name.
 pub fn find<'l>(labels: &'l [Label], wanted: &str) -> Result<&'l Label, Error> {
     let by_number = labels
         .iter()
@@ -111,19 +111,19 @@ mod tests {
     #[test]
     fn a_name_that_two_labels_have_is_refused_with_both_numbers() {
         let labels = [label(2, "spleen"), label(3, "liver"), label(7, "liver")];
-        let said = find(&labels, "liver").unwrap_err();
-        assert!(said.is_input());
-        let said = said.to_string();
+        let error = find(&labels, "liver").unwrap_err();
+        assert!(error.is_input());
+        let error = error.to_string();
         assert!(
-            said.contains("3, 7") && said.contains("by its number"),
-            "{said}"
+            error.contains("3, 7") && error.contains("by its number"),
+            "{error}"
         );
         assert_eq!(find(&labels, "7").unwrap(), &labels[2]);
         assert_eq!(find(&labels, "spleen").unwrap(), &labels[0]);
         assert!(find(&labels, "kidney").is_err());
     }
 
-    /// Else the label 5 could not be chosen at all.
+    /// Otherwise the label 5 could not be selected.
     #[test]
     fn a_number_is_a_number_before_it_is_a_name() {
         let labels = [label(4, "5"), label(5, "liver")];

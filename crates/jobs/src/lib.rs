@@ -1,5 +1,5 @@
-//! What palpate is asked to do, whole: a document comes in, progress is told, and one answer comes out. The
-//! command line and the Python package both stand on it, so that they answer alike to the last digit.
+//! The jobs of palpate: each takes a document, reports progress and returns one answer. The command line and the
+//! Python package both call these jobs, so their answers agree to the last digit.
 //!
 //! | job | from | to |
 //! |---|---|---|
@@ -8,14 +8,14 @@
 //! | [`characterize`] | recordings | the tissue behind them, specimen by specimen |
 //! | [`measure`] | a protocol | recordings by the rig |
 //! | [`mod@envelope`] | triangles of any kind | a closed surface around them |
-//! | [`preparation`] | a scene | a simulation, from what was prepared before where there is such |
-//! | [`mod@validate`] | a file | what it is, and whether it is right |
+//! | [`preparation`] | a scene | a simulation, from cached results if there are any |
+//! | [`mod@validate`] | a file | its kind, and whether it is valid |
 //!
-//! *How we know*: the tests of the command, which runs every job, and those here: a study that is cancelled at any of
-//! its words leaves no half file and goes on, and what is answered does not depend on who waits.
+//! *How we know*: the tests of the command, which runs every job, and those here: a study that is cancelled at any
+//! progress report leaves no half-written file and can resume, and answers do not depend on the progress receiver.
 //!
-//! *Limits*: jobs read and write the files that they are asked to, start threads that end with them, and never print
-//! or exit.
+//! *Limits*: jobs read and write only the files named in the request, start threads that end with them, and never
+//! print or exit.
 
 pub mod analyze;
 pub mod characterize;
@@ -45,13 +45,13 @@ pub use recordings::{ReadRecording, Recordings, Unusable, hexadecimal};
 pub use sideways::Sideways;
 pub use watch::{Nobody, Watch};
 
-/// The version that stands in every machine-readable answer as `palpate`.
+/// The version, which every machine-readable answer has as `palpate`.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// `answer` as one JSON document.
 ///
 /// # Errors
-/// When it holds what JSON has no words for.
+/// When JSON cannot represent a value of the answer.
 pub fn json_text(answer: &impl serde::Serialize) -> Result<String, Error> {
     serde_json::to_string_pretty(answer).map_err(|error| {
         Error::failed(format!(

@@ -1,41 +1,41 @@
-//! How much memory a job may take: four fifths of the least of what the machine has free, what the limits of the process
-//! leave it (`ulimit -v`, `ulimit -d`), and what the limits of its control groups leave them (a container, a batch
-//! system).
+//! The memory limit of a job: four fifths of the smallest of the machine's free memory, the memory left within the
+//! limits of the process (`ulimit -v`, `ulimit -d`), and that left within the limits of its control groups (a
+//! container, a batch system).
 //!
 //! *How we know*: `memory::tests`, and `limits::precompute_refuses_what_a_limit_of_memory_forbids` of the command.
 //!
-//! *Limits*: those of the process and of control groups are known on Linux alone, where `/proc` and `/sys/fs/cgroup` tell
-//! them. Another program may take the memory meanwhile; large matrices are asked for so that this is an error.
+//! *Limits*: those of the process and of control groups are known on Linux alone, from `/proc` and `/sys/fs/cgroup`.
+//! Another program may take the memory meanwhile; large matrices are allocated so that this is an error.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Part of the memory that is left that may be taken [-].
+/// The fraction of the available memory that a job may use [-].
 const PART: f64 = 0.8;
 
-/// Memory that may be taken now [bytes]; none where the system does not tell.
+/// Memory that a job may use now [bytes]; none where the system does not report it.
 pub fn offered() -> Option<usize> {
     let left = [free(), left_to_process(), left_to_groups(Path::new("/"))];
     let least = left.into_iter().flatten().min()?;
     Some((PART * least as f64) as usize)
 }
 
-/// What the machine has free.
+/// Free memory of the machine.
 fn free() -> Option<u64> {
     let mut system = sysinfo::System::new();
     system.refresh_memory();
-    // Zero where it is not told.
+    // Zero where the system does not report it.
     Some(system.available_memory()).filter(|&free| free > 0)
 }
 
-/// What the limits of this process leave it.
+/// Memory left within the limits of this process.
 fn left_to_process() -> Option<u64> {
     let limits = fs::read_to_string("/proc/self/limits").ok()?;
     let status = fs::read_to_string("/proc/self/status").ok()?;
     left_by_limits(&limits, &status)
 }
 
-/// Limits of a process as `/proc` tells them, and what counts towards each.
+/// Limits of a process in `/proc`, and the quantities that count towards each.
 const LIMITS: [(&str, &str); 2] = [
     ("Max address space", "VmSize:"),
     ("Max data size", "VmData:"),
@@ -56,7 +56,7 @@ fn first_number(text: &str, name: &str) -> Option<u64> {
     rest.split_ascii_whitespace().next()?.parse().ok()
 }
 
-/// What the limits of the control groups of this process leave them; `root` is that of the file system.
+/// Memory left within the limits of the control groups of this process; `root` is that of the file system.
 fn left_to_groups(root: &Path) -> Option<u64> {
     let groups = fs::read_to_string(root.join("proc/self/cgroup")).ok()?;
     let left = groups.lines().filter_map(|line| {
@@ -72,13 +72,13 @@ fn left_to_groups(root: &Path) -> Option<u64> {
     left.min()
 }
 
-/// How a version of control groups tells limits.
+/// Files in which a version of control groups reports limits.
 struct Version {
     /// Where the groups are mounted, below the root.
     mount: &'static str,
     limit: &'static str,
     used: &'static str,
-    /// The line of `memory.stat` with the copies of files among what is used, which make room when it is asked for.
+    /// The line of `memory.stat` with the page cache within the used memory, which is freed on demand.
     copies: &'static str,
 }
 
@@ -97,8 +97,8 @@ const TWO: Version = Version {
 };
 
 impl Version {
-    /// The least that a group or one above it leaves. In a container the group may be named as seen from outside;
-    /// then the mount itself is the container's.
+    /// The smallest remainder of a group and those above it. In a container the group may have its name outside; then
+    /// the mount itself is the container's.
     fn left(&self, mount: &Path, group: &str) -> Option<u64> {
         let group: PathBuf = mount.join(group.trim_start_matches('/'));
         let up_to_mount = group.ancestors().take_while(|at| at.starts_with(mount));

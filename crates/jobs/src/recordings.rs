@@ -15,13 +15,13 @@ use sha2::{Digest, Sha256};
 
 use crate::{Error, Sideways, nearest};
 
-/// Which recordings, and what they do not say themselves.
+/// A selection of recordings, with facts that the files do not state.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Recordings {
     /// Recordings, or folders of them; files of instruments and tables of other programs are read too.
     pub paths: Vec<PathBuf>,
-    /// Recordings that are not files here: what they are called, and their text.
+    /// Recordings that are not files here: their names and texts.
     pub texts: Vec<(PathBuf, String)>,
     /// The column of the time, in a table of another program; found by its name if not given.
     pub time: Option<String>,
@@ -29,22 +29,22 @@ pub struct Recordings {
     pub depth: Option<String>,
     /// The column of the force.
     pub force: Option<String>,
-    /// The unit of the depth, where its name does not say it: m, mm, um, nm.
+    /// The unit of the depth, where its name does not state it: m, mm, um, nm.
     pub depth_unit: Option<String>,
-    /// The unit of the force, where its name does not say it: N, mN, uN, nN.
+    /// The unit of the force, where its name does not state it: N, mN, uN, nN.
     pub force_unit: Option<String>,
-    /// What the files do not say, by the keys of a recording: `indenter_radius_m=0.001`.
+    /// Header entries that the files do not state, by the keys of a recording: `indenter_radius_m=0.001`.
     pub said: Vec<String>,
 }
 
 /// A recording that was read.
 #[derive(Debug)]
 pub struct ReadRecording {
-    /// As it was named; a curve of a map with its number, `map.jpk-force-map#7`.
+    /// Its name, as given; a curve of a map with its number, `map.jpk-force-map#7`.
     pub path: PathBuf,
-    /// What it holds, from first contact on.
+    /// Its samples, from first contact on.
     pub clean: CleanRecording,
-    /// What its sensor shows besides the force along the approach; none for a sensor of one axis.
+    /// Lateral force and torque of its sensor; none for a sensor of one axis.
     pub sideways: Option<Sideways>,
     /// SHA-256 of the file, and of the number of the curve in it where it has several.
     pub digest: String,
@@ -62,10 +62,10 @@ impl ReadRecording {
 /// A recording that could not be used, and why.
 #[derive(Debug, Serialize)]
 pub struct Unusable {
-    /// As it was named.
+    /// Its name, as given.
     #[serde(serialize_with = "crate::lossy")]
     pub file: PathBuf,
-    /// Why; it names the file or not.
+    /// Why; it may or may not name the file.
     #[serde(serialize_with = "in_words")]
     pub reason: Error,
 }
@@ -74,7 +74,7 @@ pub struct Unusable {
 type NamedRecording = (PathBuf, Result<ReadRecording, Error>);
 
 impl Recordings {
-    /// A single one that says all itself.
+    /// A single recording, with nothing stated besides.
     pub fn of(path: &Path) -> Self {
         Self {
             paths: vec![path.to_owned()],
@@ -87,14 +87,14 @@ impl Recordings {
         &self,
         mut at_file: impl FnMut(&Path),
     ) -> Result<(Vec<ReadRecording>, Vec<Unusable>), Error> {
-        let said = self.header()?;
+        let stated = self.header()?;
         let (mut good, mut bad) = (Vec::new(), Vec::new());
         let files = self.files()?.into_iter().map(|path| (path, None));
         let texts = self.texts.iter();
         let texts = texts.map(|(path, text)| (path.clone(), Some(text.as_str())));
         for (path, text) in files.chain(texts) {
             at_file(&path);
-            match self.all_of(&path, text, &said) {
+            match self.all_of(&path, text, &stated) {
                 Ok(each) => {
                     for (path, read) in each {
                         match read {
@@ -120,7 +120,7 @@ impl Recordings {
         })
     }
 
-    /// What was said about the recordings, by name and value.
+    /// The options for the recordings, by name and value.
     pub fn said(&self) -> Vec<(String, String)> {
         let columns = [
             ("--time", &self.time),
@@ -133,7 +133,7 @@ impl Recordings {
             .into_iter()
             .filter_map(|(name, value)| Some((name, value.as_ref()?)));
         columns
-            .chain(self.said.iter().map(|said| ("--set", said)))
+            .chain(self.said.iter().map(|entry| ("--set", entry)))
             .map(|(name, value)| (name.to_owned(), value.clone()))
             .collect()
     }
@@ -163,18 +163,18 @@ impl Recordings {
         &self,
         path: &Path,
         text: Option<&str>,
-        said: &RecordingHeader,
+        stated: &RecordingHeader,
     ) -> Result<Vec<NamedRecording>, Error> {
         let bytes = match text {
             Some(text) => Cow::Borrowed(text.as_bytes()),
             None => read_bytes(path, MOST_OF_TABLE)?.into(),
         };
         let mut digest = Sha256::new_with_prefix(&bytes);
-        if let Some(beside) = position_beside(path) {
-            digest.update(read_bytes(beside, MOST_OF_TABLE)?);
+        if let Some(position) = position_beside(path) {
+            digest.update(read_bytes(position, MOST_OF_TABLE)?);
         }
         let digest = digest.finalize();
-        let all = Recording::parse_all(&bytes, path, &self.columns(), said)?;
+        let all = Recording::parse_all(&bytes, path, &self.columns(), stated)?;
         let several = all.len() > 1;
         let each = all.into_iter().enumerate().map(|(place, recording)| {
             let own = match several {
@@ -184,7 +184,7 @@ impl Recordings {
                 ),
                 false => (path.to_owned(), digest),
             };
-            let read = ready(recording, &own.0, said).map(|(clean, sideways)| ReadRecording {
+            let read = ready(recording, &own.0, stated).map(|(clean, sideways)| ReadRecording {
                 path: own.0.clone(),
                 clean,
                 sideways,
@@ -205,13 +205,13 @@ impl Recordings {
         }
     }
 
-    /// What `--set` says, by the rules of a recording's own header.
+    /// The header entries of `--set`, by the rules of a recording's own header.
     fn header(&self) -> Result<RecordingHeader, Error> {
         let mut text = "# format = 1\n".to_owned();
-        for said in &self.said {
-            let Some((key, value)) = said.split_once('=') else {
+        for entry in &self.said {
+            let Some((key, value)) = entry.split_once('=') else {
                 return Err(Error::input(format!(
-                    "--set {said}: write a key and its value, such as indenter_radius_m=0.001"
+                    "--set {entry}: write a key and its value, such as indenter_radius_m=0.001"
                 )));
             };
             let plain = value.parse::<f64>().is_ok() || value == "true" || value == "false";
@@ -245,17 +245,17 @@ impl Recordings {
     }
 }
 
-/// A `recording` of the file `path` made ready, completed by what is `said`.
+/// A `recording` of the file `path`, cleaned, with its header completed by `stated`.
 fn ready(
     mut recording: Recording,
     path: &Path,
-    said: &RecordingHeader,
+    stated: &RecordingHeader,
 ) -> Result<(CleanRecording, Option<Sideways>), Error> {
-    recording.header = recording.header.completed_by(said);
+    recording.header = recording.header.completed_by(stated);
     if let Some((key, expected)) = recording.header.layer_error() {
         let path = path.display();
-        let mut said = recording.header.entries().into_iter();
-        let wrong = match said.any(|(own, _)| own == key) {
+        let mut entries = recording.header.entries().into_iter();
+        let wrong = match entries.any(|(own, _)| own == key) {
             true => "does not fit the other keys",
             false => "is missing",
         };

@@ -2,24 +2,24 @@ use palpate_files::Recording;
 use palpate_files::recording::SensorAxes;
 use serde::Serialize;
 
-/// What a sensor of six axes shows besides the force along the approach, around the largest of that force.
+/// Lateral force and torque of a six-axis sensor, around the largest force along the approach.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Sideways {
     /// Along the approach [N].
     pub force_n: f64,
-    /// Beside the indenter's axis [N].
+    /// Perpendicular to the indenter's axis [N].
     pub lateral_n: f64,
-    /// The second over the first [-].
+    /// `lateral_n` over `force_n` [-].
     pub part: f64,
     /// About the sensor's origin [N m].
     pub torque_n_m: f64,
 }
 
-/// Samples of a mean on each side of the largest force: steps of the sensor leave.
+/// Samples of the mean on each side of the largest force, which averages out the sensor's steps.
 const AROUND: usize = 10;
 /// Samples of the sensor's zero, which a recording of the rig has before first contact.
 const BEFORE: usize = 100;
-/// A part of the force that goes sideways beyond which the approach gets a warning [-]: a bonded punch at 18 degrees.
+/// Fraction of lateral force above which the approach gets a warning [-]: a bonded punch at 18 degrees.
 const LARGE_PART: f64 = 0.1;
 
 impl Sideways {
@@ -49,7 +49,7 @@ impl Sideways {
         })
     }
 
-    /// Warnings about it.
+    /// The warning for a large lateral force.
     pub(crate) fn warning(&self) -> Option<String> {
         (self.part > LARGE_PART).then(|| {
             format!(
@@ -71,7 +71,7 @@ mod tests {
 
     /// A force that rises to 1 N, 0.3 N and 0.4 N of it sideways, over zeros that are somewhere.
     #[test]
-    fn what_acts_sideways_is_told_without_the_zero() {
+    fn lateral_force_excludes_the_zero() {
         let rise: Vec<f64> = (0..400)
             .map(|i| (f64::from(i) - 200.0).clamp(0.0, 100.0) / 100.0)
             .collect();

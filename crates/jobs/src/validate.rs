@@ -1,4 +1,4 @@
-//! `validate`: what a file is, and whether it is right, with all that it names.
+//! `validate`: identifies a file and checks it, with all files that it names.
 
 use std::path::{Path, PathBuf};
 
@@ -18,20 +18,20 @@ use crate::Error;
 use crate::recordings::ENDINGS;
 use crate::solve::Problem;
 
-/// A file that is right.
+/// A valid file.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Validated {
     /// The file.
     pub file: PathBuf,
-    /// What it is.
+    /// Its kind.
     pub kind: Kind,
-    /// What is in it, for people.
+    /// Its content, for people.
     pub content: String,
-    /// What deserves a look, as sentences.
+    /// Warnings, as sentences.
     pub warnings: Vec<String>,
 }
 
-/// What a file can be.
+/// The kind of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
@@ -49,7 +49,7 @@ pub enum Kind {
     Motion,
     /// Depth and force over time.
     Recording,
-    /// What tools did and felt.
+    /// Motions and forces of tools over time.
     Session,
     /// A surface.
     Mesh,
@@ -78,10 +78,10 @@ impl Kind {
     }
 }
 
-/// Reads `path`, finds what it is, and reads every file that it names.
+/// Reads `path`, identifies it, and reads every file that it names.
 ///
 /// # Errors
-/// When it cannot be read, is none of what this project reads, or is wrong.
+/// When it cannot be read, is of no kind that this project reads, or is invalid.
 pub fn validate(path: &Path) -> Result<Validated, Error> {
     let ending = path.extension().map(|end| end.to_ascii_lowercase());
     let read = match ending.as_ref().and_then(|end| end.to_str()) {
@@ -104,7 +104,7 @@ pub fn validate(path: &Path) -> Result<Validated, Error> {
 fn document(path: &Path) -> Result<Validated, Error> {
     let document = Document::parse(&read_text(path, MOST_OF_DOCUMENT)?, path)?;
     let keys = document.open_keys(&[]);
-    // By a key that each must have.
+    // Each kind has a required key of its own.
     match () {
         () if keys.contains("organ") => scene(path),
         () if keys.contains("specimen") || keys.contains("stimulus") => protocol(path),
@@ -118,24 +118,24 @@ fn document(path: &Path) -> Result<Validated, Error> {
     }
 }
 
-/// Variants that are drawn of a scene that draws its numbers.
+/// Variants to check of a scene with random draws.
 const VARIANTS: u64 = 20;
 
 fn scene(path: &Path) -> Result<Validated, Error> {
     let read = Scene::read(path)?;
-    // A place that most variants have may be missing for some.
+    // A location that most variants have may be missing for some.
     let variants = (0..VARIANTS).map(|seed| palpate_simulate::draw_variant(&read, seed));
     let mut variants = variants.collect::<Result<Vec<_>, _>>()?;
     variants
         .iter()
         .try_for_each(palpate_simulate::check_target)?;
-    let (surface, said) = palpate_simulate::read_organ(&variants[0].organ.shape)?;
+    let (surface, surface_warnings) = palpate_simulate::read_organ(&variants[0].organ.shape)?;
     variants
         .iter()
         .try_for_each(|one| palpate_simulate::check_estimated_inclusions(one, &surface))?;
     let scene = variants.swap_remove(0);
     let mut warnings = scene.warnings.clone();
-    warnings.extend(said);
+    warnings.extend(surface_warnings);
     palpate_simulate::read_tissue(&scene.organ.tissue)?;
     warnings.extend(parts(&scene.organ.layers, &scene.organ.inclusions)?);
     for neighbour in &scene.neighbours {
@@ -268,7 +268,7 @@ fn session(path: &Path) -> Result<Validated, Error> {
             counted(session.rows.len(), "row", "rows"),
             rows.map(|row| row.time_s).fold(0.0, f64::max)
         ),
-        warnings: said(session.incomplete.as_ref()),
+        warnings: incomplete_warning(session.incomplete.as_ref()),
     })
 }
 
@@ -276,7 +276,7 @@ fn motion(path: &Path) -> Result<Validated, Error> {
     let motion = Motion::read(path)?;
     let names: Vec<_> = motion.tools().iter().map(|tool| tool.name()).collect();
     let mut warnings = motion.warnings().to_vec();
-    warnings.extend(said(motion.incomplete()));
+    warnings.extend(incomplete_warning(motion.incomplete()));
     Ok(Validated {
         file: path.to_owned(),
         kind: Kind::Motion,
@@ -290,14 +290,14 @@ fn motion(path: &Path) -> Result<Validated, Error> {
     })
 }
 
-/// One recording or all those of a map; what is said of each is said once.
+/// One recording or all those of a map; a warning that several share is given once.
 fn recording(path: &Path) -> Result<Validated, Error> {
     let none = (ForeignColumns::default(), RecordingHeader::default());
     let all = Recording::read_all(path, &none.0, &none.1)?;
     let mut warnings: Vec<String> = Vec::new();
     for recording in &all {
         let own = recording.remarks().iter().cloned();
-        for warning in own.chain(said(recording.incomplete())) {
+        for warning in own.chain(incomplete_warning(recording.incomplete())) {
             if !warnings.contains(&warning) {
                 warnings.push(warning);
             }
@@ -305,7 +305,7 @@ fn recording(path: &Path) -> Result<Validated, Error> {
     }
     let stimulus = all.first().and_then(|own| own.header.stimulus);
     let is_piece = stimulus.is_some_and(StimulusKind::is_of_piece);
-    // A piece may be pulled, which counts below zero.
+    // A piece may be pulled, which gives negative depths.
     let larger = |a: f64, b: f64| match is_piece {
         true if b.abs() > a.abs() => b,
         true => a,
@@ -352,7 +352,7 @@ fn mesh(path: &Path) -> Result<Validated, Error> {
 }
 
 fn volume_mesh(path: &Path) -> Result<Validated, Error> {
-    // The file does not tell its unit; what names the file does.
+    // The file does not state its unit; the document that names the file does.
     let read = read_tetrahedra(path, Some(LengthUnit::Metre))?;
     let named = |region: &VolumeRegion| match &region.name {
         Some(name) => name.clone(),
@@ -409,7 +409,7 @@ fn label_map(path: &Path) -> Result<Validated, Error> {
     })
 }
 
-fn said(incomplete: Option<&Incomplete>) -> Vec<String> {
+fn incomplete_warning(incomplete: Option<&Incomplete>) -> Vec<String> {
     incomplete.map(Incomplete::to_string).into_iter().collect()
 }
 

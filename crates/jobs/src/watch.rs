@@ -1,18 +1,18 @@
-/// Who waits for a job: hears how far it is, and may ask it to stop.
+/// Receives the progress of a job and can ask it to stop.
 ///
-/// A job calls these from any of its threads and from none that is in a hurry. One that must end at once may
-/// unwind out of [`say`](Self::say) and [`at`](Self::at): no file is half written then.
+/// A job calls these methods from any of its threads, but never from a time-critical one. To cancel a job at once,
+/// unwind out of [`say`](Self::say) or [`at`](Self::at): no file is half written at that point.
 pub trait Watch: Sync {
-    /// What is being done now.
+    /// Reports the current step.
     fn say(&self, doing: &str);
 
-    /// A warning about what takes long from now on; the answer has it too.
+    /// A warning before a long step; the answer repeats it.
     fn warn(&self, _warning: &str) {}
 
-    /// The part of the whole that is done, from 0 to 1 [-].
+    /// Sets the completed fraction of the job, from 0 to 1 [-].
     fn at(&self, part: f64);
 
-    /// Whether the job should end in good order, with what is done so far.
+    /// Whether the job should stop cleanly and return its results so far.
     fn is_asked_to_stop(&self) -> bool {
         false
     }
@@ -23,7 +23,7 @@ pub trait Watch: Sync {
     }
 }
 
-/// Nobody waits.
+/// Ignores all progress.
 #[derive(Debug, Clone, Copy)]
 pub struct Nobody;
 

@@ -1,7 +1,7 @@
 use std::ops::Range;
 
-/// Where a tip met tissue, from heights [m], falling, and forces [N]: the height from which a straight rise of
-/// force comes nearest to all, after the force before it was taken for zero. None without a rise.
+/// Height of first contact [m] from falling heights [m] and forces [N]: the height from which a linear rise of
+/// force fits all samples best, with the force before it as zero. None without a rise.
 ///
 /// A threshold alone would be met too late, by its force over the stiffness of the tissue. The rise is looked for
 /// in means first and then about the best of them, so that it takes no longer than a tick may be late.

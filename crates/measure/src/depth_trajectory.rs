@@ -5,7 +5,7 @@ use palpate_files::recording::RecordingHeader;
 
 use crate::Error;
 
-/// Where the indenter is while it presses a stimulus: one that makes sense, as depth over time.
+/// Depth over time of a valid stimulus.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DepthTrajectory(Stimulus);
 
@@ -134,7 +134,7 @@ impl DepthTrajectory {
         }
     }
 
-    /// What a recording's head says of it.
+    /// Header of its recording.
     pub(crate) fn describe(&self, header: &mut RecordingHeader) {
         header.stimulus = Some(self.0.kind());
         match self.0 {

@@ -1,4 +1,4 @@
-/// Why something cannot be measured.
+/// Reason why a measurement fails.
 #[non_exhaustive]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Error {
@@ -50,7 +50,7 @@ pub enum Error {
         /// The longest that is recorded [s].
         longest: f64,
     },
-    /// A breath was held for as long as it may be.
+    /// The breath was held for the whole budget.
     #[error(
         "the breath was held for {breath:.1} s, its whole budget, and the indenter was withdrawn; bring it nearer to the tissue, or raise the budget"
     )]
@@ -58,7 +58,7 @@ pub enum Error {
         /// How long a breath is held [s].
         breath: f64,
     },
-    /// It was not yet looked for tissue.
+    /// The rig has not approached the tissue yet.
     #[error("where the tissue begins is not known; approach it first")]
     NotApproached,
     /// The indenter shall go beyond where it may.
@@ -66,7 +66,7 @@ pub enum Error {
         "the indenter would be at {to_mm:.1} mm {direction}, and may be from {least_mm:.1} to {most_mm:.1} mm; move it less far, or raise the limit"
     )]
     OutOfReach {
-        /// Along the normal of the surface, or beside it.
+        /// Along the normal of the surface, or across it.
         direction: &'static str,
         /// Where it would be [mm].
         to_mm: f64,

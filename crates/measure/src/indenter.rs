@@ -1,13 +1,13 @@
 use palpate_servo::{Controller, DeviceState, Pid, PidGains, Vec3, latest};
 
-/// Where the indenter shall be when its next force begins to act.
+/// Commanded state of the indenter when its next force begins to act.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reference {
-    /// [m]
+    /// Position [m].
     pub position: Vec3,
-    /// [m/s]
+    /// Velocity [m/s].
     pub velocity: Vec3,
-    /// Whether it shall be driven there, or left alone.
+    /// Whether the indenter is driven there, or has no force.
     pub driven: bool,
 }
 
@@ -27,7 +27,7 @@ pub struct Indenter {
     gains: PidGains,
     axes: [Pid; 3],
     reference: latest::Receiver<Reference>,
-    /// How long no reference has come [s].
+    /// Time since the last reference [s].
     silent: f64,
 }
 
@@ -51,16 +51,16 @@ impl Indenter {
 
 impl Controller for Indenter {
     fn update(&mut self, state: &DeviceState, dt: f64) -> Vec3 {
-        let heard = self.reference.has_news();
-        self.silent = if heard { 0.0 } else { self.silent + dt };
-        let wanted = *self.reference.latest();
-        if !wanted.driven {
-            // What it would have to undo later is forgotten.
+        let is_updated = self.reference.has_news();
+        self.silent = if is_updated { 0.0 } else { self.silent + dt };
+        let commanded = *self.reference.latest();
+        if !commanded.driven {
+            // Forgets the integral, which it would have to undo later.
             self.axes = [Pid::new(self.gains); 3];
             return Vec3::zeros();
         }
         Vec3::from_fn(|axis, _| {
-            let aim = [wanted.position[axis], wanted.velocity[axis]];
+            let aim = [commanded.position[axis], commanded.velocity[axis]];
             self.axes[axis].force(state.position[axis], aim, dt)
         })
     }

@@ -8,9 +8,9 @@
 //! ```
 //!
 //! [`Rig`] approaches along the surface's normal until first contact, presses one [`DepthTrajectory`] of a stimulus at a time and withdraws. It runs on a real
-//! clock and on a virtual one. Where there is no device, a [`VirtualSpecimen`] under a virtual PHANTOM stands
-//! for both; what is recorded of it has the sensor's steps, the encoder's steps, a heart that beats and a
-//! breath that is held. A [`live`] rig runs on a thread of its own and carries out the orders of a person.
+//! clock and on a virtual one. Without a device, a [`VirtualSpecimen`] under a virtual PHANTOM replaces specimen and
+//! device; its recordings have the steps of the sensor and of the encoders, a heart that beats and a
+//! breath that is held. A [`live`] rig runs on its own thread and carries out the commands of a person.
 
 mod approach;
 mod depth_trajectory;

@@ -4,7 +4,7 @@ use palpate_files::recording::RecordingHeader;
 /// What a stimulus is called: `ramp-and-hold-4mm`, `sine-2hz`.
 pub fn stimulus_name(stimulus: &Stimulus) -> String {
     let kind = stimulus.kind();
-    // To the micrometre: no encoder tells less apart.
+    // To the micrometre: no encoder resolves less.
     let millimetres = |metres: f64| (1e6 * metres).round() / 1e3;
     let name = match *stimulus {
         Stimulus::RampAndHold { depth_m, .. } => format!("{kind}-{}mm", millimetres(depth_m)),

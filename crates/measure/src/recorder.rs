@@ -5,7 +5,7 @@ use palpate_files::recording::{RecordingHeader, RecordingRow, RecordingWriter};
 
 use crate::{Ended, RigSample};
 
-/// Why a recording ends before its stimulus whose parameters are known.
+/// Reason for the early end of a recording whose parameters are known.
 const KNOWN_WELL_ENOUGH: &str = "its parameters were known well enough";
 
 /// A recording while it is made.
@@ -77,10 +77,10 @@ impl Recorder {
         self.write(row)
     }
 
-    /// What of a sample is written, with its time from the first.
+    /// The row of a sample, with its time from the first.
     pub(crate) fn row(&mut self, sample: &RigSample) -> RecordingRow {
         let begun = *self.first.get_or_insert(sample.time);
-        // To the microsecond, which is what a clock can say.
+        // To the microsecond, the resolution of a clock.
         let time_s = (1e6 * (sample.time - begun)).round() / 1e6;
         RecordingRow {
             time_s,
@@ -98,7 +98,7 @@ impl Recorder {
         Ok(())
     }
 
-    /// Gives it its name, and says at its top how it `ended`.
+    /// Gives the file its name, and writes into the header how it `ended`.
     ///
     /// # Errors
     /// When the operating system refuses.

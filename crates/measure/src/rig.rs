@@ -36,11 +36,11 @@ pub struct Rig {
     sensing: Sensing,
     breath_held: Arc<AtomicBool>,
     time: f64,
-    /// Where it approaches, presses and withdraws.
+    /// Line along which it approaches, presses and withdraws.
     line: Line,
-    /// Where on it the indenter shall be [m].
+    /// Commanded height on the line [m].
     aim: f64,
-    /// Where on it the tissue begins [m].
+    /// Height of first contact on the line [m].
     contact: Option<f64>,
     /// Height to which it withdraws before there was a contact [m].
     retreat: f64,
@@ -49,7 +49,7 @@ pub struct Rig {
     supervisor: Supervisor,
     /// By how much the rig's time is behind that of its clock [s].
     waited: f64,
-    /// Whether its device is there, and what is late for it is late.
+    /// Whether its device is real; ticks for it can then be late.
     is_real: bool,
     /// Where the handle of such a device was at first [m].
     rest: Arc<OnceLock<Vec3>>,
@@ -58,8 +58,7 @@ pub struct Rig {
 }
 
 impl Rig {
-    /// A rig over a specimen that is not there, on `clock`. The same `seed` gives the same bytes on a virtual
-    /// one.
+    /// A rig over a virtual specimen, on `clock`. The same `seed` gives the same bytes on a virtual clock.
     ///
     /// # Errors
     /// When a setting is out of range.
@@ -75,10 +74,10 @@ impl Rig {
         let mut specimen = specimen;
         specimen.indenter_axis = settings.indenter_axis.normalize();
         let (header, breath_held) = (specimen.header.clone(), specimen.breath_held());
-        let (mut feel, felt) = latest::channel(&ForceTorque::zero());
+        let (mut load_sender, tip_load) = latest::channel(&ForceTorque::zero());
         let touch = move |time: f64, place: &Vec3, _: &Vec3| {
             let on_tip = specimen.touch(time, place, MECHANICS_STEP);
-            feel.send(on_tip);
+            load_sender.send(on_tip);
             on_tip.force
         };
         let device = VirtualPhantom::with_axes(machine, &Vec3::zeros(), imperfections)
@@ -88,7 +87,7 @@ impl Rig {
             device: Box::new(device),
             controller: Box::new(indenter),
             reference,
-            sensor: Source::of_virtual(felt, seed, &settings),
+            sensor: Source::of_virtual(tip_load, seed, &settings),
             header,
             breath_held,
             settings,
@@ -142,7 +141,7 @@ impl Rig {
         })
     }
 
-    /// What its recordings say of specimen, indenter and sensor.
+    /// Header of its recordings on specimen, indenter and sensor.
     pub fn header(&self) -> &RecordingHeader {
         &self.header
     }
@@ -170,12 +169,12 @@ impl Rig {
         self.servo.raise_priority();
     }
 
-    /// What takes every force off, from anywhere, and lets forces on again.
+    /// Supervisor that takes every force off, from any thread, and arms again.
     pub fn supervisor(&self) -> Supervisor {
         self.supervisor.clone()
     }
 
-    /// Whether its device is there; a hand may be on it.
+    /// Whether its device is real; a hand may be on it.
     pub fn is_real(&self) -> bool {
         self.is_real
     }
@@ -284,9 +283,9 @@ impl Rig {
         })
     }
 
-    /// Waits until the next tick is due, and tells how late it is [s]. Where nothing is real, whatever is later than a
-    /// period holds up device, tissue and rig together: no force acts for longer than a tick. No tick is made up for,
-    /// and a device that is there has its loop's limits for what is late.
+    /// Waits until the next tick is due, and returns how late it is [s]. In simulation, a delay of more than a
+    /// period stops device, tissue and rig together: no force acts for longer than a tick. Missed ticks are not made up,
+    /// and the loop of a real device has its own limits for late ticks.
     fn wait_for_tick(&mut self) -> f64 {
         self.clock.wait_until(self.time + self.waited);
         let lateness = self.clock.now() - (self.time + self.waited);
@@ -304,7 +303,7 @@ struct Parts {
     controller: Box<dyn Controller>,
     reference: latest::Sender<Reference>,
     sensor: Source,
-    /// What recordings say of the specimen and the indenter.
+    /// Header of recordings on the specimen and the indenter.
     header: RecordingHeader,
     breath_held: Arc<AtomicBool>,
     settings: RigSettings,

@@ -1,11 +1,11 @@
-//! How readings of a sensor become forces on the tip: from the sensor's axes into those of the indenter, less the zero.
+//! Forces on the tip from readings of a sensor: rotated into the axes of the indenter, less the zero.
 
 use nalgebra::{Matrix3, Rotation3};
 use palpate_servo::{ForceSensor, ForceTorque, SensorFault, Vec3, latest};
 
 use crate::{RigSettings, VirtualForceSensor};
 
-/// A sensor that is there, between a device and its indenter.
+/// A real sensor between a device and its indenter.
 pub struct MountedSensor {
     /// The sensor.
     pub sensor: Box<dyn ForceSensor>,
@@ -18,8 +18,8 @@ pub struct MountedSensor {
 pub(crate) enum Source {
     Virtual {
         sensor: VirtualForceSensor,
-        /// On the tip, in the rig's axes, and about the tip.
-        felt: latest::Receiver<ForceTorque>,
+        /// Force on the tip in the rig's axes, and torque about the tip.
+        tip_load: latest::Receiver<ForceTorque>,
         /// From the sensor's origin to the tip [m].
         tip_distance: f64,
     },
@@ -27,15 +27,15 @@ pub(crate) enum Source {
 }
 
 impl Source {
-    /// A virtual sensor of what is `felt` at the tip.
+    /// A virtual sensor of `tip_load`.
     pub(crate) fn of_virtual(
-        felt: latest::Receiver<ForceTorque>,
+        tip_load: latest::Receiver<ForceTorque>,
         seed: u64,
         settings: &RigSettings,
     ) -> Self {
         Self::Virtual {
             sensor: VirtualForceSensor::nano17(seed),
-            felt,
+            tip_load,
             tip_distance: settings.tip_distance,
         }
     }
@@ -76,7 +76,7 @@ impl Sensing {
         }
     }
 
-    /// Whether the sensor is there, and has a zero of its own that has to be taken.
+    /// Whether the sensor is real, so that its zero has to be taken.
     pub(crate) fn is_real(&self) -> bool {
         matches!(self.source, Source::Real(_))
     }
@@ -126,7 +126,7 @@ impl Sensing {
         }
     }
 
-    /// Takes a reading; what is not there leaves the last one and a fault.
+    /// Takes a reading; a failed one leaves the last reading and sets a fault.
     pub(crate) fn read(&mut self) {
         match self.reading() {
             Ok(reading) => {
@@ -141,11 +141,11 @@ impl Sensing {
         match &mut self.source {
             Source::Virtual {
                 sensor,
-                felt,
+                tip_load,
                 tip_distance,
             } => {
                 let mount = self.rig_from_indenter;
-                let on_tip = felt.latest().map(|vector| mount.inverse() * vector);
+                let on_tip = tip_load.latest().map(|vector| mount.inverse() * vector);
                 let tip = Vec3::z() * -*tip_distance;
                 sensor.read(&ForceTorque {
                     torque: on_tip.torque + tip.cross(&on_tip.force),

@@ -11,11 +11,11 @@ pub struct VirtualForceSensor {
     pub ranges: [f64; 6],
     /// Standard deviation of its noise, in steps [-].
     pub noise: f64,
-    /// Of fz, and of all others: what fz shows does not depend on whether anybody asks for the others.
+    /// Of fz, and of all others: readings of fz do not depend on whether the others are read.
     random: [Noise; 2],
 }
 
-/// What the stream of the five other axes is told apart by.
+/// Distinguishes the random stream of the five other axes.
 const OTHERS: u64 = 0x5EED_0F5A_1DE5;
 
 /// Where fz stands among the axes.
@@ -35,12 +35,12 @@ impl VirtualForceSensor {
         }
     }
 
-    /// What it shows of a force and a torque.
+    /// The reading of a force and a torque.
     ///
     /// # Errors
     /// When an axis is at the end of its range.
-    pub fn read(&mut self, felt: &ForceTorque) -> Result<ForceTorque, SensorFault> {
-        let mut shown = felt.components();
+    pub fn read(&mut self, load: &ForceTorque) -> Result<ForceTorque, SensorFault> {
+        let mut shown = load.components();
         let mut saturated = None;
         for (axis, value) in shown.iter_mut().enumerate() {
             let random = &mut self.random[usize::from(axis != AXIAL)];
@@ -67,14 +67,15 @@ mod tests {
     #[test]
     fn noise_is_that_of_the_data_sheet_on_every_axis() {
         let mut sensor = VirtualForceSensor::nano17(5);
-        let felt = ForceTorque {
+        let load = ForceTorque {
             force: Vec3::new(0.1, -0.2, 0.3),
             torque: Vec3::new(1e-3, -2e-3, 5e-4),
         };
         let shown: Vec<[f64; 6]> = (0..4000)
-            .map(|_| sensor.read(&felt).unwrap().components())
+            .map(|_| sensor.read(&load).unwrap().components())
             .collect();
-        for (axis, (wanted, step)) in felt.components().into_iter().zip(sensor.steps).enumerate() {
+        for (axis, (expected, step)) in load.components().into_iter().zip(sensor.steps).enumerate()
+        {
             let mean = shown.iter().map(|row| row[axis]).sum::<f64>() / 4000.0;
             let spread = shown
                 .iter()
@@ -82,7 +83,7 @@ mod tests {
                 .sum::<f64>();
             let spread = (spread / 4000.0).sqrt() / step;
             // Five standard errors of a mean of 4000.
-            assert!((mean - wanted).abs() < 0.05 * step, "{axis}: {mean}");
+            assert!((mean - expected).abs() < 0.05 * step, "{axis}: {mean}");
             assert!((spread - 0.577).abs() < 0.04, "{axis}: {spread}");
         }
     }
@@ -90,11 +91,11 @@ mod tests {
     #[test]
     fn an_axis_beyond_its_range_is_a_fault_with_its_name() {
         let mut sensor = VirtualForceSensor::nano17(1);
-        let felt = ForceTorque {
+        let load = ForceTorque {
             force: Vec3::zeros(),
             torque: Vec3::new(0.0, 0.13, 0.0),
         };
-        let fault = sensor.read(&felt).unwrap_err();
+        let fault = sensor.read(&load).unwrap_err();
         assert_eq!(fault, SensorFault::Saturated { axis: "ty" });
     }
 }

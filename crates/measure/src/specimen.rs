@@ -1,11 +1,10 @@
-//! Tissue that is not there.
+//! Virtual tissue.
 //!
-//! The indenter's tip is met by the force of a half-space of a law, or of a static response that was measured,
+//! A half-space of a law, or a measured static response, exerts a force on the indenter's tip,
 //! which then relaxes by a Prony series. The surface is a plane or a ball ([`Shape`]), which moves with a heart that beats
-//! and a breath that is drawn or held. What it does across its normal, and to a tip that is tilted: `touch`.
+//! and a breath that is drawn or held. Tangential forces and the torque on a tilted tip: `touch`.
 //!
-//! *How we know*: `specimen::…`, and the chain: what `characterize` finds in its recordings is what it was made
-//! of.
+//! *How we know*: `specimen::…`, and the chain: `characterize` finds the given tissue in its recordings.
 //!
 //! *Limits*: a tip that is dragged along the surface never slips.
 
@@ -31,16 +30,16 @@ pub use touch::Shape;
 use crate::Error;
 use crate::noise::Noise;
 
-/// A motion of a surface that comes again and again.
+/// A periodic motion of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rhythm {
-    /// How often [Hz].
+    /// Frequency [Hz].
     pub frequency: f64,
     /// From rest to its end [m].
     pub amplitude: f64,
 }
 
-/// How tissue answers at once.
+/// Instantaneous response of tissue.
 #[derive(Debug, Clone)]
 enum Elastic {
     /// A law under the tip.
@@ -52,7 +51,7 @@ enum Elastic {
 /// A specimen under the indenter.
 #[derive(Debug, Clone)]
 pub struct VirtualSpecimen {
-    /// What its recordings say of it and of the indenter.
+    /// Header of its recordings on specimen and indenter.
     pub header: RecordingHeader,
     /// How much stiffer than its tissue this one is [-].
     pub factor: f64,
@@ -82,7 +81,7 @@ pub struct VirtualSpecimen {
 
 /// How far up a breath moves tissue that is alive [m].
 pub const BREATH_MOTION: f64 = 8e-3;
-/// Tangential over normal stiffness of a bonded punch on what does not change its volume [-]: 16/3 over 8.
+/// Tangential over normal stiffness of a bonded punch on incompressible tissue [-]: 16/3 over 8.
 const INCOMPRESSIBLE: f64 = 2.0 / 3.0;
 /// Time in which a breath comes to rest [s].
 const BREATH_RESTS: f64 = 0.3;
@@ -90,7 +89,7 @@ const BREATH_RESTS: f64 = 0.3;
 impl VirtualSpecimen {
     /// A wide and deep piece of `tissue` under a flat punch of `radius` [m] that it sticks to, on its face and on
     /// its side, down to `deepest` [m]. A nonlinear law is solved by finite elements, which takes seconds;
-    /// `at_step` hears the part that is done [-].
+    /// `at_step` receives the part that is done [-].
     ///
     /// # Errors
     /// When the tissue makes no material, or no equilibrium is found down to there.
@@ -223,7 +222,7 @@ impl VirtualSpecimen {
 
 /// Depths of a solved response, in parts of the deepest [-].
 const DEPTHS: [f64; 10] = [0.02, 0.06, 0.12, 0.2, 0.3, 0.4, 0.55, 0.7, 0.85, 1.0];
-/// What is asked of its forces [-].
+/// Relative accuracy of its forces [-].
 const ACCURACY: f64 = 0.02;
 /// Radius and height of the piece, in radii of the punch [-]: the source's cube of 100 mm under 1 mm.
 const PIECE: [f64; 2] = [56.42, 100.0];

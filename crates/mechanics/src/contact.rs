@@ -1,4 +1,4 @@
-//! What a rigid tip meets: the closed forms of the half-space.
+//! Contact of a rigid tip: the closed forms of the half-space.
 //!
 //! Flat tip of radius a, depth d: slip F = 2 a E d / (1 − ν²) (6.1); stick (bonded)
 //! F = 4 G a d ln(3 − 4ν) / (1 − 2ν) [Spence 1968]; tangential 8 G a u / (2 − ν) [Mindlin 1949].
@@ -101,8 +101,8 @@ fn bonded_factor(nu: f64) -> f64 {
     }
 }
 
-/// Least curvature of a sphere beside the hollow that it is pressed into, in parts of its own [-]: Hertz's surfaces
-/// touch in a small part of theirs.
+/// Least curvature of a sphere relative to the hollow that it is pressed into, in parts of its own [-]: Hertz's
+/// surfaces touch in a small part of theirs.
 const LEAST_CURVATURE: f64 = 0.25;
 
 impl Tip {

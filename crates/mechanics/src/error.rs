@@ -1,6 +1,6 @@
 mod is_input;
 
-/// What a model cannot be made of.
+/// Errors of models and solvers.
 #[non_exhaustive]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Error {
@@ -111,10 +111,10 @@ pub enum Error {
         "the local model without calibration does not have {asked}; ask for a tip that slips, the weak form, the template, every step and the direct solver, or for calibration = \"fitted\""
     )]
     NotWithoutCalibration {
-        /// What it lacks.
+        /// The missing feature.
         asked: &'static str,
     },
-    /// An element names a node that is not there.
+    /// An element names a node that does not exist.
     #[error("element {element} names a node beyond the {nodes} of the mesh")]
     NodeOutOfRange {
         /// The element's number, from 0.
@@ -157,7 +157,7 @@ pub enum Error {
         /// Why.
         failure: crate::finite_elements::Failure,
     },
-    /// A path of equilibria cancels.
+    /// A path of equilibria ends.
     #[error(
         "no equilibrium was found beyond {factor} of the full load ({failure}); use a finer mesh or a smaller load"
     )]
@@ -273,12 +273,12 @@ pub enum Error {
     /// The tetrahedra of a solid cannot be made.
     #[error(transparent)]
     Tetrahedra(#[from] palpate_geometry::TetrahedronError),
-    /// No triangle of the boundary is held.
+    /// No triangle of the boundary is fixed.
     #[error(
         "the anchor holds no triangle of the body, which can move without force; give a plane, box or sphere that takes in a part of its surface"
     )]
     NothingHeld,
-    /// A piece of the body is not held.
+    /// A piece of the body is not fixed.
     #[error(
         "the body has {pieces} pieces, and the one at {place:?} m is not fixed; fix each of them, or join them"
     )]
@@ -378,7 +378,7 @@ pub enum Error {
         "the system has no {} of memory left for the response; close other programs, or give fewer triangles, or fewer that can be touched", gigabytes(*bytes)
     )]
     NoMemory {
-        /// What was asked for [bytes].
+        /// Memory requested [bytes].
         bytes: usize,
     },
     /// More memory than may be used.
@@ -386,9 +386,9 @@ pub enum Error {
         "the response takes {} of memory and {} may be used; give fewer triangles, or fewer that can be touched", gigabytes(*needed), gigabytes(*memory)
     )]
     NotEnoughMemory {
-        /// What it takes [bytes].
+        /// Memory needed [bytes].
         needed: usize,
-        /// What may be used [bytes].
+        /// Memory limit [bytes].
         memory: usize,
     },
     /// Triangles are to be touched that cannot move.
@@ -405,7 +405,7 @@ pub enum Error {
         /// Its number, from 0.
         triangle: usize,
     },
-    /// Whoever asked wants no answer any more.
+    /// The caller cancelled the work.
     #[error("the solution was cancelled; run it again")]
     BrokenOff,
     /// Numbers that are no response of a solid.
@@ -422,16 +422,16 @@ pub enum Error {
         /// The most there can be.
         most: usize,
     },
-    /// What does not fit a solid.
+    /// See [`crate::finite_elements::solid::SolidError`].
     #[error(transparent)]
     Solid(#[from] crate::finite_elements::solid::SolidError),
     /// See [`crate::regions::RegionError`].
     #[error(transparent)]
     Region(#[from] crate::regions::RegionError),
-    /// What is wrong with fibres.
+    /// See [`crate::FibreError`].
     #[error(transparent)]
     Fibres(#[from] crate::FibreError),
-    /// What does not fit a finite element model.
+    /// See [`crate::finite_elements::Mismatch`].
     #[error(transparent)]
     Mismatch(#[from] crate::finite_elements::Mismatch),
     /// A body was not brought into equilibrium.
@@ -477,7 +477,7 @@ pub enum Error {
         /// Triangles of the response.
         response: usize,
     },
-    /// What is no facet of a slit.
+    /// An invalid facet of a slit.
     #[error("the slit cannot be opened, for {fault}; give a facet on the surface, along it")]
     UnsoundSlit {
         /// Why.

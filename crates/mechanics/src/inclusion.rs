@@ -1,4 +1,4 @@
-//! How much less a half-space yields to a load on its surface where an inclusion lies below.
+//! The compliance that an inclusion takes from a half-space under a load on its surface.
 //!
 //! An inclusion of other moduli in a stress that is σ without it makes the compliance C of a load smaller by x C, with
 //!
@@ -7,18 +7,18 @@
 //! ```
 //!
 //! over the inclusion, σ_m and s being the mean and the deviator of the stress of a unit force, and α and β those of a ball
-//! [Eshelby 1957]. That is so where it is small beside its depth. Where it takes a large part of the energy, C is smaller by
+//! [Eshelby 1957]. That holds where it is small relative to its depth. Where it takes a large part of the energy, C is smaller by
 //! x/(1 + (1 − β) x) of itself: the bound for balls of that share [Hashin and Shtrikman 1963], which makes a tip that is deep in a
 //! large inclusion as stiff as the inclusion. Stresses are those of a flat punch [Sneddon 1946], and of loads (1 − (r/R)²)² as
 //! sums of punches, in closed form.
 //!
-//! A mesh whose load is wider than a tip does not have what the inclusion does to the tip: the difference of the two that
-//! [`InclusionField::less`] tells.
+//! A mesh whose load is wider than a tip lacks the inclusion's effect on the tip: the difference of the two that
+//! [`InclusionField::less`] gives.
 //!
-//! *How we know*: tests of this module; `regions::…` of `simulate`, beside finite elements.
+//! *How we know*: tests of this module; `regions::…` of `simulate`, compared with finite elements.
 //!
-//! *Limits*: the force along the normal; a flat surface; inclusions feel neither one another nor the surface; of other shapes than
-//! a ball, α and β are those of a ball.
+//! *Limits*: the force along the normal; a flat surface; inclusions interact neither with one another nor with the surface; of
+//! other shapes than a ball, α and β are those of a ball.
 
 use std::f64::consts::PI;
 
@@ -34,10 +34,10 @@ const PLACES: f64 = 200.0;
 /// Punches of which a load is the sum.
 const PUNCHES: usize = 8;
 
-/// A tip that would feel an inclusion less than this if it was a point does not feel it [-].
+/// Least effect of an inclusion on a tip, taken as a point, that counts [-].
 const LEAST: f64 = 3e-3;
 
-/// What is left at least of the stiffness of a place over a soft inclusion [-].
+/// Least stiffness over a soft inclusion, relative to that without it [-].
 const LEAST_STIFFNESS: f64 = 0.1;
 
 /// The inclusions of a body.
@@ -136,9 +136,9 @@ impl InclusionField {
         self.inclusions.is_empty()
     }
 
-    /// How much less than without inclusions loads at `place` [m] along the outward `normal` [-] move their own means, times Young's
-    /// modulus over the force [1/m]: more than zero over what is stiff. Inclusions that a flat tip of the radius `tip` [m] does not
-    /// feel count for none; of several, each takes its part of what the others leave.
+    /// Decrease by the inclusions of the mean displacement of each load at `place` [m] along the outward `normal` [-], times Young's
+    /// modulus over the force [1/m]: positive over stiff inclusions. Inclusions out of reach of a flat tip of the radius `tip` [m]
+    /// do not count; of several, each takes its part of what the others leave.
     pub fn less<const LOADS: usize>(
         &self,
         loads: &[Load; LOADS],
@@ -161,8 +161,8 @@ impl InclusionField {
         })
     }
 
-    /// How much less a sphere is moved, times Young's modulus over the force [1/m], under the forces at which areas of these `radii` [m]
-    /// would touch it without inclusions, where `less` is that of loads √(1 − (r/a)²) of the same radii, each so many times the one
+    /// Decrease of a sphere's displacement, times Young's modulus over the force [1/m], under the forces at which areas of these `radii`
+    /// [m] would touch it without inclusions, where `less` is that of loads √(1 − (r/a)²) of the same radii, each so many times the one
     /// before.
     ///
     /// Of all areas a the one that touches has the least energy: with the compliance C(a) of that load,
@@ -194,7 +194,7 @@ impl InclusionField {
         })
     }
 
-    /// Whether a tip at `place` would not feel an inclusion if it was a point.
+    /// Whether the effect of an inclusion on a tip at `place`, taken as a point, is negligible.
     fn is_out_of_reach(&self, inclusion: &Inclusion, tip: f64, place: &Vec3) -> bool {
         let changes = inclusion.changes.iter().map(|change| change.abs());
         // A point force has a stress of 3/(2 π r²) at most, and a tip the compliance 1/(2 a).
@@ -267,7 +267,7 @@ impl Load {
         self.0.iter().filter(|(weight, _)| *weight > 0.0)
     }
 
-    /// How far a unit force moves itself on a half-space, times Young's modulus [1/m].
+    /// Compliance of a half-space for this load, times Young's modulus [1/m].
     fn own_compliance(&self, poissons_ratio: f64) -> f64 {
         let pairs = self.punches().flat_map(|one| {
             let other = self.punches();
@@ -415,7 +415,7 @@ mod tests {
     fn a_deep_ball_is_felt_by_its_energy() {
         let (radius, depth, a) = (0.009, 0.04, 0.004);
         let place = 0.05 * Vec3::z();
-        let felt = |times, load| {
+        let difference = |times, load| {
             let field = ball(radius, depth, times);
             let loads = [Load::bump(load), Load::punch(a)];
             let [load, tip] = field.less(&loads, a, &place, &Vec3::z());
@@ -426,10 +426,10 @@ mod tests {
         let mean = stress * stress * (1.0 + 0.8 * (radius / depth).powi(2));
         let expected = -2.0 / (1.0 + 0.4 * 2.0) * volume * mean;
         // A load as wide as a metre moves nothing.
-        let found = felt(3.0, 1.0);
+        let found = difference(3.0, 1.0);
         assert!((found / expected - 1.0).abs() < 0.05, "{found} {expected}");
-        assert!(felt(0.1, 1.0) > 0.0 && felt(1.0, 1.0) == 0.0);
-        assert!(felt(3.0, 1.63 * a).abs() < 0.01 * found.abs());
+        assert!(difference(0.1, 1.0) > 0.0 && difference(1.0, 1.0) == 0.0);
+        assert!(difference(3.0, 1.63 * a).abs() < 0.01 * found.abs());
         let far = place + 0.045 * Vec3::x();
         let aside = ball(0.002, 0.01, 3.0).less(&[Load::punch(1e-4)], 1e-4, &far, &Vec3::z());
         assert_eq!(aside, [0.0]);

@@ -1,4 +1,4 @@
-//! The force of an indentation as a function of its depth, and what relaxation leaves of it.
+//! The force of an indentation as a function of its depth, elastic and relaxed.
 //!
 //! Between the depths that are known the force follows monotone cubics [Fritsch and Carlson 1980], so it
 //! never falls where the known forces rise. With one relaxation function for the whole body the force
@@ -7,8 +7,8 @@
 //!
 //! *How we know*: `curves::…`; `indentation::convolution_is_the_full_run`.
 //!
-//! *Limits*: nothing is known beyond the last depth, where the curve goes on along its tangent and says
-//! so by [`IndentationCurve::deepest`].
+//! *Limits*: beyond the last depth ([`IndentationCurve::deepest`]) the curve continues along its
+//! tangent.
 
 use crate::{ForceHistory, PronySeries, Vec3};
 
@@ -24,7 +24,7 @@ pub struct IndentationCurve {
 const PARTS: usize = 16;
 
 impl IndentationCurve {
-    /// A curve that knows only that nothing is felt without contact.
+    /// A curve with zero force at zero depth and no other data.
     pub fn untouched() -> Self {
         Self {
             depths: vec![0.0],
@@ -95,8 +95,8 @@ impl IndentationCurve {
     }
 
     /// Forces [N] at `times` [s] of a tissue that relaxes by `series`, when the depth goes linearly
-    /// through `depths` [m]. Before the first time nothing was touched; a first depth above zero is a
-    /// step.
+    /// through `depths` [m]. Before the first time there was no contact; a first depth above zero is
+    /// a step.
     pub fn relaxed(&self, series: &PronySeries, times: &[f64], depths: &[f64]) -> Vec<f64> {
         let mut history = ForceHistory::default();
         let mut before: Option<(f64, f64)> = None;
@@ -165,7 +165,8 @@ impl IndentationCurve {
     }
 }
 
-/// The slope at an end that makes a parabola with the slope at the next place, kept monotone.
+/// The slope at an end that makes a parabola with the slope at the next place, limited to be
+/// monotone.
 fn end_slope(secant: f64, next: f64, count: usize) -> f64 {
     if count == 2 {
         return secant;

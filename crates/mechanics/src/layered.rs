@@ -1,4 +1,4 @@
-//! How a half-space under bonded layers yields to a load on its surface.
+//! The compliance of a half-space under bonded layers for a load on its surface.
 //!
 //! A load of wave number k along the surface moves it by a part of its own that follows from the stiffness of each layer, two
 //! displacements at two faces, exactly [Kausel and Roësset 1981]: with z inwards, u = U(z) along k and W(z) inwards,
@@ -32,7 +32,7 @@ use crate::LinearElastic;
 pub struct LayeredHalfSpace {
     /// Thickness [m] and law of each layer, from the surface inwards.
     pub layers: Vec<(f64, LinearElastic)>,
-    /// The law of what is below.
+    /// The law of the half-space below.
     pub base: LinearElastic,
 }
 
@@ -51,7 +51,7 @@ const HIGHEST: f64 = 40.0;
 const LOWEST: f64 = 1e-4;
 
 impl LayeredHalfSpace {
-    /// How much more than a half-space of the outermost law it yields to a load of this radius [m]: along its surface, and
+    /// Compliance for a load of this radius [m] over that of a half-space of the outermost law: along its surface, and
     /// along its normal [-].
     pub fn yields(&self, shape: LoadShape, radius: f64) -> [f64; 2] {
         let [layered, uniform] = self.compliances(shape, radius);
@@ -65,8 +65,8 @@ impl LayeredHalfSpace {
         })
     }
 
-    /// How much deeper a sphere without friction is than on a half-space of the outermost law where an area of this radius [m]
-    /// touches, and how much larger its force is [-].
+    /// Depth and force of a sphere without friction where an area of this radius [m] touches, over those on a half-space of
+    /// the outermost law [-].
     ///
     /// Its pressure is the sum of the loads of a punch, of which the first, which has no end at the edge, is zero.
     pub fn under_sphere(&self, radius: f64) -> [f64; 2] {
@@ -83,7 +83,7 @@ impl LayeredHalfSpace {
         [found[0] / alone[0], found[1] / alone[1]]
     }
 
-    /// What the loads of a shape move one another by, along the surface and along its normal, and on a half-space of the
+    /// Mutual compliances of the loads of a shape, along the surface and along its normal, and on a half-space of the
     /// outermost law, all times the same factor [-].
     fn compliances(&self, shape: LoadShape, radius: f64) -> [[Matrix3<f64>; 2]; 2] {
         let surface = self.layers.first().map_or(self.base, |(_, law)| *law);

@@ -1,8 +1,8 @@
 //! Soft-tissue laws and the methods that solve them.
 //!
-//! The crate does no input and output, starts no thread that outlives a call and does not know what a
-//! tool, a device or a frame rate is. A method is three types: a model, built once and immutable; where
-//! needed a state, all that must be kept to go on; and a workspace, scratch whose loss changes no result.
+//! The crate does no input and output, starts no thread that outlives a call and has no notion of a tool,
+//! a device or a frame rate. A method is three types: a model, built once and immutable; where needed a
+//! state, from which a solution continues; and a workspace, scratch whose loss changes no result.
 //!
 //! ```
 //! use std::sync::Arc;

@@ -1,9 +1,9 @@
 //! Bounds of the models under a tip: which of them changed an answer, and by how much.
 //!
-//! A model that bounds a quantity says so in its answer. Nothing here allocates; whoever plays a motion
-//! counts the steps and tells the user.
+//! A model that bounds a quantity reports it in its answer. Nothing here allocates; the caller counts
+//! the steps and informs the user.
 
-/// A bound that a model of a tip keeps.
+/// A bound of a model of a tip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Limit {
     /// Local model: largest principal curvature of the surface under the tip [1/m].
@@ -26,29 +26,30 @@ pub enum Limit {
     Carried,
     /// Nonlinear model: how far a tool was to move the organ in a step [m], and how far it did.
     Pace,
-    /// Nonlinear model: points of the organ beside neighbours in a step [-], and those that it was solved with.
+    /// Nonlinear model: points of the organ next to neighbours in a step [-], and those that it was solved
+    /// with.
     NeighbourContacts,
     /// Nonlinear model: how deep a point lies in another place of the body, without a force that pushes it out [m].
     LostContact,
 }
 
-/// How far a bound changed an answer.
+/// The change of an answer by a bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reached {
-    /// What the model found, in the unit of the [`Limit`]; infinite where nothing bounds it.
+    /// The unbounded value, in the unit of the [`Limit`]; may be infinite.
     pub asked: f64,
-    /// What the answer is made with.
+    /// The bounded value, which the answer uses.
     pub used: f64,
 }
 
-/// The bounds that changed one answer, or several of which the worst case of each is kept.
+/// The bounds that changed one answer, or the worst case of each over several.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Limits {
     reached: [Option<Reached>; Limit::ALL.len()],
 }
 
 impl Limit {
-    /// All of them, in the order in which they are told.
+    /// All of them, in the order of reports.
     pub const ALL: [Self; 12] = [
         Self::Curvature,
         Self::LocalStiffness,
@@ -76,12 +77,12 @@ impl Limits {
         self.reached.iter().all(Option::is_none)
     }
 
-    /// How far one of them acted; none where it did not.
+    /// The change by one of them; none where it did not act.
     pub fn reached(&self, limit: Limit) -> Option<Reached> {
         self.reached[limit as usize]
     }
 
-    /// Adds a bound that acted; of two cases the one that asked for more is kept.
+    /// Adds a bound that acted; of two cases the one with the larger unbounded value stays.
     pub fn add(&mut self, limit: Limit, reached: Reached) {
         let known = &mut self.reached[limit as usize];
         if known.is_none_or(|known| reached.asked > known.asked) {

@@ -1,4 +1,4 @@
-//! Where the tissues of a body are: layers from its outer surface inwards, and shapes inside of it.
+//! The regions of a body: layers from its outer surface inwards, and shapes inside of it.
 //!
 //! Depth is the distance to the outer surface: the triangles from which one of seven directions, within 35 degrees of the
 //! normal, leads away from the body. So the wall of a tube is layered from outside, not from its lumen.
@@ -17,7 +17,7 @@ pub use borders::Bordered;
 const OFF_NORMAL: f64 = 0.7;
 const DIRECTIONS: usize = 6;
 
-/// Points around a sphere, and spheres along a capsule, that say whether a shape lies in a body.
+/// Points around a sphere, and spheres along a capsule, that test whether a shape lies in a body.
 const AROUND: usize = 200;
 const ALONG: usize = 9;
 
@@ -51,7 +51,7 @@ impl From<Surface> for Enclosed {
     }
 }
 
-/// What is wrong with the regions of a body.
+/// Errors in the regions of a body.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RegionError {
     /// A shape reaches out of the body.
@@ -88,12 +88,12 @@ pub enum RegionError {
 /// By how much less deep a body may be than its layers are thick, whose surface is of triangles [-].
 const MARGIN: f64 = 0.02;
 
-/// Which of its regions each point of a body belongs to. Region 0 is what is in no other; the others are numbered from 1, in
+/// The region of each point of a body. Region 0 is the part in no other; the others are numbered from 1, in
 /// the order in which they were given.
 #[derive(Debug, Clone, Default)]
 pub struct RegionMap {
     regions: Vec<Mapped>,
-    /// How far each lies from the surface and from other shapes [m]; infinite for a layer.
+    /// Clearance of each from the surface and from other shapes [m]; infinite for a layer.
     clearances: Vec<f64>,
     /// Triangles from which depths are measured, where there are layers.
     outer: Option<(TriangleMesh, AabbTree)>,
@@ -155,7 +155,7 @@ impl RegionMap {
         })
     }
 
-    /// All that says where its regions are, as bytes: the same for equal regions alone.
+    /// The geometry of its regions as bytes: the same for equal regions alone.
     pub fn bytes(&self, write: &mut dyn FnMut(&[u8])) {
         for region in &self.regions {
             match region {
@@ -323,7 +323,7 @@ impl RegionMap {
         })
     }
 
-    /// The region of what lies below the borders that `is_below` says.
+    /// The region of a point that lies below the borders for which `is_below` holds.
     pub fn region_below(&self, is_below: impl FnMut(&usize) -> bool) -> usize {
         self.bounded().find(is_below).unwrap_or(0)
     }

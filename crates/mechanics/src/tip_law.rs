@@ -12,9 +12,9 @@
 //!
 //! The series has no answer for c < 0 once F₀′ > −1/c; the second form is the same at small depth, and
 //! force and stiffness pass continuously from one into the other. k₁ = F₀/d under a flat tip and 3/2 F₀/d under a
-//! sphere, which at small depth is k₀ and like it grows with the touching area. c is held: what surrounds the tip is
-//! felt from afar. With the
-//! whole organ c does not depend on the touching area; with the local model it changes slowly with it.
+//! sphere, which at small depth is k₀ and like it grows with the touching area. c is constant in the derivative: it
+//! depends on tissue far from the tip. With the whole organ c does not depend on the touching area; with the local
+//! model it changes slowly with it.
 //!
 //! *How we know*: `analytic::flat_tip_is_linear_in_depth`, `analytic::sphere_is_hertz`; the tangent by
 //! differences of the force, `tip_tangent::…`; of a sphere and of nonlinear tissue against full runs on other bodies,
@@ -22,9 +22,9 @@
 //!
 //! *Limits*: what surrounds the tip answers as at small strain. With the local model the stiffness under a
 //! sphere lacks the change of c: 1.3 % where the touching area has a tenth of the organ's radius, 1.9 % at
-//! a fifth. q is at most `STIFFEST`; an answer says
-//! where that acts. ∂F/∂c jumps at c = 0 in nonlinear tissue, which the stiffness sees only where normal
-//! and tangent couple under a sphere that sticks.
+//! a fifth. q is at most `STIFFEST`; an answer reports where that acts. ∂F/∂c jumps at c = 0 in
+//! nonlinear tissue, which the stiffness sees only where normal and tangent couple under a sphere that
+//! sticks.
 
 use std::sync::Arc;
 
@@ -36,14 +36,14 @@ use crate::contact::{
 use crate::finite_elements::indentation::Stiffening;
 use crate::{Limit, Limits, LinearElastic, Material, Reached, Vec3};
 
-/// How a tissue answers a tip.
+/// The response of a tissue to a tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TipLaw {
     tip: Tip,
     bond: Friction,
     at_rest: LinearElastic,
     stiffening: Arc<Stiffening>,
-    /// Radius of the tool, which the stiffening counts depths in [m]; the tip's own beside a plane.
+    /// Radius of the tool, the unit of depth of the stiffening [m]; the tip's own against a plane.
     radius: f64,
 }
 
@@ -56,9 +56,9 @@ pub struct NormalForce {
     pub stiffness: f64,
     /// Change of the force with the structural compliance [N²/m].
     pub by_compliance: f64,
-    /// Where the stiffness was bounded, how far [half-spaces].
+    /// The bound on the stiffness, where it acted [half-spaces].
     pub limited: Option<Reached>,
-    /// Where the tip is deeper than its force is known, how far [m].
+    /// The bound on the depth, where the tip is deeper than its force is known [m].
     pub beyond: Option<Reached>,
 }
 
@@ -72,7 +72,7 @@ impl NormalForce {
         beyond: None,
     };
 
-    /// Of a model that has no answer: whoever feels it tells so.
+    /// Of a model without an answer, which the caller reports.
     const UNKNOWN: Self = Self {
         force: f64::NAN,
         stiffness: f64::NAN,
@@ -99,8 +99,8 @@ pub struct TipForce {
 /// Newton steps of which none is expected to be needed.
 const MOST_STEPS: usize = 50;
 
-/// How many times as stiff as a half-space an organ can be [-]: an anchor right under the tip, of which no
-/// model here knows the distance well.
+/// Largest stiffness of an organ relative to a half-space [-]: with an anchor right under the tip, whose
+/// distance no model here resolves well.
 const STIFFEST: f64 = 20.0;
 
 impl TipLaw {
@@ -127,7 +127,7 @@ impl TipLaw {
     }
 
     /// The law of the same tool on a surface of the mean curvature `curvature` [1/m], positive where it bulges out; see
-    /// [`Tip::beside`]. The stiffening is that beside a plane at the same depth.
+    /// [`Tip::beside`]. The stiffening is that against a plane at the same depth.
     pub fn beside(&self, curvature: f64) -> Self {
         Self {
             tip: self.tip.beside(curvature),
@@ -442,7 +442,7 @@ fn bounded_ratio(scale: f64, product: f64, growth: f64) -> Ratio {
 mod tests {
     use super::*;
 
-    /// Judge: the two terms of the series, put together by hand.
+    /// Judge: the two terms of the series, added by hand.
     #[test]
     fn a_softer_organ_shares_the_depth() {
         let law = LinearElastic::new(1e4, 0.3).unwrap();

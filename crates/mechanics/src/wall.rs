@@ -1,4 +1,5 @@
-//! How much farther a wall lets a narrow load go than a wide one, beyond a half-space.
+//! The additional displacement of a narrow load on a wall, compared with a wide one and beyond that
+//! on a half-space.
 //!
 //! A load of wave number k on one face of a free plate of the thickness t moves that face by
 //!
@@ -18,7 +19,8 @@
 //! with f the transform of the load and θ the direction of the wave. Waves longer than the wall is wide, or than the circumference
 //! of its stronger curvature, are left out: the first move both loads alike, the second do not fit around it.
 //!
-//! *How we know*: tests of this module; `nonlinear_walls::…` of `simulate`, beside finite elements of a tube under a punch.
+//! *How we know*: tests of this module; `nonlinear_walls::…` of `simulate`, compared with finite elements of a tube under a
+//! punch.
 //!
 //! *Limits*: one law, shallow shells, small strain, away from edges; the motion along the normal. Where a body is as round as it is thick it
 //! is none of this, and nothing is added.
@@ -41,7 +43,7 @@ const LEAST_RADIUS: f64 = 0.3;
 const FACTOR: f64 = SQRT_2;
 const RADII: usize = 11;
 
-/// The Fourier operator of walls of one Poisson's ratio: what each wave number is moved by.
+/// The Fourier operator of walls of one Poisson's ratio: the compliance at each wave number.
 #[derive(Debug, Clone)]
 pub struct WallOperator {
     harmonics: Vec<Harmonic>,
@@ -59,7 +61,7 @@ struct Harmonic {
     weights: [f64; RADII],
 }
 
-/// What a wall yields to loads of several radii.
+/// The compliance of a wall for loads of several radii.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct WallCompliance {
     /// [m]
@@ -124,15 +126,15 @@ impl WallOperator {
 }
 
 impl WallCompliance {
-    /// The same wall, which yields so many `times` as much.
+    /// The same wall with `times` its compliance.
     pub fn times(mut self, times: f64) -> Self {
         self.yields.iter_mut().for_each(|own| *own *= times);
         self
     }
 
-    /// How much farther a flat tip of radius `tip` [m] goes than a load (1 − (r/R)²)² of the radius `load` [m] takes its own mean,
-    /// beyond the same difference on a half-space, times Young's modulus over the force [1/m]: as far as a point load, less the part that
-    /// makes it nothing where the pressures of both have the same second moment, 2 a²/3 and R²/4.
+    /// Displacement of a flat tip of radius `tip` [m] less the mean one of a load (1 − (r/R)²)² of the radius `load` [m], beyond the same
+    /// difference on a half-space, times Young's modulus over the force [1/m]: as far as a point load, less the part that makes it
+    /// nothing where the pressures of both have the same second moment, 2 a²/3 and R²/4.
     pub fn beyond_half_space(&self, [tip, load]: [f64; 2]) -> f64 {
         if self.thickness == 0.0 {
             return 0.0;

@@ -1,4 +1,4 @@
-//! Dates of the Gregorian calendar, in universal time: what time it is where somebody sits, no file says.
+//! Dates of the Gregorian calendar, in universal time: no file states a local time zone.
 
 /// Seconds of a day.
 const DAY: i64 = 86_400;
@@ -51,7 +51,7 @@ fn clock(when: i64) -> [i64; 3] {
     [second / 3600, second / 60 % 60, second % 60]
 }
 
-/// Year, month and day. Years begin in March here, so that the day that some have more is their last.
+/// Year, month and day. Years begin in March here, so that the leap day is their last.
 fn day_of(when: i64) -> (i64, i64, i64) {
     let days = when.div_euclid(DAY) + EPOCH;
     let in_cycle = days.rem_euclid(CYCLE);

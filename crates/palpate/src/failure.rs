@@ -8,16 +8,16 @@ use palpate_jobs::Error;
 /// Why a command ends early. The message is one sentence: the cause, then how to fix it.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
-    /// Of a job, or of what the command itself does with documents, meshes and devices.
+    /// Failure of a job, or of the command's own work on documents, meshes and devices.
     #[error(transparent)]
     Job(#[from] Error),
-    /// Of a table or figure that is computed anew.
+    /// Failure of a table or figure that is recomputed.
     #[error(transparent)]
     Reproduce(#[from] palpate_reproduce::Error),
-    /// Of the training record.
+    /// Failure of the training record.
     #[error(transparent)]
     Record(#[from] palpate_record::Error),
-    /// Of a window or picture.
+    /// Failure of a window or picture.
     #[error(transparent)]
     Viewer(#[from] palpate_viewer::Error),
     /// The command line names no command; the help shows them.
@@ -28,7 +28,7 @@ pub(crate) enum Failure {
         /// Several lines.
         help: String,
     },
-    /// Whoever read standard output has gone (`palpate … | head`); nothing to complain about.
+    /// The reader of standard output has closed it (`palpate … | head`); no error message.
     #[error("the output was closed")]
     NobodyReads,
 }
@@ -42,17 +42,17 @@ impl Failure {
         Error::failed(message).into()
     }
 
-    /// A command line that is not understood; the parser's paragraphs become one sentence.
+    /// A command line with an error; the parser's paragraphs become one sentence.
     pub(crate) fn of_command_line(mistake: &clap::Error) -> Self {
         use clap::error::ErrorKind;
-        let said = mistake.to_string();
+        let text = mistake.to_string();
         if mistake.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
             return Self::CommandLine {
                 message: "choose a subcommand",
-                help: said,
+                help: text,
             };
         }
-        let lines = said.lines().take_while(|line| !line.starts_with("Usage:"));
+        let lines = text.lines().take_while(|line| !line.starts_with("Usage:"));
         let parts: Vec<&str> = lines.map(str::trim).filter(|l| !l.is_empty()).collect();
         let sentence = parts.join(", ").replace(":, ", ": ").replace(", tip:", ";");
         let sentence = sentence.trim_start_matches("error: ");
@@ -77,7 +77,7 @@ impl Failure {
 
 palpate_jobs::from_carried_errors!(Failure);
 
-/// Of writing to standard output.
+/// Failure of writing to standard output.
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
         match error.kind() {

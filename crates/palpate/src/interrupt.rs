@@ -1,5 +1,5 @@
-//! Ctrl-C, SIGTERM and the end of the terminal (SIGHUP) are one. What can stop in good order is asked to; a command
-//! that writes its files at its end is ended between files, never within one.
+//! Ctrl-C, SIGTERM and the end of the terminal (SIGHUP) are treated alike. A command that can stop cleanly receives a
+//! request to stop; a command that writes its files at its end is ended between files, never within one.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Barrier, Mutex, MutexGuard, OnceLock, PoisonError};
@@ -10,18 +10,18 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 use crate::failure::Failure;
 use crate::output;
 
-/// Whether the command ends by itself, and nobody else shall stop.
+/// Whether a signal ends the command between files, without a request to stop.
 static ENDS_ITSELF: AtomicBool = AtomicBool::new(false);
 
-/// How often a command that ends between files looks whether it shall.
+/// Polling interval of a command that ends between files.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Whether somebody asked the command to stop. From the first question on no signal ends it by itself.
-pub(crate) fn is_asked() -> bool {
+/// Whether a stop is requested. The first call installs the handlers; after it no signal ends the command by itself.
+pub(crate) fn is_requested() -> bool {
     was_sent() && !ENDS_ITSELF.load(Ordering::Relaxed)
 }
 
-/// Whether a signal came since the first question.
+/// Whether a signal came since the first call.
 fn was_sent() -> bool {
     static SENT: OnceLock<Arc<AtomicBool>> = OnceLock::new();
     let sent = SENT.get_or_init(|| {
@@ -60,14 +60,14 @@ fn is_ignored(signal: i32) -> bool {
     mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
 }
 
-/// Held while a file is written.
+/// Locked while a file is written.
 static WRITING: Mutex<()> = Mutex::new(());
 
 /// Exit status after a signal: a failure.
 const INTERRUPTED: i32 = 1;
 
-/// From now on a signal waits for files that are being written, then ends the program with `sentence`. Where the
-/// system gives no thread to wait for it, a signal ends the program at once, as without this.
+/// After this call a signal lets the current file be completed, then ends the program with `sentence`. Where the
+/// system gives no thread for this, a signal ends the program at once.
 pub(crate) fn ends_between_files(sentence: impl Into<String>) {
     let sentence = sentence.into();
     let begins = Arc::new(Barrier::new(2));
@@ -90,21 +90,21 @@ pub(crate) fn ends_between_files(sentence: impl Into<String>) {
         ]);
         return;
     }
-    // Signals are caught from here on, and not before there is somebody who hears them.
+    // Signals are caught from here on, and not before the thread listens.
     ENDS_ITSELF.store(true, Ordering::Relaxed);
     was_sent();
     begins.wait();
 }
 
-/// While it lives, files are written.
+/// While it lives, a signal does not end the command.
 pub(crate) struct Unbroken {
-    _held: MutexGuard<'static, ()>,
+    _lock: MutexGuard<'static, ()>,
 }
 
 impl Unbroken {
     pub(crate) fn begin() -> Self {
         Self {
-            _held: WRITING.lock().unwrap_or_else(PoisonError::into_inner),
+            _lock: WRITING.lock().unwrap_or_else(PoisonError::into_inner),
         }
     }
 }

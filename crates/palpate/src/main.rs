@@ -1,7 +1,7 @@
 //! The command `palpate`: soft-tissue touch, from the first indentation to the trained hand.
 //!
-//! This crate is where the others meet: it reads the command line, calls the crate that does the work,
-//! prints what comes back and decides the exit status. Nothing else in the project prints or exits.
+//! This crate joins the others: it reads the command line, calls the crate that does the work, prints its result and
+//! decides the exit status. Nothing else in the project prints or exits.
 
 mod command;
 mod date;
@@ -45,8 +45,8 @@ fn main() -> ExitCode {
     }
 }
 
-/// Without a desktop session, Mesa's layer that chooses a device asks Wayland in vain, and prints an error of which
-/// nobody here is the cause.
+/// Without a desktop session, Mesa's layer that selects a device calls Wayland without success, and prints an error
+/// that does not concern this program.
 #[allow(unsafe_code, reason = "drivers read the environment alone")]
 fn quieten_driver() {
     if std::env::var_os("XDG_RUNTIME_DIR").is_none() {

@@ -1,8 +1,8 @@
-//! All that is printed goes through here: results to standard output, complaints to standard error. What a terminal
-//! would obey instead of show (names come from anywhere) is printed as an escape, [`palpate_files::printable`], so
-//! that no command can forget it; this program prints no colours of its own.
+//! All printing goes through here: results to standard output, warnings and errors to standard error. Characters that
+//! control a terminal (names come from anywhere) are printed as escapes, [`palpate_files::printable`], so that no
+//! command can forget it; this program prints no colours of its own.
 //!
-//! A reader that has gone is reported as [`Failure::NobodyReads`], which ends the command quietly.
+//! A closed standard output is reported as [`Failure::NobodyReads`], which ends the command quietly.
 
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -12,10 +12,10 @@ use serde::Serialize;
 
 use crate::failure::Failure;
 
-/// The version that stands in every machine-readable answer as `palpate`.
+/// The version, which every machine-readable answer has as `palpate`.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// The version with what the program was built of and for.
+/// The version with build information.
 pub(crate) const LONG_VERSION: &str = concat!(
     env!("CARGO_PKG_VERSION"),
     "\ncommit ",
@@ -63,7 +63,7 @@ pub(crate) fn json_text(answer: &impl Serialize) -> Result<String, Failure> {
     Ok(escaped)
 }
 
-/// Prints what is printable already.
+/// Prints text that is printable already.
 fn print(text: impl Into<String>) -> Result<(), Failure> {
     let mut text = text.into();
     if !text.ends_with('\n') {
@@ -89,7 +89,7 @@ pub(crate) fn warnings(warnings: &[String]) {
     }
 }
 
-/// When standard error cannot be written either, there is nobody left to tell.
+/// When standard error cannot be written either, there is no way to report it.
 fn complain(kind: &str, message: impl Display) {
     let message = message.to_string();
     let _ = writeln!(
@@ -103,7 +103,7 @@ fn complain(kind: &str, message: impl Display) {
 mod tests {
     use super::*;
 
-    /// The bytes of a name are those that a reader of JSON gets, and none that a terminal obeys.
+    /// A reader of JSON gets the bytes of a name, without characters that control a terminal.
     #[test]
     fn json_is_printable_and_means_the_same() {
         let name = "\u{1b}]0;\u{7}\u{9b}2J\u{7f}\u{202e}\u{e0041}\nliver \u{e4}";

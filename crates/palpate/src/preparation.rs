@@ -1,4 +1,4 @@
-//! Simulations are made with a bar of how far it is, from what was prepared before where there is such.
+//! Makes simulations with a progress bar, from cached results if there are any.
 
 use palpate_files::Scene;
 use palpate_simulate::{Resources, Simulation};
@@ -8,7 +8,7 @@ pub(crate) use palpate_jobs::preparation::{resources, resources_with_devices};
 use crate::failure::Failure;
 use crate::progress::{Progress, Reader};
 
-/// Makes the simulation of `scene`, and tells `reader` how far it is. Ctrl-C breaks it off.
+/// Makes the simulation of `scene`, and reports progress to `reader`. Ctrl-C cancels it.
 pub(crate) fn simulation(
     scene: &Scene,
     resources: &Resources,

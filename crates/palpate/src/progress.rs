@@ -1,6 +1,6 @@
-//! Progress of what may take longer than a second, on standard error.
+//! Progress bars on standard error, for work that may take longer than a second.
 //!
-//! Nothing is drawn when standard error is no terminal, or when a machine reads the answer.
+//! Nothing is drawn when standard error is no terminal, or when a program reads the answer.
 
 use std::fmt;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -21,7 +21,7 @@ const PARTS: u64 = 1000;
 /// How often the spinner turns.
 const TURN: Duration = Duration::from_millis(120);
 
-/// Who reads the answer.
+/// The reader of the answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Reader {
     Person,
@@ -35,7 +35,7 @@ impl Reader {
     }
 }
 
-/// Drawn from its making until it is dropped.
+/// A progress bar, drawn from its creation until it is dropped.
 pub(crate) struct Progress {
     bar: ProgressBar,
     /// Turns the spinner until its other end is dropped.
@@ -46,17 +46,17 @@ pub(crate) struct Progress {
     warned: Mutex<Vec<String>>,
 }
 
-/// How long what is left takes, from how long each part usually takes and how long those took that are done.
+/// Estimates the remaining time from the usual duration of each part and the actual duration of the completed ones.
 struct Pace {
     begun: Instant,
-    /// Usual duration of everything [s].
+    /// Usual duration of all parts [s].
     usual: f64,
-    /// Usual duration of what is done [s], and how long that took [s].
+    /// Usual and actual duration of the completed parts [s].
     done: Mutex<[f64; 2]>,
 }
 
 impl Pace {
-    /// Weight of the usual durations beside those of this machine [s].
+    /// Weight of the usual durations relative to those of this machine [s].
     const TRUST: f64 = 30.0;
 
     fn left(&self) -> Duration {
@@ -93,7 +93,7 @@ impl Progress {
         }
     }
 
-    /// A bar over works that usually take `seconds` together, with the time that is left.
+    /// A bar over parts that usually take `seconds` together, with the remaining time.
     pub(crate) fn of_works(reader: Reader, seconds: f64) -> Self {
         let mut progress = Self::new(reader, Some(seconds.ceil() as u64));
         let template = "{spinner} {bar:30} about {prefix} left: {wide_msg}";
@@ -108,7 +108,7 @@ impl Progress {
         progress
     }
 
-    /// One of the works is done, which usually takes `seconds`.
+    /// Completes a part, which usually takes `seconds`.
     pub(crate) fn work_done(&self, seconds: f64) {
         if let Some(pace) = &self.pace {
             let mut done = pace.done.lock().unwrap_or_else(PoisonError::into_inner);
@@ -123,13 +123,13 @@ impl Progress {
         self.bar.suspend(print)
     }
 
-    /// A bar over the parts of one long work, with the time that is left.
+    /// A bar over the parts of one long work, with the remaining time.
     pub(crate) fn of_parts(reader: Reader) -> Self {
         let bar = Self::new(reader, Some(PARTS));
         let template = "{spinner} {bar:30} {percent:>3} % {msg}{left}";
         if let Ok(style) = ProgressStyle::with_template(template) {
             let left = |state: &ProgressState, text: &mut dyn fmt::Write| {
-                // Nothing is known before a part is done.
+                // No estimate before a part is done.
                 if state.pos() > 0 {
                     let _ = write!(text, ", {:#} left", HumanDuration(state.eta()));
                 }
@@ -139,7 +139,7 @@ impl Progress {
         bar
     }
 
-    /// A bar over the parts of one job, the time of whose end is not known.
+    /// A bar over the parts of one job, whose duration is not known.
     pub(crate) fn of_job(reader: Reader) -> Self {
         let bar = Self::new(reader, Some(PARTS));
         let template = "{spinner} {bar:30} {percent:>3} % {wide_msg}";
@@ -149,27 +149,27 @@ impl Progress {
         bar
     }
 
-    /// Says what is being done now.
+    /// Shows the current step.
     pub(crate) fn say(&self, doing: impl Into<String>) {
         Watch::say(self, &doing.into());
     }
 
-    /// Takes the bar away; those of `warnings` that were not printed yet.
-    pub(crate) fn unsaid(self, mut warnings: Vec<String>) -> Vec<String> {
+    /// Takes the bar away and returns those of `warnings` that were not printed yet.
+    pub(crate) fn unprinted(self, mut warnings: Vec<String>) -> Vec<String> {
         let warned = self.warned.lock();
         let warned = warned.unwrap_or_else(PoisonError::into_inner);
         warnings.retain(|own| !warned.contains(own));
         warnings
     }
 
-    /// Sets how many steps of the bar are done.
+    /// Sets the number of completed steps.
     pub(crate) fn at(&self, step: u64) {
         self.bar.set_position(step);
     }
 }
 
-/// Turns the spinner on a thread; none when nobody sees it, or when the system gives no thread: then it turns when there
-/// is something new.
+/// Turns the spinner on a thread; none when it is hidden, or when the system gives no thread: then it turns with each
+/// new step.
 fn turning(bar: &ProgressBar) -> Option<Sender<()>> {
     if bar.is_hidden() {
         return None;
@@ -184,7 +184,7 @@ fn turning(bar: &ProgressBar) -> Option<Sender<()>> {
     Builder::new().spawn(turn).ok().map(|_| turning)
 }
 
-/// Ctrl-C asks a job to stop; a job whose command ends between files by itself asks nobody.
+/// Ctrl-C asks a job to stop, unless its command ends between files by itself.
 impl Watch for Progress {
     fn say(&self, doing: &str) {
         if let Some(pace) = &self.pace {
@@ -208,7 +208,7 @@ impl Watch for Progress {
     }
 
     fn is_asked_to_stop(&self) -> bool {
-        interrupt::is_asked()
+        interrupt::is_requested()
     }
 
     fn unbroken(&self, write: &mut dyn FnMut()) {

@@ -1,4 +1,4 @@
-//! A played motion and its folder: the session, surfaces for ParaView, plots and the summary.
+//! Plays a motion and fills its folder: the session, surfaces for ParaView, plots and the summary.
 
 mod beside;
 mod cuts;
@@ -18,34 +18,34 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::VERSION;
 use crate::progress::{Progress, Reader};
-pub(crate) use beside::Beside;
-use beside::BesideAnswer;
+pub(crate) use beside::Comparison;
+use beside::ComparisonAnswer;
 use surfaces::Surfaces;
 use trace::Traces;
 
-/// Where a motion is recorded, and what besides the session.
+/// The destination of a motion, and the outputs in addition to the session.
 pub(crate) struct Recording<'a> {
-    /// What the simulation was made of.
+    /// The scene of the simulation.
     pub(crate) scene: &'a Scene,
     /// The folder, as [`claimed`].
     pub(crate) folder: Claim,
     /// Surfaces to write for ParaView, evenly over the motion.
     pub(crate) surfaces: u64,
-    /// What takes pictures, evenly over the motion.
+    /// Takes pictures, evenly over the motion.
     pub(crate) frames: Option<FrameWriter>,
     /// The recording that the first tool repeats.
-    pub(crate) beside: Option<Beside>,
+    pub(crate) comparison: Option<Comparison>,
     pub(crate) reader: Reader,
 }
 
-/// What `summary.json` and `--json` hold.
+/// The content of `summary.json` and of `--json`.
 #[derive(Debug, Serialize)]
 pub(crate) struct Report {
     palpate: &'static str,
     #[serde(flatten)]
     summary: Summary,
     #[serde(skip_serializing_if = "Option::is_none")]
-    beside: Option<BesideAnswer>,
+    beside: Option<ComparisonAnswer>,
     /// Why the motion may lack rows.
     #[serde(skip_serializing_if = "Option::is_none")]
     incomplete: Option<String>,
@@ -53,11 +53,11 @@ pub(crate) struct Report {
     files: Vec<PathBuf>,
 }
 
-/// The file of a summary, beside that of a session.
+/// The file of a summary, next to that of a session.
 const SUMMARY: &str = "summary.json";
 
-/// The folder of a recording, for this program alone, with nothing in it that the recording would replace unless
-/// that is allowed.
+/// The folder of a recording, locked by this program, without files that the recording would replace unless that is
+/// allowed.
 pub(crate) fn claimed(folder: &Path, overwrite: Overwrite) -> Result<Claim, Failure> {
     let claim = Claim::of_folder(folder, overwrite).map_err(|error| match error {
         Error::Write { .. } => Failure::failed(format!(
@@ -79,7 +79,7 @@ pub(crate) fn claimed(folder: &Path, overwrite: Overwrite) -> Result<Claim, Fail
     Ok(claim)
 }
 
-/// Plays `motion` and records it. What is refused leaves the folder as it was.
+/// Plays `motion` and records it. A rejected motion leaves the folder as it was.
 pub(crate) fn record(
     simulation: &Simulation,
     motion: &Motion,
@@ -88,8 +88,8 @@ pub(crate) fn record(
     check_motion(simulation, motion)?;
     let folder = recording.folder.path().to_owned();
     let folder = folder.as_path();
-    // From now on Ctrl-C ends the motion, and what was played is written whole.
-    interrupt::is_asked();
+    // After this call Ctrl-C ends the motion, and the steps so far are written completely.
+    interrupt::is_requested();
     let names: Vec<_> = simulation.tools().iter().map(|t| t.name.clone()).collect();
     let mut writer = SessionFolder::create(recording.folder, recording.scene, simulation)?;
     let mut surfaces = Surfaces::new(folder, recording.surfaces);
@@ -106,8 +106,8 @@ pub(crate) fn record(
         }
         for row in frame.rows() {
             writer.write(row)?;
-            if let Some(beside) = recording.beside.as_mut().filter(|_| row.tool == 0) {
-                beside.add(row);
+            if let Some(comparison) = recording.comparison.as_mut().filter(|_| row.tool == 0) {
+                comparison.add(row);
             }
         }
         traces.add(frame);
@@ -115,14 +115,14 @@ pub(crate) fn record(
         if let Some(frames) = &mut recording.frames {
             frames.add(frame)?;
         }
-        match interrupt::is_asked() {
+        match interrupt::is_requested() {
             true => Ok(Flow::Stop),
             false => Ok(Flow::GoOn),
         }
     })?;
     drop(progress);
     let path = folder.join(SUMMARY);
-    // Until all is written nobody else may write here.
+    // Locks the folder until all is written.
     let _claim = writer.finish()?;
     let mut files = vec![SessionFolder::session_file(folder)];
     files.extend(surfaces.finish()?);
@@ -132,9 +132,9 @@ pub(crate) fn record(
             .map(FrameWriter::finish)
             .unwrap_or_default(),
     );
-    files.extend(traces.draw(folder, recording.beside.as_ref())?);
+    files.extend(traces.draw(folder, recording.comparison.as_ref())?);
     files.push(path.clone());
-    let report = Report::new(summary, motion, files, recording.beside);
+    let report = Report::new(summary, motion, files, recording.comparison);
     let json = serde_json::to_string_pretty(&report)
         .map_err(|cause| Failure::failed(format!("the summary is no JSON ({cause})")))?
         + "\n";
@@ -160,9 +160,9 @@ impl Report {
         mut summary: Summary,
         motion: &Motion,
         files: Vec<PathBuf>,
-        beside: Option<Beside>,
+        comparison: Option<Comparison>,
     ) -> Self {
-        let (beside, warnings) = beside.map(Beside::finish).unzip();
+        let (beside, warnings) = comparison.map(Comparison::finish).unzip();
         let incomplete = motion
             .incomplete()
             .map(|why| (why, format!("the motion is {why}")));
@@ -170,7 +170,7 @@ impl Report {
         let warned = incomplete
             .iter()
             .filter(|(why, _)| **why != Incomplete::Unmarked);
-        let warned: Vec<String> = warned.map(|(_, said)| said.clone()).collect();
+        let warned: Vec<String> = warned.map(|(_, sentence)| sentence.clone()).collect();
         let unusual = motion.warnings().iter().cloned().chain(warned);
         let warnings = warnings.into_iter().flatten();
         summary.warnings.extend(unusual.chain(warnings));
@@ -178,7 +178,7 @@ impl Report {
             palpate: VERSION,
             summary,
             beside,
-            incomplete: incomplete.map(|(_, said)| said),
+            incomplete: incomplete.map(|(_, sentence)| sentence),
             files,
         }
     }
@@ -207,10 +207,10 @@ impl Report {
             summary.cavities.iter().map(cavity_line).collect::<String>(),
             self.beside
                 .as_ref()
-                .map_or(String::new(), BesideAnswer::line),
+                .map_or(String::new(), ComparisonAnswer::line),
             self.incomplete
                 .as_ref()
-                .map_or(String::new(), |said| format!("\n{said}")),
+                .map_or(String::new(), |sentence| format!("\n{sentence}")),
         )
     }
 

@@ -9,7 +9,7 @@ use palpate_viewer::settings::{
     CacheUse, FolderContent, NamedFolder, SettingsKeeper, WindowSettings,
 };
 
-use crate::command::cache::{kept_files, remove};
+use crate::command::cache::{cached_files, remove};
 use crate::output;
 use crate::training;
 
@@ -23,7 +23,7 @@ fn file() -> Option<PathBuf> {
     named.map(PathBuf::from).or_else(own)
 }
 
-/// The settings, and why the defaults are used instead, in a sentence, if the file is damaged.
+/// The settings, and, if the file is damaged, a sentence on why the defaults are used instead.
 pub(crate) fn read() -> (Settings, Option<String>) {
     let Some(file) = file() else {
         return (Settings::default(), None);
@@ -49,7 +49,7 @@ pub(crate) fn read_or_warn() -> Settings {
 /// The variables that name a language, the strongest first [POSIX].
 const LANGUAGE_VARIABLES: [&str; 3] = ["LC_ALL", "LC_MESSAGES", "LANG"];
 
-/// The language of the first variable that is set; English where the window does not speak it.
+/// The language of the first variable that is set; English where the window has no such language.
 fn environment() -> Language {
     let mut named = LANGUAGE_VARIABLES.iter().filter_map(std::env::var_os);
     let named = named.find(|value| !value.is_empty());
@@ -69,7 +69,7 @@ fn of_locale(locale: &str) -> Language {
     }
 }
 
-/// The settings as a window shows and changes them, whose language was asked for as `language`.
+/// The settings for a window, which shows and changes them; `language` is the option of the command.
 pub(crate) fn of_window(language: Option<Language>) -> WindowSettings {
     let (settings, trouble) = read();
     WindowSettings {
@@ -127,20 +127,20 @@ impl SettingsKeeper for Keeper {
     }
 
     fn cache(&self) -> Result<CacheUse, String> {
-        let kept = match cache_folder() {
-            Some(folder) => kept_files(&folder).map_err(|error| error.to_string())?,
+        let cached = match cache_folder() {
+            Some(folder) => cached_files(&folder).map_err(|error| error.to_string())?,
             None => Vec::new(),
         };
         Ok(CacheUse {
-            files: kept.len(),
-            bytes: kept.iter().map(|(_, bytes)| bytes).sum(),
+            files: cached.len(),
+            bytes: cached.iter().map(|(_, bytes)| bytes).sum(),
         })
     }
 
     fn clear_cache(&mut self) -> Result<CacheUse, String> {
         if let Some(folder) = cache_folder() {
-            let kept = kept_files(&folder).map_err(|error| error.to_string())?;
-            remove(&kept).map_err(|error| error.to_string())?;
+            let cached = cached_files(&folder).map_err(|error| error.to_string())?;
+            remove(&cached).map_err(|error| error.to_string())?;
         }
         self.cache()
     }

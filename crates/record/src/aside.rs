@@ -1,5 +1,5 @@
-//! A damaged record is kept beside the new one. Its journal is none of our concern: the database rolls it back, or
-//! finds it void, before anybody can say what is damaged.
+//! Renames a damaged record, so that it stays next to the new one. This ignores its journal: the database rolls it
+//! back, or finds it invalid, before the damage is detected.
 
 use std::ffi::OsString;
 use std::fs::{self, File};
@@ -12,14 +12,14 @@ use crate::schema::APPLICATION;
 /// The first bytes of every database.
 const MAGIC: &[u8; 16] = b"SQLite format 3\0";
 
-/// Where the header has the number of the application.
+/// Offset of the application number in the header.
 const APPLICATION_AT: usize = 68;
 
-/// Endings of names that say: a database.
+/// Name extensions of databases.
 const DATABASES: [&str; 3] = ["sqlite", "sqlite3", "db"];
 
-/// Whether a file that the database cannot read was a record: by its header, or without one by its name. Anything
-/// else belongs to somebody and stays where it is.
+/// Whether a file that the database cannot read was a record: by its header, or without a header by its name. Any other
+/// file stays where it is.
 pub(crate) fn was_record(path: &Path) -> bool {
     let mut header = [0; APPLICATION_AT + 4];
     let is_read = File::open(path).and_then(|mut file| file.read_exact(&mut header));
@@ -30,30 +30,30 @@ pub(crate) fn was_record(path: &Path) -> bool {
     DATABASES.contains(&&*ending.to_lowercase())
 }
 
-/// When a file was written last, and its length; it differs for one that took its place.
+/// Last modification time and length of a file, to detect that another file replaced it.
 pub(crate) fn stamp(path: &Path) -> Option<(SystemTime, u64)> {
-    let known = fs::metadata(path).ok()?;
-    Some((known.modified().ok()?, known.len()))
+    let metadata = fs::metadata(path).ok()?;
+    Some((metadata.modified().ok()?, metadata.len()))
 }
 
 /// Renames a file to the first free one of `NAME.damaged-1`, `NAME.damaged-2` …
-pub(crate) fn set_aside(path: &Path) -> io::Result<PathBuf> {
+pub(crate) fn rename_damaged(path: &Path) -> io::Result<PathBuf> {
     let mut number = 1;
-    let aside = loop {
+    let new_path = loop {
         let mut name = OsString::from(path);
         name.push(format!(".damaged-{number}"));
-        let aside = PathBuf::from(name);
-        // Taking the name first, so that nobody else takes it in between.
-        match File::create_new(&aside) {
-            Ok(_) => break aside,
+        let new_path = PathBuf::from(name);
+        // Reserves the name first, so that no other program uses it in between.
+        match File::create_new(&new_path) {
+            Ok(_) => break new_path,
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => number += 1,
             Err(error) => return Err(error),
         }
     };
-    if let Err(error) = fs::rename(path, &aside) {
-        // The first failure is the one to report; a leftover is only untidy.
-        let _ = fs::remove_file(&aside);
+    if let Err(error) = fs::rename(path, &new_path) {
+        // The first failure is the one to report; a leftover file is harmless.
+        let _ = fs::remove_file(&new_path);
         return Err(error);
     }
-    Ok(aside)
+    Ok(new_path)
 }

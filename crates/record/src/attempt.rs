@@ -5,50 +5,49 @@ use crate::Error;
 /// One attempt at a task.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attempt {
-    /// Who.
+    /// The trainee.
     pub trainee: String,
     /// The title of the task.
     pub task: String,
-    /// Tells scenes apart that have a task of the same title.
+    /// The scene's digest: distinguishes scenes that have a task of the same title.
     pub scene_digest: String,
-    /// Since the beginning of 1970, without leap seconds [s].
+    /// Time, since the beginning of 1970, without leap seconds [s].
     pub when: i64,
-    /// The folder that its session was in; another session may have taken its place since.
+    /// The folder of its session; another session may have replaced it since.
     pub session: PathBuf,
-    /// Names what happened: a digest of the session's rows. With the scene's digest, the trainee and the time it
-    /// tells the attempt from all others.
+    /// The digest of the session's rows. With the scene's digest, the trainee and the time it identifies the attempt.
     pub session_digest: String,
-    /// Whether the task was done; none where there was nothing to be done.
+    /// Whether the attempt passed; none for a task without a goal.
     pub passed: Option<bool>,
-    /// Whether others are judged by it.
+    /// Whether it is a reference attempt, against which others are judged.
     pub is_expert: bool,
-    /// What was measured, each key once.
+    /// The measures, each key once.
     pub measures: Vec<Measure>,
 }
 
-/// What became of an attempt that was added.
+/// The result of adding an attempt.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Added {
-    /// It is in the record now.
+    /// The attempt was added.
     New,
-    /// It was in the record already, which is as it was.
+    /// The record already had the attempt and is unchanged.
     AlreadyThere,
-    /// It is in the record now, beside another attempt with the same session to the last bit.
+    /// The attempt was added, and the record has another attempt whose session is identical to the last bit.
     SameSession {
-        /// Whose the other attempt is.
+        /// The trainee of the other attempt.
         trainee: String,
-        /// When it was, since the beginning of 1970 [s].
+        /// Time of the other attempt, since the beginning of 1970 [s].
         when: i64,
     },
 }
 
-/// A number of an attempt.
+/// A measure of an attempt.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Measure {
     /// Its key, with its unit at the end where it has one: `left.path_m`.
     #[serde(rename = "measure")]
     pub key: String,
-    /// In SI.
+    /// In SI units.
     pub value: f64,
     /// Which is better.
     pub better: Better,
@@ -62,7 +61,7 @@ pub enum Better {
     Less,
     /// The larger one.
     More,
-    /// Neither: it should be as an expert has it.
+    /// Neither: the target is the experts' value.
     Neither,
 }
 
@@ -73,7 +72,7 @@ impl Attempt {
         found.map(|measure| measure.value)
     }
 
-    /// Whether a record can keep it.
+    /// Whether a record can store it.
     pub(crate) fn check(&self) -> Result<(), Error> {
         for (what, name) in [("trainee", &self.trainee), ("task", &self.task)] {
             if name.trim().is_empty() {
@@ -97,7 +96,7 @@ impl Attempt {
 }
 
 impl Better {
-    /// How it stands in files: `less`, `more`, `neither`.
+    /// Its word in files: `less`, `more`, `neither`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Less => "less",
@@ -106,7 +105,7 @@ impl Better {
         }
     }
 
-    /// What a word stands for.
+    /// Parses such a word.
     pub(crate) fn of_word(word: &str) -> Option<Self> {
         let all = [Self::Less, Self::More, Self::Neither];
         all.into_iter().find(|better| better.word() == word)

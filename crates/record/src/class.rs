@@ -1,48 +1,48 @@
-//! What a teacher keeps: who belongs together, what they shall do until when, and whose sessions are experts'.
+//! A teacher's tables: cohorts, assignments with their due times, and the experts' attempts.
 //!
-//! The PIN keeps trainees from a teacher's commands by mistake. It is no protection: whoever may write the file may
-//! change all of it, and the PIN stands in it as it is.
+//! The PIN prevents accidental use of a teacher's commands. It is no protection: anyone who may write the file may
+//! change all of it, and the file has the PIN in plain text.
 
 use rusqlite::{Connection, OptionalExtension, params};
 
 use crate::{Error, Record, schema};
 
-/// Trainees that belong together.
+/// A group of trainees.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
 pub struct Cohort {
-    /// What they are called together.
+    /// Its name.
     #[serde(rename = "cohort")]
     pub name: String,
-    /// Their names, in alphabetical order.
+    /// The trainees' names, in alphabetical order.
     pub trainees: Vec<String>,
 }
 
-/// What a cohort shall do.
+/// An assignment of a task to a cohort.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Assignment {
     /// The cohort.
     pub cohort: String,
     /// The title of the task.
     pub task: String,
-    /// Until when, since the beginning of 1970 [s].
+    /// Due time, since the beginning of 1970 [s].
     pub due: i64,
-    /// How many attempts have to be passed until then.
+    /// The number of passed attempts that it requires by then.
     pub passes: u32,
 }
 
-/// How far a trainee is with an assignment.
+/// A trainee's progress in an assignment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AssignmentProgress {
-    /// Attempts at the task.
+    /// Number of attempts at the task.
     pub attempts: usize,
-    /// Passed attempts until it was due.
+    /// Number of attempts passed by the due time.
     pub passed: usize,
-    /// Whether there were enough of them.
+    /// Whether these are enough.
     pub is_done: bool,
 }
 
 impl Assignment {
-    /// How far a trainee is with it, whose attempts are `attempts`.
+    /// The progress of a trainee with these `attempts`.
     pub fn standing<'a>(
         &self,
         attempts: impl Iterator<Item = &'a crate::Attempt>,
@@ -71,7 +71,7 @@ impl Record {
         }
     }
 
-    /// Checks that `pin` is the teacher's; every text is, while there is none.
+    /// Checks that `pin` is the teacher's. A record without a PIN accepts every text.
     ///
     /// # Errors
     /// It is not, or the record cannot be read.
@@ -80,10 +80,10 @@ impl Record {
             return Ok(());
         }
         let sql = "SELECT value FROM setting WHERE key = 'pin'";
-        let kept = self.connection().query_row(sql, [], |row| row.get(0));
-        let kept: Option<String> = self.database(kept.optional())?;
-        match kept {
-            Some(kept) if pin != Some(&kept) => Err(Error::WrongPin {
+        let stored = self.connection().query_row(sql, [], |row| row.get(0));
+        let stored: Option<String> = self.database(stored.optional())?;
+        match stored {
+            Some(stored) if pin != Some(&stored) => Err(Error::WrongPin {
                 path: self.path().to_owned(),
             }),
             _ => Ok(()),
@@ -102,7 +102,7 @@ impl Record {
         self.database(set).map(|_| ())
     }
 
-    /// Adds trainees to a cohort, which begins with the first of them.
+    /// Adds trainees to a cohort and creates the cohort if it does not exist.
     ///
     /// # Errors
     /// A name is empty, or the record cannot be written.
@@ -119,7 +119,7 @@ impl Record {
         Ok(())
     }
 
-    /// Takes trainees out of a cohort. Their attempts stay.
+    /// Removes trainees from a cohort. Their attempts stay.
     ///
     /// # Errors
     /// The record cannot be written.
@@ -152,7 +152,7 @@ impl Record {
         Ok(cohorts)
     }
 
-    /// Gives a cohort something to do; an earlier assignment of the same task is replaced.
+    /// Gives a cohort an assignment; it replaces an earlier assignment of the same task.
     ///
     /// # Errors
     /// A name is empty, or the record cannot be written.
@@ -181,8 +181,7 @@ impl Record {
         self.database(assignments(self.connection()))
     }
 
-    /// Makes the attempt of a trainee with a session of that digest one that others are judged by. It stays the
-    /// trainee's.
+    /// Makes a trainee's attempt with this session digest a reference attempt. It stays the trainee's.
     ///
     /// # Errors
     /// There is no such attempt, it was not passed, or the record cannot be written.
@@ -200,7 +199,7 @@ impl Record {
     }
 }
 
-/// Whether a record, which may only be read, is of a version before a teacher's tables.
+/// Whether a record that is opened read-only has a version before the teacher's tables.
 fn is_former(connection: &Connection) -> rusqlite::Result<bool> {
     Ok(schema::version(connection)? < schema::TEACHERS)
 }

@@ -3,23 +3,23 @@ use std::path::{Path, PathBuf};
 
 use rusqlite::ErrorCode;
 
-/// Why a record cannot be used, or an attempt not be kept.
+/// Why a record cannot be used, or an attempt cannot be stored.
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// There is no record to read.
     #[error("{path} holds no training record yet; record an attempt first, or name another file", path = path.display())]
     Missing {
-        /// The file that was looked for.
+        /// The missing file.
         path: PathBuf,
     },
-    /// Another program holds it.
+    /// Another program locks it.
     #[error("{path} is in use by another program; close what uses it, then try again", path = path.display())]
     Locked {
         /// The record.
         path: PathBuf,
     },
-    /// It cannot be read as the record that it was.
+    /// The file is damaged.
     #[error(
         "{path} is damaged ({reason}) and stays as it is; put a copy of it in its place, or record an attempt, which keeps it aside and begins a new one",
         path = path.display()
@@ -27,10 +27,10 @@ pub enum Error {
     Damaged {
         /// The record.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The damage.
         reason: String,
     },
-    /// It is something else.
+    /// It is another kind of file.
     #[error("{path} is no training record and stays as it is; name another file", path = path.display())]
     Foreign {
         /// The file.
@@ -46,7 +46,7 @@ pub enum Error {
         path: PathBuf,
         /// Its version.
         found: i64,
-        /// The latest version that is known.
+        /// The latest known version.
         known: i64,
     },
     /// The disk is full or broken.
@@ -54,21 +54,21 @@ pub enum Error {
     Disk {
         /// The record.
         path: PathBuf,
-        /// What the operating system says.
+        /// The error of the operating system.
         reason: String,
     },
-    /// Its name or its permissions do not let it be used.
+    /// Its name or its permissions prevent its use.
     #[error("{path} cannot be used: {reason}; check that it is a file that you may write, in a folder that you may write", path = path.display())]
     Unusable {
         /// The record.
         path: PathBuf,
-        /// What the operating system says.
+        /// The error of the operating system.
         reason: String,
     },
     /// A name is missing.
     #[error("an attempt has a {what} without a name; give it one")]
     Unnamed {
-        /// What has none.
+        /// The item without a name.
         what: &'static str,
     },
     /// A measure is no number.
@@ -79,7 +79,7 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
-    /// A measure stands twice in an attempt.
+    /// An attempt has a measure twice.
     #[error("the measure `{key}` stands twice in an attempt; leave one out")]
     Twice {
         /// The measure.
@@ -91,26 +91,26 @@ pub enum Error {
         /// The record.
         path: PathBuf,
     },
-    /// Nothing that could be an expert's.
+    /// No such passed attempt.
     #[error(
         "there is no passed attempt of {trainee} with this session in the record; only a passed attempt can be an expert's"
     )]
     NoExpert {
-        /// Who was named.
+        /// The trainee.
         trainee: String,
     },
-    /// The name of a folder cannot be kept.
+    /// The name of a folder cannot be stored.
     #[error("the session's folder {path} has a name that is not UTF-8; rename it", path = path.display())]
     FolderName {
         /// The folder.
         path: PathBuf,
     },
-    /// The database refuses what it should not.
+    /// The database rejects a valid operation.
     #[error("{path}: {reason}; please report this", path = path.display())]
     Failed {
         /// The record.
         path: PathBuf,
-        /// What the database says.
+        /// The error of the database.
         reason: String,
     },
 }
@@ -134,7 +134,7 @@ impl Error {
         }
     }
 
-    /// What the operating system says of a file.
+    /// Converts an error of the operating system.
     pub(crate) fn of_system(path: &Path, error: &io::Error) -> Self {
         use io::ErrorKind::{
             AlreadyExists, InvalidFilename, InvalidInput, IsADirectory, NotADirectory, NotFound,
@@ -149,7 +149,7 @@ impl Error {
         }
     }
 
-    /// What the database says of its file.
+    /// Converts an error of the database.
     pub(crate) fn of_database(path: &Path, error: &rusqlite::Error) -> Self {
         let path = path.to_owned();
         let reason = match error {
@@ -172,7 +172,7 @@ impl Error {
             ) => Self::Unusable { path, reason },
             Some(ErrorCode::DiskFull | ErrorCode::SystemIoFailure) => Self::Disk { path, reason },
             _ => match error {
-                // What stands in a column is not what was put there.
+                // A column has another value than was written.
                 InvalidColumnType(..)
                 | FromSqlConversionFailure(..)
                 | IntegralValueOutOfRange(..) => Self::Damaged { path, reason },
@@ -188,7 +188,7 @@ mod tests {
 
     use super::*;
 
-    /// Exit status 1 is for what no change of the input would help.
+    /// Exit status 1 is for errors that no change of the input would fix.
     #[test]
     fn a_full_disk_and_a_lock_are_failures_and_no_invalid_input() {
         let path = Path::new("training.sqlite");

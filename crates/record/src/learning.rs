@@ -1,18 +1,18 @@
 use crate::Spread;
 
-/// What trainees reach in their attempt of one number.
+/// A point of the learning curve: one number over all trainees at the same attempt.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct CurvePoint {
-    /// Which attempt, counted from one.
+    /// The attempt, counted from one.
     pub attempt: usize,
-    /// Over the trainees who made that many.
+    /// Over the trainees with that many attempts.
     #[serde(flatten)]
     pub spread: Spread,
 }
 
-/// From attempt to attempt, over trainees: each of `trainees` has the numbers of one of them in the order of the
-/// attempts, none where an attempt has no such number. Points that nobody has are left out. Where fewer and fewer
-/// go on, the end of the curve is that of those who did.
+/// The learning curve: each of `trainees` has one trainee's numbers in the order of the attempts, none where an attempt
+/// lacks the number. Points without a value are left out. Where the number of trainees decreases, the end of the curve
+/// shows only those who continued.
 pub fn learning_curve(trainees: &[Vec<Option<f64>>]) -> Vec<CurvePoint> {
     let longest = trainees.iter().map(Vec::len).max().unwrap_or(0);
     let point = |place: usize| {

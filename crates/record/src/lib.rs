@@ -1,18 +1,17 @@
-//! The training record: who attempted which task, when, and with what measures, over all sessions.
+//! The training record: all attempts over all sessions, with trainee, task, time and measures.
 //!
-//! It is one file, an SQLite database, that many programs may use at once. [`Record::open`] begins it where there
-//! is none, [`Record::add`] has put an attempt onto the disk when it returns, [`Record::read`] changes nothing.
-//! A record that is damaged is never written over: it is kept beside the new one that is begun.
+//! It is one file, an SQLite database, that many programs may use at once. [`Record::open`] creates a missing record,
+//! [`Record::add`] returns once the attempt is on the disk, [`Record::read`] changes nothing. A damaged record is never
+//! overwritten: it is renamed, and a new one is created.
 //!
-//! What the attempts say is told by [`Standards`], what experts reach and who is proficient, and by
-//! [`learning_curve`], the mean over trainees from attempt to attempt.
+//! [`Standards`] evaluates attempts: the experts' level and the proficient trainees. [`learning_curve`] gives the mean
+//! over trainees from attempt to attempt.
 //!
 //! *How we know*: `killed::…` (a writer that is killed at random times), `damaged::…`, `refused::…`, `kept::…`,
 //! `proficiency::…`, `learning::…`, `class::…`.
 //!
-//! *Limits*: times are those that the caller says. A number that is changed inside a sound page is not noticed.
-//! A program that keeps a record open while its file is moved goes on writing to the moved one, so open it, add
-//! and close it again.
+//! *Limits*: the caller states the times. A number that changes inside a valid page is not detected. A program that
+//! keeps a record open while its file is moved continues to write to the moved one, so open it, add and close it again.
 
 mod aside;
 mod attempt;

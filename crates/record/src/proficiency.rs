@@ -1,14 +1,14 @@
-//! Who is as good as the experts [Gallagher 2005]: in a measure, who is not worse than their mean by more than
-//! one standard deviation; in a task, who is so in as large a part of the measures as the experts themselves are on
-//! average, in [`IN_A_ROW`] attempts. Of twenty measures somebody as good as they are misses three by chance, so
-//! that nobody would ever be so in all.
+//! Proficiency by the experts' standard [Gallagher 2005]. A measure is proficient if it is not worse than the experts'
+//! mean by more than one standard deviation. A trainee is proficient in a task if, in [`IN_A_ROW`] attempts, as large a
+//! part of the measures is proficient as in the experts' own attempts on average. Out of twenty measures someone at the
+//! experts' level misses three by chance, so nobody would ever pass all.
 
 use crate::{Attempt, Better, Spread};
 
-/// So many proficient attempts in a row make a trainee proficient: a single one may be luck.
+/// Number of successive proficient attempts that make a trainee proficient: a single one may be luck.
 pub const IN_A_ROW: usize = 2;
 
-/// What experts reach in one measure.
+/// The experts' level in one measure.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Standard {
     /// The measure.
@@ -21,39 +21,39 @@ pub struct Standard {
     pub spread: Spread,
 }
 
-/// What experts reach in a task.
+/// The experts' level in a task.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Standards {
-    /// How many attempts of experts.
+    /// Number of experts' attempts.
     pub attempts: usize,
     /// In the order of their measures.
     pub each: Vec<Standard>,
-    /// The part of the measures in which the experts' own attempts are proficient, on average [-]; none where no
-    /// standard tells.
+    /// The mean part of the measures in which the experts' own attempts are proficient [-]; none if no standard
+    /// applies.
     pub share: Option<f64>,
 }
 
-/// An attempt beside the standards.
+/// An attempt compared with the standards.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judgement {
     /// As [`Standards::each`].
     pub measures: Vec<Judged>,
-    /// Whether the attempt is proficient: not failed, and in as large a part of the measures as the experts'; one
-    /// that every expert has counts as missed where it is not there. None where no standard tells.
+    /// Whether the attempt is proficient: not failed, and in as large a part of the measures as the experts'. A measure
+    /// that every expert has counts as missed if the attempt lacks it. None if no standard applies.
     pub proficient: Option<bool>,
 }
 
-/// A measure beside its standard.
+/// A measure compared with its standard.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Judged {
-    /// What was reached; none where the attempt has no such measure.
+    /// The attempt's value; none if it lacks the measure.
     pub value: Option<f64>,
-    /// Whether that is proficient; none where that cannot be told.
+    /// Whether that is proficient; none if undetermined.
     pub proficient: Option<bool>,
 }
 
 impl Standard {
-    /// Whether a value is proficient; none where a single attempt gives no deviation.
+    /// Whether a value is proficient; none if a single attempt gives no deviation.
     pub fn is_met_by(&self, value: f64) -> Option<bool> {
         let Spread {
             mean,
@@ -70,7 +70,7 @@ impl Standard {
 }
 
 impl Standards {
-    /// Of experts' attempts at one task.
+    /// The standards from experts' attempts at one task.
     pub fn of(experts: &[&Attempt]) -> Self {
         let mut each: Vec<Standard> = Vec::new();
         for measure in experts.iter().flat_map(|attempt| &attempt.measures) {
@@ -97,7 +97,7 @@ impl Standards {
         standards
     }
 
-    /// An attempt beside them.
+    /// Compares an attempt with the standards.
     pub fn judge(&self, attempt: &Attempt) -> Judgement {
         let measures = self.measures(attempt);
         let own = share(&measures).zip(self.share);
@@ -113,7 +113,7 @@ impl Standards {
         let judged = |standard: &Standard| {
             let value = attempt.value(&standard.key);
             let has_deviation = standard.spread.standard_deviation.is_some();
-            // What all experts do must be done; what one of them did may be left.
+            // A measure that all experts have is required; one that only some have is optional.
             let is_due = standard.spread.count == self.attempts && has_deviation;
             let proficient = match value {
                 Some(value) => standard.is_met_by(value),
@@ -125,15 +125,15 @@ impl Standards {
     }
 }
 
-/// The part of the measures that are proficient, of those of which that can be told [-].
+/// The proficient part of the measures with a verdict [-].
 fn share(measures: &[Judged]) -> Option<f64> {
-    let told: Vec<bool> = measures.iter().filter_map(|own| own.proficient).collect();
-    let proficient = told.iter().filter(|is| **is).count();
-    (!told.is_empty()).then(|| proficient as f64 / told.len() as f64)
+    let verdicts: Vec<bool> = measures.iter().filter_map(|own| own.proficient).collect();
+    let proficient = verdicts.iter().filter(|is| **is).count();
+    (!verdicts.is_empty()).then(|| proficient as f64 / verdicts.len() as f64)
 }
 
-/// The attempt, counted from one, with which somebody became proficient, by the judgements of their attempts in
-/// order; none if they did not.
+/// The attempt, counted from one, at which a trainee became proficient, from the verdicts on the attempts in order;
+/// none if never.
 pub fn proficient_since(judgements: &[Judgement]) -> Option<usize> {
     let proficient = |own: &Judgement| own.proficient == Some(true);
     let mut windows = judgements.windows(IN_A_ROW);

@@ -8,13 +8,13 @@ use rusqlite::{Connection, OpenFlags};
 use crate::schema::{self, DatabaseState, VERSION};
 use crate::{Added, Attempt, Error, aside, rows};
 
-/// How long another program is waited for.
-const PATIENCE: Duration = Duration::from_secs(2);
+/// Timeout for another program's lock.
+const TIMEOUT: Duration = Duration::from_secs(2);
 
-/// How often a damaged file is looked at that somebody else changes meanwhile.
+/// How often opening retries a damaged file that another program changes at the same time.
 const LOOKS: usize = 3;
 
-/// The training record of one file.
+/// A training record in one file.
 #[derive(Debug)]
 pub struct Record {
     path: PathBuf,
@@ -22,7 +22,7 @@ pub struct Record {
     warnings: Vec<String>,
 }
 
-/// Which attempts; without anything, all.
+/// A filter for attempts; the default selects all.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Filter {
     /// Of one trainee.
@@ -32,13 +32,13 @@ pub struct Filter {
 }
 
 impl Record {
-    /// The record in a file, for adding to it. Where there is none it is begun, with its folder. A damaged one is
-    /// kept aside as `NAME.damaged-1` and a new one begun at once, so that the attempt of somebody who has just
-    /// finished is not lost; that is told by [`Record::warnings`].
+    /// Opens the record in a file for writing. It creates a missing record with its folder. It renames a damaged one to
+    /// `NAME.damaged-1` and creates a new one at once, so that an attempt that was just finished is not lost;
+    /// [`Record::warnings`] reports this.
     ///
     /// # Errors
-    /// Another program holds it for longer than two seconds, it is another kind of file or of a later version, or
-    /// the operating system does not let it be written.
+    /// Another program locks it for longer than two seconds, it is another kind of file or of a later version, or the
+    /// operating system does not permit writing.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let path = absolute(path).map_err(|error| Error::of_system(path, &error))?;
@@ -60,15 +60,15 @@ impl Record {
                 }
             };
             looks += 1;
-            // Another program may just have set it aside and begun a new one.
+            // Another program may just have renamed it and created a new one.
             if aside::stamp(&path) != stamp && looks < LOOKS {
                 continue;
             }
             if looks > LOOKS {
-                // Others damage what this program begins.
+                // Another program damages the file that this one creates.
                 return Err(Error::Locked { path });
             }
-            let kept = match aside::set_aside(&path) {
+            let kept = match aside::rename_damaged(&path) {
                 // Another program was faster.
                 Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
                 other => other.map_err(|error| Error::of_system(&path, &error))?,
@@ -81,11 +81,11 @@ impl Record {
         }
     }
 
-    /// The record in a file, for reading. No record is begun and none set aside.
+    /// Opens the record in a file for reading. It creates and renames nothing.
     ///
     /// # Errors
-    /// There is none, it is damaged, another program holds it for longer than two seconds, it is another kind of
-    /// file or of a later version, or the operating system does not let it be read.
+    /// There is none, it is damaged, another program locks it for longer than two seconds, it is another kind of file
+    /// or of a later version, or the operating system does not permit reading.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let path = absolute(path).map_err(|error| Error::of_system(path, &error))?;
@@ -109,18 +109,18 @@ impl Record {
         &self.path
     }
 
-    /// What was found when it was opened.
+    /// Warnings from opening the record.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
     }
 
-    /// Keeps an attempt: on the disk when this returns, or not at all. No other attempt is changed; one that is in
-    /// the record already, by the digests of session and scene, the trainee and the time, is not added again. Names
-    /// are kept without white space around them.
+    /// Adds an attempt atomically: it is on the disk when this returns, or not at all. No other attempt changes. An
+    /// attempt with the same digests of session and scene, trainee and time is not added again. Names are stored
+    /// without surrounding white space.
     ///
     /// # Errors
-    /// The attempt lacks a name or has a measure that is no number, or another program holds the record for longer
-    /// than two seconds, or it cannot be written.
+    /// The attempt lacks a name, a measure is not a number, another program locks the record for longer than two
+    /// seconds, or it cannot be written.
     pub fn add(&mut self, attempt: &Attempt) -> Result<Added, Error> {
         attempt.check()?;
         let session = session(&attempt.session)?;
@@ -128,16 +128,16 @@ impl Record {
             .map_err(|error| Error::of_database(&self.path, &error))
     }
 
-    /// Attempts in the order of their times; of the same second, in the order in which they were added.
+    /// Attempts in the order of their times; within the same second, in the order in which they were added.
     ///
     /// # Errors
-    /// Another program holds the record for longer than two seconds, or it cannot be read.
+    /// Another program locks the record for longer than two seconds, or it cannot be read.
     pub fn attempts(&self, filter: &Filter) -> Result<Vec<Attempt>, Error> {
         rows::taken(&self.connection, filter)
             .map_err(|error| Error::of_database(&self.path, &error))
     }
 
-    /// Who attempted anything, in alphabetical order.
+    /// The trainees with attempts, in alphabetical order.
     ///
     /// # Errors
     /// As of [`Record::attempts`].
@@ -145,7 +145,7 @@ impl Record {
         self.names("SELECT DISTINCT trainee FROM attempt ORDER BY trainee")
     }
 
-    /// What was attempted, in alphabetical order.
+    /// The tasks with attempts, in alphabetical order.
     ///
     /// # Errors
     /// As of [`Record::attempts`].
@@ -162,7 +162,7 @@ impl Record {
     }
 }
 
-/// Opens a file that is a record, or that becomes one.
+/// Opens a record, or an empty file in which to create one.
 fn opened(path: &Path, begins: bool) -> Result<Connection, Error> {
     let looked = looked_at(path, begins);
     let path = path.to_owned();
@@ -188,7 +188,7 @@ fn opened(path: &Path, begins: bool) -> Result<Connection, Error> {
     }
 }
 
-/// Opens a file and looks what it is; where it is nothing, a record is begun if that is wanted.
+/// Opens a file and checks its kind; in an empty one it creates a record if requested.
 fn looked_at(path: &Path, begins: bool) -> rusqlite::Result<(Connection, DatabaseState)> {
     let mut flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     if begins {
@@ -197,18 +197,18 @@ fn looked_at(path: &Path, begins: bool) -> rusqlite::Result<(Connection, Databas
     let is_long = || fs::metadata(path).is_ok_and(|known| known.len() > 0);
     let was_long = is_long();
     let mut connection = Connection::open_with_flags(path, flags)?;
-    connection.busy_timeout(PATIENCE)?;
-    // What was added outlives the power: the journal's end is waited for, too.
+    connection.busy_timeout(TIMEOUT)?;
+    // An added attempt survives a power failure: the commit also waits for the end of the journal.
     connection.pragma_update(None, "synchronous", "EXTRA")?;
-    let mut found = schema::look_once(&mut connection)?;
-    // A file of a few bytes passes for an empty database, and would be written over. The remains of a record whose
-    // beginning was cancelled are long before and empty afterwards.
+    let mut found = schema::database_state(&mut connection)?;
+    // The database treats a file of a few bytes as empty and would overwrite it. An interrupted creation of a record
+    // leaves a long file before and an empty one afterwards.
     if found == DatabaseState::Nothing && was_long && is_long() {
         found = DatabaseState::Damaged("it is no database".to_owned());
     }
     if found == DatabaseState::Nothing && begins {
         schema::begin(&mut connection)?;
-        found = schema::look_once(&mut connection)?;
+        found = schema::database_state(&mut connection)?;
     }
     if found == DatabaseState::Record && begins {
         schema::upgrade(&mut connection)?;
@@ -216,7 +216,7 @@ fn looked_at(path: &Path, begins: bool) -> rusqlite::Result<(Connection, Databas
     Ok((connection, found))
 }
 
-/// How the folder of a session is kept: the same one always the same way.
+/// The stored form of a session's folder: always the same for the same folder.
 fn session(folder: &Path) -> Result<String, Error> {
     let whole = fs::canonicalize(folder).or_else(|_| absolute(folder));
     let whole = whole.map_err(|error| Error::of_system(folder, &error))?;

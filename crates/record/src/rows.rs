@@ -6,7 +6,7 @@ use rusqlite::{Connection, OptionalExtension, Row, Transaction, TransactionBehav
 
 use crate::{Added, Attempt, Better, Filter, Measure, schema};
 
-/// Puts an attempt in, whole or not at all, unless it is there already.
+/// Inserts an attempt atomically, unless it exists already.
 pub(crate) fn put(
     connection: &mut Connection,
     attempt: &Attempt,
@@ -58,9 +58,9 @@ pub(crate) fn put(
     Ok(other.unwrap_or(Added::New))
 }
 
-/// Attempts in order; by one statement, so that all is of one moment.
+/// Attempts in order; one statement, so that all are of one moment.
 pub(crate) fn taken(connection: &Connection, filter: &Filter) -> rusqlite::Result<Vec<Attempt>> {
-    // A record that is only read stays of its version.
+    // A record that is opened read-only keeps its version.
     let digest = match schema::version(connection)? {
         1 => "'unknown, ' || session",
         _ => "session_digest",

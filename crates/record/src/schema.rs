@@ -1,11 +1,11 @@
-//! What stands in the file, and how it is told from other files.
+//! The tables in the file, and how the file is recognized.
 
 use rusqlite::{Connection, Transaction, TransactionBehavior};
 
 /// In the header of every record: `palp`.
 pub(crate) const APPLICATION: i64 = 0x7061_6c70;
 
-/// Of the tables.
+/// Version of the tables.
 pub(crate) const VERSION: i64 = 3;
 
 /// The first version with a teacher's tables.
@@ -52,14 +52,14 @@ CREATE TABLE assignment (
 ) STRICT, WITHOUT ROWID;
 ";
 
-/// From version 1, where an attempt was known by its session's folder, which is what its digest becomes.
+/// Migration from version 1, which identified an attempt by its session's folder; the folder becomes the digest.
 const FROM_VERSION_1: &str = "
 ALTER TABLE attempt RENAME TO attempt_1;
 ALTER TABLE measure RENAME TO measure_1;
 ";
 
-/// What version 1 kept, in the tables of version 2.
-const KEPT_OF_VERSION_1: &str = "
+/// Copies the content of version 1 to the tables of version 2.
+const COPY_OF_VERSION_1: &str = "
 INSERT INTO attempt
     SELECT id, 'unknown, ' || session, session, trainee, task, scene_digest, when_s, passed, is_expert
     FROM attempt_1;
@@ -68,27 +68,27 @@ DROP TABLE measure_1;
 DROP TABLE attempt_1;
 ";
 
-/// What a database is.
+/// The kind of a database.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum DatabaseState {
-    /// Nothing stands in it.
+    /// Empty.
     Nothing,
-    /// A record of this version or an earlier one, whole.
+    /// A complete record of this version or an earlier one.
     Record,
     /// A record of a later version.
     Newer(i64),
-    /// A record of which something is missing or wrong.
+    /// A record with missing or wrong parts.
     Damaged(String),
-    /// Something else.
+    /// Another kind of database.
     Foreign,
 }
 
-/// What there is, at one moment: a record that another program begins meanwhile is nothing or whole.
-pub(crate) fn look_once(connection: &mut Connection) -> rusqlite::Result<DatabaseState> {
-    look(&*connection.transaction()?)
+/// The kind at one moment: a record that another program creates at the same time is empty or complete.
+pub(crate) fn database_state(connection: &mut Connection) -> rusqlite::Result<DatabaseState> {
+    state_within(&*connection.transaction()?)
 }
 
-fn look(connection: &Connection) -> rusqlite::Result<DatabaseState> {
+fn state_within(connection: &Connection) -> rusqlite::Result<DatabaseState> {
     let number = |sql: &str| connection.query_row(sql, [], |row| row.get::<_, i64>(0));
     let application = number("PRAGMA application_id")?;
     let version = version(connection)?;
@@ -115,10 +115,10 @@ fn look(connection: &Connection) -> rusqlite::Result<DatabaseState> {
     Ok(DatabaseState::Record)
 }
 
-/// Makes a record of nothing, whole or not at all; somebody else may have been faster.
+/// Creates the tables atomically; another program may have done so first.
 pub(crate) fn begin(connection: &mut Connection) -> rusqlite::Result<()> {
     let transaction = Transaction::new(connection, TransactionBehavior::Immediate)?;
-    if look(&transaction)? == DatabaseState::Nothing {
+    if state_within(&transaction)? == DatabaseState::Nothing {
         transaction.execute_batch(TABLES)?;
         transaction.execute_batch(TEACHER)?;
         transaction.pragma_update(None, "application_id", APPLICATION)?;
@@ -127,18 +127,18 @@ pub(crate) fn begin(connection: &mut Connection) -> rusqlite::Result<()> {
     transaction.commit()
 }
 
-/// Brings a record of an earlier version to this one, whole or not at all.
+/// Migrates a record of an earlier version to this one, atomically.
 pub(crate) fn upgrade(connection: &mut Connection) -> rusqlite::Result<()> {
     if version(connection)? == VERSION {
         return Ok(());
     }
     let transaction = Transaction::new(connection, TransactionBehavior::Immediate)?;
-    // Somebody else may have been faster.
+    // Another program may have done so first.
     let found = version(&transaction)?;
     if found == 1 {
         transaction.execute_batch(FROM_VERSION_1)?;
         transaction.execute_batch(TABLES)?;
-        transaction.execute_batch(KEPT_OF_VERSION_1)?;
+        transaction.execute_batch(COPY_OF_VERSION_1)?;
     }
     if found < VERSION {
         transaction.execute_batch(TEACHER)?;

@@ -1,17 +1,17 @@
-/// A number over several attempts.
+/// Statistics of a number over several attempts.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Spread {
-    /// In the number's unit.
+    /// Mean, in the number's unit.
     pub mean: f64,
-    /// Of one attempt, in the number's unit; none for a single one.
+    /// Standard deviation of one attempt, in the number's unit; none for a single one.
     pub standard_deviation: Option<f64>,
-    /// How many.
+    /// Number of attempts.
     #[serde(rename = "n")]
     pub count: usize,
 }
 
 impl Spread {
-    /// Of values; none of no value.
+    /// The statistics of values; none without values.
     pub fn of(values: &[f64]) -> Option<Self> {
         let count = values.len();
         let mean = values.iter().sum::<f64>() / count as f64;

@@ -51,7 +51,7 @@ impl Figures {
         Ok(self.folder.join(file))
     }
 
-    /// Where finished rows are kept.
+    /// The file of finished rows.
     pub fn rows(&self) -> KeptRows {
         KeptRows::at(self.folder.join(KEPT))
     }

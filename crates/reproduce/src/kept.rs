@@ -13,7 +13,7 @@ use crate::Error;
 /// lines of one row the later is newer.
 pub const KEPT: &str = "rows.jsonl";
 
-/// The file, which the first row makes.
+/// The file of finished rows; the first row creates it.
 pub struct KeptRows {
     path: PathBuf,
     file: Option<File>,
@@ -56,7 +56,7 @@ impl KeptRows {
     }
 }
 
-/// Ready to append whole lines: a run that was killed may have left a part of one.
+/// Opens the file to append whole lines: a killed run may have left a partial line.
 fn opened(path: &PathBuf) -> io::Result<File> {
     let mut file = OpenOptions::new()
         .create(true)

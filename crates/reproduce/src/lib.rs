@@ -1,5 +1,5 @@
-//! The tables and figures of the source, computed again: one module per system of the specification, and the rows as
-//! data in `published/rows` (`registry`), beside the source's tables in `published`, whose numbers are never typed again.
+//! The tables and figures of the source, reproduced: one module per system of the specification, and the rows as
+//! data in `published/rows` (`registry`). The source's tables are in `published`; their numbers stand there only.
 //!
 //! Prints nothing: the caller draws the plots ([`Figures`]), receives progress
 //! ([`palpate_jobs::Watch`]) and shows the rows.
@@ -146,8 +146,8 @@ fn is_of(name: &str, item: &str) -> bool {
 }
 
 impl Item {
-    /// Computes its rows; when that fails, a last one says why. Figures are written among `figures`, and `watch` hears
-    /// what goes on.
+    /// Computes its rows; when that fails, a last row says why. Figures are written among `figures`, and `watch`
+    /// receives the progress.
     pub fn rows(&self, figures: &Figures, watch: &dyn Watch) -> Vec<Row> {
         let mut rows = Rows::of(self.name, figures, watch);
         let outcome = (self.run)(&mut rows);

@@ -1,4 +1,4 @@
-//! What times are measured on, and how repeated times are reported.
+//! The processor of timings, and the median of repeated times.
 
 /// The processor.
 pub(crate) fn processor() -> String {

@@ -1,8 +1,8 @@
-//! What a row is, when it is not simply our number beside the source's.
+//! Marks of rows that are not simply our number versus the source's.
 
 use serde::{Deserialize, Serialize};
 
-/// What a reader must know of a row before its numbers.
+/// The mark of a row, read before its numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Mark {

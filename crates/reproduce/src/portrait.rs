@@ -1,4 +1,4 @@
-//! Pictures of bodies that no scene has.
+//! Pictures of bodies without a scene.
 
 use palpate_files::scene::Shading;
 use palpate_geometry::{Surface, Vec3};
@@ -66,7 +66,7 @@ impl Painter {
         let mut orbit = Orbit::framing(mesh, 0.785, aspect);
         let (middle, side) = sitter.middle;
         orbit.target = middle;
-        // From beside and above the normal, as far as that points anywhere around the vertical.
+        // Turned with the normal, if that has a direction around the vertical.
         if side.xy().norm() > 0.5 {
             orbit.azimuth += side.x.atan2(-side.y);
         }

@@ -1,11 +1,11 @@
 //! The items and their rows as data: `published/rows`, one file for each chapter of the source, in its order.
 //!
 //! An item has a `name`, a `title`, usual `seconds`, and rows and figures, or the reason why it is `not_computed`. A row
-//! has a `name`, a `unit`, a `note`, a `mark` where it is not simply our number, and what is `published`: a number, or
+//! has a `name`, a `unit`, a `note`, a `mark` where it is not simply our number, and a `published` value: a number, or
 //! the cell of a table, see [`cell`](crate::published::cell). A figure has axes `x` and `y`, a `title` and a `note`;
-//! one without a title is a picture. What stands in braces in a name matches any text without a slash, or one of the
+//! one without a title is a picture. Braces in a name match any text without a slash, or one of the
 //! texts after a colon, as in `{organ:liver|kidney}/{depth}_mm`; of several rows that match, the first is meant.
-//! Elsewhere it stands for what was matched, for a value that the computation passes (`with`), for the `item` or its `part` after the
+//! Elsewhere they stand for the matched text, for a value that the computation passes (`with`), for the `item` or its `part` after the
 //! slash, or for one of the `words`: a text, or a text for each value.
 
 use std::collections::BTreeMap;
@@ -64,7 +64,7 @@ pub(crate) struct ItemData {
     figure: Vec<FigureData>,
 }
 
-/// What is known of a row before its number.
+/// Data of a row, without its computed number.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RowData {
@@ -77,7 +77,7 @@ pub(crate) struct RowData {
     pub(crate) mark: Option<Mark>,
 }
 
-/// What the source prints.
+/// The published number.
 #[derive(Debug, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Published {
@@ -87,7 +87,7 @@ pub(crate) enum Published {
     Cell(String),
 }
 
-/// What is known of a figure before its curves.
+/// Data of a figure, without its curves.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FigureData {

@@ -14,7 +14,7 @@ use crate::mark::Mark;
 use crate::published::cell;
 use crate::registry::{self, FigureData, Published, RowData, Values, filled};
 
-/// A number or a figure of the source beside ours.
+/// A number or a figure of the source versus ours.
 #[derive(Debug, Clone, Serialize)]
 pub struct Row {
     /// Its name, which begins with that of its item.
@@ -32,7 +32,7 @@ pub struct Row {
     pub file: Option<PathBuf>,
     /// What the numbers are, and what was assumed.
     pub note: String,
-    /// None for our number, or our figure, beside the source's.
+    /// None for our number, or our figure, versus the source's.
     pub mark: Option<Mark>,
     /// How long it took [s].
     pub seconds: f64,
@@ -106,7 +106,7 @@ impl<'a> Rows<'a> {
         Ok(())
     }
 
-    /// Tells those who wait what goes on within an item.
+    /// Reports progress within an item.
     pub(crate) fn say(&self, what: impl Display) {
         self.watch.say(&format!("{}: {what}", self.item));
     }

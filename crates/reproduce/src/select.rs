@@ -1,5 +1,5 @@
-//! Which items and rows the words of the command line mean: an exact name is that item or row alone, any other word is
-//! what begins with it.
+//! Items and rows that the words of the command line select: an exact name selects that item or row alone, any other
+//! word selects all that begin with it.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use super::{Item, Row, items};
 use crate::Error;
 use palpate_jobs::nearest;
 
-/// What was asked for; nothing means everything.
+/// The selected items and rows; an empty selection means all.
 #[derive(Debug, Clone)]
 pub struct Selection {
     words: Vec<String>,

@@ -1,4 +1,4 @@
-//! The rows for a person.
+//! The rows as a table for people.
 
 use super::mark::Mark;
 use super::{Item, Row};

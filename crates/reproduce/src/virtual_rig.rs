@@ -1,8 +1,7 @@
-//! The source's rig with a tissue of known law under it: what is recorded where the source printed no
-//! recording.
+//! The source's rig over a tissue of known law: recordings where the source printed none.
 //!
 //! *Assumed*: a ramp of 0.5 s, for the source gives no speed, and a hold until 40 s; white noise as large
-//! as the steps of the source's sensor leave; a device that goes where it is told.
+//! as the steps of the source's sensor leave; a device that tracks its reference exactly.
 
 use palpate_characterize::CleanRecording;
 use palpate_characterize::clean::{CleanSettings, clean};
@@ -27,7 +26,7 @@ pub(super) const END: f64 = 40.0;
 /// Samples per second of a ramp and its hold [Hz]: means of twenty of the source's.
 const RATE: f64 = 50.0;
 
-/// Standard deviation of what is recorded [N]: the source's steps of 0.781 mN, over √12.
+/// Standard deviation of the recorded noise [N]: the source's steps of 0.781 mN, over √12.
 const NOISE: f64 = 0.225e-3;
 
 /// A ramp to `depth` [m] and a hold.
@@ -40,7 +39,7 @@ pub(super) fn ramp_and_hold(depth: f64) -> History {
     }
 }
 
-/// What is recorded of `forces` [N] over `course`, made ready; the noise is that of `seed`.
+/// The cleaned recording of `forces` [N] over `course`, with the noise of `seed`.
 pub(super) fn recorded(
     organ: &str,
     subject: usize,
@@ -57,7 +56,7 @@ pub(super) fn recorded(
     cleaned(header, course, noisy)
 }
 
-/// The same as it was felt.
+/// The same without noise.
 pub(super) fn without_noise(
     organ: &str,
     course: &History,

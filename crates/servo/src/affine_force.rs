@@ -2,23 +2,23 @@ use nalgebra::Matrix3;
 
 use crate::Vec3;
 
-/// A force around the place where it was computed: f(x) = f₀ + K (x − x₀). It crosses from the model
-/// to the servo loop as one value.
+/// A force linearized at the position for which it was computed: f(x) = f₀ + K (x − x₀). The model sends it to the
+/// servo loop as one value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AffineForce {
-    /// The time that it was computed for, on the loop's clock [s].
+    /// The time for which it was computed, on the loop's clock [s].
     pub time: f64,
-    /// Whether there is contact; without, the force is zero everywhere.
+    /// Whether there is contact; without contact the force is zero everywhere.
     pub contact: bool,
-    /// x₀, where it was computed [m].
+    /// x₀, where the force was computed [m].
     pub position: Vec3,
     /// f₀, the force there [N].
     pub force: Vec3,
-    /// K = ∂f/∂x [N/m]; tissue pushes back, so that it is negative definite.
+    /// K = ∂f/∂x [N/m]; negative definite, since tissue pushes back.
     pub gradient: Matrix3<f64>,
-    /// Unit normal along which the force pushes and never pulls [-]; zero where it may do both.
+    /// Unit normal along which the force pushes and never pulls [-]; zero if it may do both.
     pub normal: Vec3,
-    /// Distance from x₀ beyond which the force stays as it is at this distance [m].
+    /// Distance from x₀ beyond which the force stays constant [m].
     pub trust_radius: f64,
 }
 
@@ -39,8 +39,8 @@ impl AffineForce {
         }
     }
 
-    /// Contact at `position` [m] with `force` [N] and its `gradient` [N/m], computed for `time` [s]; it
-    /// may push and pull, and is trusted within 5 mm.
+    /// Contact at `position` [m] with `force` [N] and its `gradient` [N/m], computed for `time` [s]; it may push and
+    /// pull, and its trust radius is 5 mm.
     pub fn new(time: f64, position: Vec3, force: Vec3, gradient: Matrix3<f64>) -> Self {
         Self {
             contact: true,
@@ -62,7 +62,7 @@ impl AffineForce {
         self.without_pull(force)
     }
 
-    /// `force` [N], or nothing where it would pull.
+    /// `force` [N], or zero where it would pull.
     pub(crate) fn without_pull(&self, force: Vec3) -> Vec3 {
         let directed = self.normal != Vec3::zeros();
         if directed && force.dot(&self.normal) <= 0.0 {

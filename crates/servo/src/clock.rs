@@ -1,18 +1,18 @@
-//! Time for a loop: real, or as fast as the processor goes.
+//! The clock of a loop: real time, or virtual time as fast as the processor runs.
 //!
-//! A real clock waits for a time, not for a duration, so that errors do not add up: it sleeps until 150 µs
-//! before it and spins the rest, for a sleeping thread wakes up some 70 µs late. A virtual clock is there
-//! at once, and the same inputs give the same bytes.
+//! A real clock waits for an absolute time, not for a duration, so that errors do not add up: it sleeps until 150 µs
+//! before that time and spins the rest, since a sleeping thread wakes up some 70 µs late. A virtual clock jumps there
+//! at once; the same inputs give the same bytes.
 
 use std::time::{Duration, Instant};
 
 /// How long before its time a thread stops sleeping and spins.
 const SPUN: Duration = Duration::from_micros(150);
 
-/// Where a loop has its time from.
+/// The time source of a loop.
 #[derive(Debug, Clone, Copy)]
 pub enum Clock {
-    /// The machine's, counted from this instant.
+    /// The machine's time, counted from this instant.
     Real(Instant),
     /// The time [s] that it was last set to.
     Virtual(f64),
@@ -24,7 +24,7 @@ impl Clock {
         Self::Real(Instant::now())
     }
 
-    /// A clock that stands at zero until it is waited for.
+    /// A virtual clock at zero; only waiting advances it.
     pub fn virtual_time() -> Self {
         Self::Virtual(0.0)
     }

@@ -1,20 +1,20 @@
-//! From the model's last answers to a force at every tick.
+//! Extrapolation: from the model's last answers to a force at every tick.
 //!
 //! `hold`: f = f₀. `linear`: f = f₀ + (f₀ − f₋₁)(t − t₀)/(t₀ − t₋₁), a line in time through the last two
 //! forces. `local_model`: f = f₀ + K (x − x₀), which follows the hand.
 //!
-//! An answer is used for two of the model's periods and a tick: it is one period old when it arrives, is
-//! followed by the next one period later, and the state that it was made of may be a tick older. Then it
-//! fades, slowly at first: f (1 − ((age − used)/10 ms)²). A force never pulls past the loss of contact.
+//! An answer is valid for two of the model's periods and a tick: it is one period old when it arrives, the next one
+//! follows one period later, and its input state may be a tick older. Then it fades, slowly at first: f (1 − ((age −
+//! used)/10 ms)²). A force never pulls past the loss of contact.
 //!
 //! *How we know*: `hand_over::a_stale_model_fades_to_zero`; against a closed form and an independent program by
 //! `palpate reproduce section-3-4`.
 //!
-//! *Limits*: contact that begins between two answers is felt with the next one.
+//! *Limits*: contact that begins between two answers acts only from the next one on.
 
 use crate::{AffineForce, Vec3};
 
-/// What the force between two answers of the model is made of.
+/// The method of extrapolation between two answers of the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum HandOver {
     /// The last force with its local stiffness.
@@ -26,23 +26,22 @@ pub enum HandOver {
     Hold,
 }
 
-/// Time in which a force that is too old fades to nothing [s].
+/// Time in which an overdue force fades to zero [s].
 pub(crate) const FADE: f64 = 0.010;
 
-/// A force at any time and place, from the answers that have arrived.
+/// The extrapolated force at any time and position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extrapolator {
     hand_over: HandOver,
-    /// How long an answer is used [s].
+    /// How long an answer is valid [s].
     used: f64,
     last: AffineForce,
-    /// Time [s] and force [N] of the answer before.
+    /// Time [s] and force [N] of the previous answer.
     before: Option<(f64, Vec3)>,
 }
 
 impl Extrapolator {
-    /// For a model that answers every `period` [s], in a loop with ticks of `tick` [s]; at first there is
-    /// no contact.
+    /// For a model that answers every `period` [s], in a loop with ticks of `tick` [s]; initially there is no contact.
     pub fn new(hand_over: HandOver, period: f64, tick: f64) -> Self {
         Self {
             hand_over,
@@ -52,7 +51,7 @@ impl Extrapolator {
         }
     }
 
-    /// Takes in an answer; one that is there already changes nothing.
+    /// Takes in an answer; a repeated one changes nothing.
     pub fn receive(&mut self, answer: &AffineForce) {
         if answer.time > self.last.time {
             let known = self.last.time.is_finite();
@@ -61,17 +60,17 @@ impl Extrapolator {
         }
     }
 
-    /// How old the last answer is at `time` [s]; infinite before the first.
+    /// Age of the last answer at `time` [s]; infinite before the first.
     pub fn age(&self, time: f64) -> f64 {
         time - self.last.time
     }
 
-    /// How far the last answer is beyond the time for which it is used at `time` [s]; below zero before.
+    /// How far the age of the last answer exceeds its validity at `time` [s]; negative before.
     pub fn overdue(&self, time: f64) -> f64 {
         self.age(time) - self.used
     }
 
-    /// The force [N] at `time` [s], of a hand at `position` [m].
+    /// The force [N] at `time` [s], for a hand at `position` [m].
     pub fn force(&self, time: f64, position: &Vec3) -> Vec3 {
         if !self.last.contact {
             return Vec3::zeros();

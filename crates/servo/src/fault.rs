@@ -1,40 +1,39 @@
-/// Why forces are off, or a loop cannot be made. A plain value, so that it leaves the loop without
-/// allocation.
+/// Why forces are off, or a loop cannot be made. A plain value, so that the loop returns it without allocation.
 #[non_exhaustive]
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum Fault {
-    /// The controller gave a force that is no number.
+    /// The controller's force is not a finite number.
     #[error("the commanded force is not finite; fix the controller and arm again")]
     NonFiniteForce,
-    /// The device gave a state that is no number.
+    /// The device's state is not a finite number.
     #[error("the device answered with a number that is not finite; restart it and arm again")]
     NonFiniteState,
-    /// The hand moved faster than it may.
+    /// The hand was faster than the limit.
     #[error("the hand moved at {speed:.2} m/s, beyond {limit} m/s; hold it still and arm again")]
     TooFast {
-        /// How fast it moved [m/s].
+        /// Its speed [m/s].
         speed: f64,
-        /// How fast it may move [m/s].
+        /// The limit [m/s].
         limit: f64,
     },
-    /// What the force is made of is too old.
+    /// The model's answer is too old.
     #[error(
         "the model's answer has been overdue for {overdue:.3} s, beyond {limit} s; free the processor or take a longer step, and arm again"
     )]
     StaleModel {
-        /// How long it has been overdue [s].
+        /// How long it is overdue [s].
         overdue: f64,
-        /// How long it may be [s].
+        /// The limit [s].
         limit: f64,
     },
-    /// The device waited too long for its next force.
+    /// The device received its next force too late.
     #[error(
         "the device had the same force for {gap:.3} s, beyond {limit} s; free the processor and arm again"
     )]
     Late {
-        /// How long it had it [s].
+        /// How long it had the last one [s].
         gap: f64,
-        /// How long it may have it [s].
+        /// The limit [s].
         limit: f64,
     },
     /// The device does not answer any more.
@@ -43,34 +42,34 @@ pub enum Fault {
     /// The device reports an error of its own.
     #[error("the device reports its error {code}; look it up in its manual and start again")]
     Device {
-        /// Its own number for it.
+        /// The device's error code.
         code: i32,
     },
-    /// The connection to the device's service is gone.
+    /// The connection to the device's service is lost.
     #[error("the connection to the device's service is gone; start the service and begin again")]
     Disconnected,
-    /// A message of the device's service cannot be used.
+    /// A message of the device's service is invalid.
     #[error("the device's service sent {what}; restart it and begin again")]
     BadMessage {
-        /// What was wrong with it.
+        /// What is wrong with it.
         what: &'static str,
     },
-    /// The device is no longer among those that its service or library knows.
+    /// Its service or library no longer lists the device.
     #[error("the device is gone; plug it in and begin again")]
     Vanished,
-    /// The device has no power any more.
+    /// The device has lost power.
     #[error("the device lost its power; switch it on and arm again")]
     Unpowered,
-    /// The device does not know any more where its handle is.
+    /// The device is no longer calibrated.
     #[error("the device lost its calibration; calibrate it and arm again")]
     Uncalibrated,
     /// The device took its forces off by itself.
     #[error("the device took its forces off: {what}; see to that and arm again")]
     Safety {
-        /// Why.
+        /// The reason.
         what: &'static str,
     },
-    /// The device displays no force although one is sent.
+    /// The device displays no force although the loop sends one.
     #[error(
         "the device displays nothing of the force that is sent; check that its service is of a version that `palpate devices` knows, and arm again"
     )]
@@ -78,69 +77,69 @@ pub enum Fault {
     /// The library of the device reports an error.
     #[error("the device's library reports {what} ({code:#06x}); see to that and begin again")]
     Library {
-        /// The library's own number for it.
+        /// The library's error code.
         code: u32,
-        /// What it means.
+        /// Its meaning.
         what: &'static str,
     },
-    /// Somebody wants no force at all.
+    /// A person pressed the emergency stop.
     #[error("the emergency stop was pressed; look after what is touched and arm again")]
     EmergencyStop,
     /// Another loop of the session took its force off.
     #[error("another device of the session took its force off; see to that and arm again")]
     OtherDevice,
-    /// The program that shows what is touched does not answer any more.
+    /// The program that shows the touch no longer answers.
     #[error(
         "the program was silent for more than {limit} s; look after what is touched and arm again"
     )]
     ProgramSilent {
-        /// How long it may be [s].
+        /// The limit [s].
         limit: f64,
     },
-    /// Somebody pressed the stop button of a device.
+    /// A person pressed the stop button of a device.
     #[error("the stop button of a device was pressed; look after what is touched and arm again")]
     DeviceButton,
-    /// The program was asked to end.
+    /// The program received a request to end.
     #[error("the program was asked to end (Ctrl-C or SIGTERM); start it again")]
     Interrupted,
-    /// What happens can no longer be recorded.
+    /// The recording failed.
     #[error("the recording can no longer be written; record it elsewhere and arm again")]
     Unrecorded,
-    /// The thread that watches the loops does not run any more.
+    /// The thread that watches the loops no longer runs.
     #[error(
         "the thread that watches the devices was silent for more than {limit} s; free the processor and arm again"
     )]
     Unwatched {
-        /// How long it may be [s].
+        /// The limit [s].
         limit: f64,
     },
-    /// The thread of the loop ended in a panic; the device was stopped.
+    /// The thread of the loop panicked; the device was stopped.
     #[error("the servo thread panicked, and the device was stopped; report it as a defect")]
     Panicked,
-    /// A call into the device does not return, or its scheduler does not call any more.
+    /// A call into the device does not return, or its scheduler no longer calls.
     #[error(
         "a device has not answered for {limit} s and may still display its last force; cut its power and start again"
     )]
     Hung {
-        /// How long it was waited for [s].
+        /// The timeout [s].
         limit: f64,
     },
-    /// The device was called from a thread that is not its scheduler's.
+    /// The device was called from a thread other than its scheduler's.
     #[error(
         "the device was called outside of its own scheduler, which its library forbids; report it as a defect"
     )]
     OutsideScheduler,
-    /// The operating system gives no thread.
+    /// The operating system provides no thread.
     #[error("the operating system gives no thread for the servo loop; close other programs")]
     NoThread,
     /// A setting is out of range.
     #[error("{what} is {found}; set {expected}")]
     Setting {
-        /// Which one.
+        /// The setting.
         what: &'static str,
-        /// What it is.
+        /// Its value.
         found: f64,
-        /// What it should be.
+        /// The valid values.
         expected: &'static str,
     },
 }
@@ -179,7 +178,7 @@ impl Fault {
         }
     }
 
-    /// An error unless `found` is a number above zero; it may be infinite where a limit can be none.
+    /// An error unless `found` is positive; infinity is valid, for a limit that does not apply.
     pub(crate) fn unless_positive(what: &'static str, found: f64) -> Result<(), Self> {
         if found > 0.0 {
             return Ok(());
@@ -191,7 +190,7 @@ impl Fault {
         })
     }
 
-    /// An error unless `found` is a finite number above zero.
+    /// An error unless `found` is finite and positive.
     pub(crate) fn unless_finite_and_positive(what: &'static str, found: f64) -> Result<(), Self> {
         if found.is_finite() {
             return Self::unless_positive(what, found);

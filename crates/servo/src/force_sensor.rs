@@ -1,7 +1,7 @@
-//! Force sensors between a device and what it carries.
+//! Force sensors between a device and its end effector.
 //!
-//! A driver turns readings into newtons and newton metres, and whatever goes wrong into a [`SensorFault`] with a name.
-//! Which of the sensor's axes are those of the indenter, and what its zero is, the rig knows.
+//! A driver converts readings to newtons and newton metres, and every error to a named [`SensorFault`]. The rig knows
+//! the sensor's zero and how its axes map to those of the indenter.
 
 use crate::Vec3;
 
@@ -43,7 +43,7 @@ impl ForceTorque {
         }
     }
 
-    /// Both through `map`, a rotation.
+    /// Both rotated by `map`.
     pub fn map(&self, map: impl Fn(&Vec3) -> Vec3) -> Self {
         Self {
             force: map(&self.force),
@@ -74,26 +74,26 @@ impl std::ops::Sub for ForceTorque {
     }
 }
 
-/// What is known of a sensor.
+/// The properties of a sensor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForceSensorSpec {
     /// Its name, for recordings.
     pub name: String,
     /// The largest force and torque on each of its own axes.
     pub range: ForceTorque,
-    /// Whether it has all six axes; else it has its z alone.
+    /// Whether it has all six axes; otherwise only its z axis.
     pub has_six_axes: bool,
 }
 
 /// A force sensor.
 pub trait ForceSensor: Send {
-    /// What is known of it.
+    /// Its properties.
     fn spec(&self) -> &ForceSensorSpec;
 
     /// The newest reading, in the sensor's own axes and with its own zero. It neither waits nor allocates.
     ///
     /// # Errors
-    /// When nothing came for too long, or what came cannot be used. A later call may succeed again.
+    /// When no reading arrived for too long, or a reading is invalid. A later call may succeed again.
     fn read(&mut self) -> Result<ForceTorque, SensorFault>;
 }
 
@@ -101,10 +101,10 @@ pub trait ForceSensor: Send {
 pub const AXIS_NAMES: [&str; 6] = ["fx", "fy", "fz", "tx", "ty", "tz"];
 
 impl ForceSensorSpec {
-    /// The `reading` when none of its axes is at the end of its range.
+    /// The `reading` if none of its axes is at the end of its range.
     ///
     /// # Errors
-    /// When one is, or is no number.
+    /// When one is, or is not a finite number.
     pub fn check(&self, reading: ForceTorque) -> Result<ForceTorque, SensorFault> {
         let both = reading
             .components()
@@ -123,24 +123,24 @@ impl ForceSensorSpec {
     }
 }
 
-/// Why there is no force. A plain value, so that it leaves the loop without allocation.
+/// Why there is no reading. A plain value, so that the loop returns it without allocation.
 #[non_exhaustive]
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum SensorFault {
-    /// Nothing came.
+    /// No reading arrived.
     #[error(
         "the force sensor gave no reading for {age:.3} s, beyond {limit} s; check its power and its cable, and approach again"
     )]
     Silent {
-        /// How long nothing came [s].
+        /// For how long [s].
         age: f64,
-        /// How long that may be [s].
+        /// The limit [s].
         limit: f64,
     },
-    /// What came cannot be understood.
+    /// A reading is invalid.
     #[error("the force sensor sent {what}; compare its format with [sensor] of the protocol")]
     BadReading {
-        /// What was wrong with it.
+        /// What is wrong with it.
         what: &'static str,
     },
     /// An axis is at the end of its range.
@@ -148,21 +148,21 @@ pub enum SensorFault {
         "the force sensor is saturated on {axis}; unload it and press less deep, or check range_n and range_n_m"
     )]
     Saturated {
-        /// Which axis.
+        /// The axis.
         axis: &'static str,
     },
-    /// Readings did not arrive.
+    /// Readings were lost.
     #[error(
         "{lost} readings of the force sensor were lost; give it a cable of its own, or lower its rate"
     )]
     Lost {
-        /// How many, within about a thousand.
+        /// Number of lost readings, out of about a thousand.
         lost: u32,
     },
     /// The sensor reports an error of its own.
     #[error("the force sensor reports its status {code:#010x}; look it up in its manual")]
     Status {
-        /// Its own number for it.
+        /// The sensor's error code.
         code: u32,
     },
     /// The sensor's library reports an error.
@@ -170,10 +170,10 @@ pub enum SensorFault {
         "the force sensor's library reports error {code}; look it up in its manual and start again"
     )]
     Library {
-        /// The library's own number for it.
+        /// The library's error code.
         code: i32,
     },
-    /// The connection is gone.
+    /// The connection is lost.
     #[error("the connection to the force sensor is gone; plug it in and start again")]
     Disconnected,
 }

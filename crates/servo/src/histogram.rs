@@ -1,10 +1,10 @@
-/// Bits of a time in nanoseconds that tell bins of one power of two apart: a bin is 1/16 wide or less.
+/// Bits of a time in nanoseconds that distinguish bins within one power of two: a bin is 1/16 wide or less.
 const FINE: u32 = 4;
-/// Powers of two that have bins of their own: up to 2⁴⁰ ns, 18 minutes.
+/// Powers of two with bins of their own: up to 2⁴⁰ ns, 18 minutes.
 const POWERS: usize = 40;
 const BINS: usize = (POWERS - FINE as usize + 2) << FINE;
 
-/// How often times occurred, in bins of at most a sixteenth of their size; it never grows.
+/// A histogram of times, in bins of at most a sixteenth of their size; it never grows.
 #[derive(Debug, Clone)]
 pub struct Histogram {
     bins: [u64; BINS],
@@ -12,16 +12,16 @@ pub struct Histogram {
     longest: u64,
 }
 
-/// Times of which so many percent were at most as long [s].
+/// Percentiles of times [s].
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct Percentiles {
-    /// Half of them [s].
+    /// Median [s].
     pub p50: f64,
-    /// 99 of 100 [s].
+    /// 99th percentile [s].
     pub p99: f64,
-    /// 999 of 1000 [s].
+    /// 99.9th percentile [s].
     pub p99_9: f64,
-    /// All [s].
+    /// Maximum [s].
     pub max: f64,
 }
 
@@ -36,7 +36,7 @@ impl Default for Histogram {
 }
 
 impl Histogram {
-    /// Counts a `time` [s]; one below zero counts as zero.
+    /// Counts a `time` [s]; a negative one counts as zero.
     pub fn add(&mut self, time: f64) {
         let nanoseconds = (time * 1e9) as u64;
         self.bins[bin(nanoseconds)] += 1;
@@ -44,12 +44,12 @@ impl Histogram {
         self.longest = self.longest.max(nanoseconds);
     }
 
-    /// How many times were counted.
+    /// Number of counted times.
     pub fn count(&self) -> u64 {
         self.count
     }
 
-    /// Its percentiles: upper ends of bins, so at most 1/16 above the time itself; the longest is exact.
+    /// The percentiles: upper ends of bins, so at most 1/16 above the true value; the maximum is exact.
     pub fn percentiles(&self) -> Percentiles {
         let mut left = [0.5, 0.99, 0.999].map(|part| (part * self.count as f64).ceil() as u64);
         let mut found = [0.0; 3];

@@ -1,15 +1,15 @@
-//! The latest value from one thread to another: neither ever waits, and what comes between two reads is
-//! lost. Three buffers, of which writer and reader always own one each.
+//! The latest value from one thread to another: neither thread ever waits, and values between two reads are lost. Three
+//! buffers; writer and reader always own one each.
 
 use triple_buffer::{Input, Output, triple_buffer};
 
-/// The end that writes.
+/// The writer's end.
 pub struct Sender<T: Send>(Input<T>);
 
-/// The end that reads.
+/// The reader's end.
 pub struct Receiver<T: Send>(Output<T>);
 
-/// Both ends, with `first` to be read until something is sent.
+/// Both ends; the reader gets `first` until a value is sent.
 pub fn channel<T: Clone + Send>(first: &T) -> (Sender<T>, Receiver<T>) {
     let (input, output) = triple_buffer(first);
     (Sender(input), Receiver(output))
@@ -21,8 +21,7 @@ impl<T: Send> Sender<T> {
         self.0.write(value);
     }
 
-    /// Sends what `fill` makes of an older value, so that what it holds is used again and nothing is
-    /// allocated.
+    /// Sends the value that `fill` makes from an older one, so that its memory is reused and nothing is allocated.
     pub fn send_with(&mut self, fill: impl FnOnce(&mut T)) {
         fill(self.0.input_buffer_mut());
         self.0.publish();
@@ -35,7 +34,7 @@ impl<T: Send> Receiver<T> {
         self.0.read()
     }
 
-    /// Whether there is one that has not been read.
+    /// Whether there is a value that has not been read.
     pub fn has_news(&self) -> bool {
         self.0.updated()
     }
@@ -45,7 +44,7 @@ impl<T: Send> Receiver<T> {
 mod tests {
     use super::*;
 
-    /// A value is never half of one and half of another.
+    /// A read never mixes two values.
     #[test]
     fn values_arrive_whole_and_in_order() {
         let (mut sender, mut receiver) = channel(&[0u64; 64]);

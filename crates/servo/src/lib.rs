@@ -1,17 +1,17 @@
-//! Everything that runs at 1 kHz: devices, the loop that drives them, what makes its forces safe, and the
-//! hand-over of forces from a slower model.
+//! The 1 kHz part: devices, the loop that drives them, the limits that make its forces safe, and the hand-over of
+//! forces from a slower model.
 //!
 //! ```text
 //!                                  Supervisor (a person, a fault, a silent program)
 //!                                             │
-//!  model thread ──latest(AffineForce)──▶ Controller ─wanted▶ Guard ─OutputForce▶ Device ──▶ hand
+//!  model thread ──latest(AffineForce)──▶ Controller ─force─▶ Guard ─OutputForce▶ Device ──▶ hand
 //!       ▲                                     ▲                                        │
 //!       └────────── latest(Sample) ───────────┴───────────────── DeviceState ──────────┘
 //! ```
 //!
-//! The crate knows nothing of tissue, scenes or files. A [`ServoLoop`] owns its [`Device`]; nothing else
-//! calls it, and it waits for nobody. The same loop runs on a real [`Clock`] and on a virtual one, on a thread of ours
-//! ([`ServoThread`]) and in the scheduler of a device that has one ([`Scheduler`]). A tick allocates nothing.
+//! The crate knows nothing of tissue, scenes or files. A [`ServoLoop`] owns its [`Device`]; nothing else calls it, and
+//! it never waits for another thread. The same loop runs on a real [`Clock`] and on a virtual one, on a thread of its
+//! own ([`ServoThread`]) and in the scheduler of a device that has one ([`Scheduler`]). A tick allocates nothing.
 //!
 //! ```
 //! use palpate_servo::{Clock, DeviceState, ServoLoop, ServoSettings, Trajectory, Vec3, VirtualDevice};
@@ -80,5 +80,5 @@ pub use servo_thread::ServoThread;
 pub use stepped_loop::SteppedLoop;
 pub use supervisor::{ForceState, StopReason, Supervisor};
 
-/// Three numbers: a place [m], a velocity [m/s] or a force [N].
+/// Three numbers: a position [m], a velocity [m/s] or a force [N].
 pub type Vec3 = nalgebra::Vector3<f64>;

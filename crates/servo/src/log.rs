@@ -1,18 +1,18 @@
-//! Every value from one thread to another, in order. The writer never waits: what finds no room is counted
-//! as lost, and the reader is told.
+//! Every value from one thread to another, in order. The writer never waits: it counts values that do not fit as lost,
+//! and the reader can read that count.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use rtrb::{Consumer, Producer, RingBuffer};
 
-/// The end that writes.
+/// The writer's end.
 pub struct Writer<T> {
     ring: Producer<T>,
     lost: Arc<AtomicU64>,
 }
 
-/// The end that reads.
+/// The reader's end.
 pub struct Reader<T> {
     ring: Consumer<T>,
     lost: Arc<AtomicU64>,
@@ -43,17 +43,17 @@ impl<T> Writer<T> {
 }
 
 impl<T> Reader<T> {
-    /// The next value; none when all were read.
+    /// The next value; none if all were read.
     pub fn next_value(&mut self) -> Option<T> {
         self.ring.pop().ok()
     }
 
-    /// The values that are there now, as they are read.
+    /// The values that are available now, as they are read.
     pub fn drain(&mut self) -> impl Iterator<Item = T> + '_ {
         std::iter::from_fn(|| self.next_value())
     }
 
-    /// How many found no room.
+    /// Number of values that did not fit.
     pub fn lost(&self) -> u64 {
         self.lost.load(Ordering::Relaxed)
     }

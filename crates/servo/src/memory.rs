@@ -1,21 +1,21 @@
-//! Memory that stays where it is: a page that was swapped out delays a tick by milliseconds.
+//! Memory locking: a page that was swapped out delays a tick by milliseconds.
 //!
-//! *Limits*: a page that is touched for the first time is still mapped then, which takes microseconds. Only on Linux.
+//! *Limits*: the first access to a page still maps it, which takes microseconds. Only on Linux.
 
 use std::sync::OnceLock;
 
-/// Whether the memory of the program is locked.
+/// Whether the program's memory is locked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum MemoryLock {
-    /// It is: what was touched once stays in memory.
+    /// Locked: a page stays in memory after its first access.
     Locked,
-    /// It is not: the operating system does not allow it, or knows no such lock.
+    /// Not locked: the operating system does not permit it, or has no such lock.
     #[default]
     Unlocked,
 }
 
 impl MemoryLock {
-    /// Where memory is not locked, what that means and how to allow it.
+    /// If memory is not locked: the consequence and how to allow it.
     pub fn warning(self) -> Option<String> {
         let warning = "memory is not locked, and a page that was swapped out can delay a tick; allow locking (on Linux \
                        CAP_IPC_LOCK, or an unlimited memlock limit)";
@@ -23,8 +23,8 @@ impl MemoryLock {
     }
 }
 
-/// Locks the memory of the whole program, now and later, where the operating system allows that without a limit: beyond a
-/// limit, later allocations would fail. Asked again, it answers what was answered first.
+/// Locks the memory of the whole program, now and later, where the operating system permits it without a limit: beyond
+/// a limit, later allocations would fail. A second call returns the first result.
 pub fn lock_memory() -> MemoryLock {
     static LOCK: OnceLock<MemoryLock> = OnceLock::new();
     *LOCK.get_or_init(|| match lock() {
@@ -43,7 +43,7 @@ fn lock() -> bool {
         |sets: rustix::thread::CapabilitySets| sets.effective.contains(CapabilitySet::IPC_LOCK);
     let is_capable = capabilities(None).is_ok_and(may_lock);
     let is_unlimited = getrlimit(Resource::Memlock).current.is_none();
-    // What is never touched, such as the rest of a thread's stack, takes no memory.
+    // Pages that are never accessed, such as the rest of a thread's stack, take no memory.
     let all = MlockAllFlags::CURRENT | MlockAllFlags::FUTURE | MlockAllFlags::ONFAULT;
     (is_capable || is_unlimited) && mlockall(all).is_ok()
 }
@@ -57,8 +57,8 @@ fn lock() -> bool {
 mod tests {
     use super::*;
 
-    /// Judge: what the kernel says of this program. VmLck is what is locked; with pages locked on first touch it may be
-    /// as little as what is mapped now.
+    /// Judge: the kernel's data on this program. VmLck is the locked memory; with pages locked on first touch it may be
+    /// as small as the memory that is mapped now.
     #[cfg(target_os = "linux")]
     #[test]
     fn memory_is_locked_where_the_answer_says_so() {

@@ -1,8 +1,8 @@
-//! A panic in a tick takes the force off first, and is reported then.
+//! A panic in a tick takes the force off first, and is reported afterwards.
 //!
-//! Rust calls the panic hook of the program before anything is unwound. One that prints a backtrace takes tens of
-//! milliseconds, and the device would display its last force meanwhile. So a panic in a tick is kept, and the hook is
-//! called when the device is disabled.
+//! Rust calls the panic hook of the program before it unwinds. A hook that prints a backtrace takes tens of
+//! milliseconds, and the device would display its last force meanwhile. So this module stores a panic in a tick, and
+//! calls the hook after the device is disabled.
 //!
 //! *How we know*: `hosts::a_panic_takes_the_force_off_before_it_is_reported`.
 
@@ -12,43 +12,43 @@ use std::sync::Once;
 
 thread_local! {
     static TICKING: Cell<bool> = const { Cell::new(false) };
-    static KEPT: RefCell<Option<String>> = const { RefCell::new(None) };
+    static DEFERRED: RefCell<Option<String>> = const { RefCell::new(None) };
 }
 
-/// A panic that nobody has been told of.
+/// A panic that is not reported yet.
 #[derive(Debug)]
 pub(crate) struct Panic(Option<String>);
 
 impl Panic {
-    /// Has the program's hook tell of it.
+    /// Reports it through the program's panic hook.
     pub(crate) fn report(self) {
-        if let Some(what) = self.0 {
-            // Only for its hook.
-            let _ = catch_unwind(|| std::panic::panic_any(what));
+        if let Some(message) = self.0 {
+            // Only to call the hook.
+            let _ = catch_unwind(|| std::panic::panic_any(message));
         }
     }
 }
 
-/// Has panics in ticks kept, once for the program; whoever ticks calls it before.
+/// Installs the hook that defers panics in ticks, once for the program; every host of ticks calls it first.
 pub(crate) fn prepare() {
     static PREPARED: Once = Once::new();
     PREPARED.call_once(|| {
         let hook = take_hook();
         set_hook(Box::new(move |panic| {
-            let is_first = KEPT.with_borrow(Option::is_none);
+            let is_first = DEFERRED.with_borrow(Option::is_none);
             match TICKING.get() && is_first {
-                true => KEPT.set(Some(panic.to_string())),
-                // A second one while the first is unwound ends the program, and is told at once.
+                true => DEFERRED.set(Some(panic.to_string())),
+                // A second panic while the first unwinds ends the program, and is reported at once.
                 false => hook(panic),
             }
         }));
     });
 }
 
-/// What `tick` answers; its panic is an error.
-pub(crate) fn caught<T>(tick: impl FnOnce() -> T) -> Result<T, Panic> {
+/// The result of `tick`; its panic is an error.
+pub(crate) fn catch_panic<T>(tick: impl FnOnce() -> T) -> Result<T, Panic> {
     let was_ticking = TICKING.replace(true);
     let ticked = catch_unwind(AssertUnwindSafe(tick));
     TICKING.set(was_ticking);
-    ticked.map_err(|_| Panic(KEPT.take()))
+    ticked.map_err(|_| Panic(DEFERRED.take()))
 }

@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-/// How hard an error is driven away (5.1).
+/// The gains of a PID controller (5.1).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PidGains {
     /// K_p [N/m].
@@ -9,14 +9,14 @@ pub struct PidGains {
     pub derivative: f64,
     /// K_i [N/(m s)].
     pub integral: f64,
-    /// The largest force of the integral [N]: what it wants beyond is forgotten, so that it does not wind up.
+    /// The largest force of the integral [N]: it is saturated there, so that it does not wind up.
     pub integral_force: f64,
-    /// Corner of the filter of the velocity [Hz].
+    /// Corner of the velocity filter [Hz].
     pub cutoff: f64,
 }
 
 impl PidGains {
-    /// Tuned on the virtual PHANTOM: sines of 2 mm from 0.5 to 8 Hz within 3 % and 2°. The source gives no
+    /// Tuned on the virtual PHANTOM: tracks sines of 2 mm from 0.5 to 8 Hz within 3 % and 2°. The source gives no
     /// gains.
     pub fn tuned() -> Self {
         Self {
@@ -28,7 +28,7 @@ impl PidGains {
         }
     }
 
-    /// Half as hard, for devices with more delay.
+    /// Half the gains, for devices with more delay.
     pub fn gentle() -> Self {
         Self {
             proportional: 1500.0,
@@ -39,7 +39,7 @@ impl PidGains {
     }
 }
 
-/// The force that drives one axis to where it is wanted (5.1).
+/// The PID controller of one axis (5.1).
 #[derive(Debug, Clone, Copy)]
 pub struct Pid {
     gains: PidGains,
@@ -59,7 +59,7 @@ impl Pid {
         }
     }
 
-    /// The force [N] at `place` [m], `dt` [s] after the last, where place [m] and velocity [m/s] are `wanted`.
+    /// The force [N] at `place` [m], `dt` [s] after the last call, for the `wanted` position [m] and velocity [m/s].
     pub fn force(&mut self, place: f64, commanded: [f64; 2], dt: f64) -> f64 {
         let gains = self.gains;
         if dt > 0.0 {

@@ -1,4 +1,4 @@
-//! The priority of a thread: those that a hand waits for before all others, long preparations after them.
+//! Thread priorities: threads with a deadline run before all others, long preparations after them.
 //!
 //! | thread | on Linux |
 //! |---|---|
@@ -8,18 +8,18 @@
 //! | window, recorder | ordinary |
 //! | preparation of an organ | nice 10 |
 //!
-//! All real-time levels are below 50, the default of interrupt threads, which devices wait for.
+//! All real-time levels are below 50, the default of interrupt threads, on which devices depend.
 
 use thread_priority::{ThreadPriority, ThreadPriorityValue};
 
-/// What the operating system gave a thread.
+/// The priority that the operating system gave a thread.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Priority {
     /// Real time: it runs before every ordinary thread.
     #[serde(rename = "real time")]
     RealTime,
-    /// That of every thread; lateness is then up to the others.
+    /// Ordinary priority; lateness then depends on the other threads.
     #[default]
     Ordinary,
 }
@@ -41,7 +41,7 @@ impl Priority {
         }
     }
 
-    /// Where the `thread` has no raised priority, what that means and how to allow it.
+    /// If the `thread` has no raised priority: the consequence and how to allow it.
     pub fn warning(self, thread: &str) -> Option<String> {
         (self == Self::Ordinary).then(|| {
             format!(
@@ -58,7 +58,7 @@ pub fn raise_priority() -> Priority {
     ask_for(SERVO)
 }
 
-/// The same for a thread that computes the forces between which servo loops extrapolate: below those of the loops.
+/// The same for a model thread, between whose forces servo loops extrapolate: below the priority of the loops.
 pub fn raise_model_priority() -> Priority {
     ask_for(MODEL)
 }
@@ -94,12 +94,12 @@ fn raise_to(_priority: ThreadPriority) -> bool {
 }
 
 /// Lowers the priority of the calling thread, and on Linux of the threads that it starts, below that of every ordinary
-/// one: for work beside a touch that may take longer. Whether the operating system did so.
+/// one: for long work in the background of a touch. Whether the operating system did so.
 pub fn lower_priority() -> bool {
     lower()
 }
 
-/// On Linux the niceness is that of a thread; elsewhere it is that of the process, which must keep its own.
+/// On Linux each thread has its own niceness; elsewhere it belongs to the process, which must keep its own.
 #[cfg(target_os = "linux")]
 fn lower() -> bool {
     rustix::process::nice(NICER).is_ok()

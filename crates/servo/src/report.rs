@@ -1,26 +1,26 @@
-//! How good the touch was: what a loop measured of itself.
+//! The quality of a touch: measurements of a loop about itself.
 
 use crate::{Disabled, Fault, Histogram, Interventions, Percentiles, Priority, Sample, Vec3};
 
-/// What a servo loop measured of itself. Lateness and work say nothing on a virtual clock.
+/// Measurements of a servo loop. Lateness and work are meaningless on a virtual clock.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct LoopReport {
-    /// What the operating system gave its thread.
+    /// The priority that the operating system gave its thread.
     pub priority: Priority,
     /// Ticks per second [Hz].
     #[serde(rename = "rate_hz")]
     pub rate: f64,
-    /// Ticks that were done.
+    /// Number of ticks.
     pub ticks: u64,
-    /// Ticks that were left out, because the one before took longer than its period.
+    /// Missed ticks, because the one before took longer than its period.
     pub missed: u64,
-    /// How late ticks began [s].
+    /// Lateness at the start of ticks [s].
     #[serde(rename = "lateness_s")]
     pub lateness: Percentiles,
-    /// How long ticks took [s].
+    /// Duration of ticks [s].
     #[serde(rename = "work_s")]
     pub work: Percentiles,
-    /// How old the model's answers were when they were used [s]; zeros without a model.
+    /// Age of the model's answers when they were used [s]; zeros without a model.
     #[serde(rename = "age_s")]
     pub age: Percentiles,
     /// Work that the device did on the hand [J]; positive over a whole contact means that the loop
@@ -35,18 +35,18 @@ pub struct LoopReport {
     /// Why forces are off, if they are.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fault: Option<Fault>,
-    /// How often the stages changed a force.
+    /// How often each stage changed a force.
     #[serde(rename = "limited_ticks")]
     pub interventions: Interventions,
     /// How long the loop has run [s].
     #[serde(skip)]
     pub elapsed: f64,
-    /// What the device said when its forces were last disabled; none before.
+    /// The device's last answer to disabling its forces; none before.
     #[serde(skip)]
     pub disabled: Option<Disabled>,
 }
 
-/// What a loop measures while it runs.
+/// The measurements of a running loop.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Meter {
     lateness: Histogram,
@@ -69,7 +69,7 @@ impl Meter {
         let position = sample.state.position;
         if let Some((_, from, held)) = self.last {
             let work = held.dot(&(position - from));
-            // A device that is not there has no place.
+            // An absent device has no position.
             self.energy += if work.is_finite() { work } else { 0.0 };
         }
         self.last = Some((sample.state.time, position, sample.held));

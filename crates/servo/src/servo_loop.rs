@@ -1,13 +1,13 @@
 //! The loop: exchange, control, guard, at every tick.
 //!
-//! Tick n begins at t₀ + n T, an absolute time. What is late stays late alone: ticks whose time has passed
-//! are left out and counted, never made up for in a burst. The force of tick n is sent with tick n + 1, for
-//! a device answers once per message; so a hand feels the force of its place one period ago.
+//! Tick n begins at t₀ + n T, an absolute time. A late tick delays no other: ticks whose time has passed are skipped
+//! and counted, never caught up in a burst. The force of tick n is sent with tick n + 1, since a device answers once
+//! per message; so a hand feels the force of its position one period ago.
 //!
 //! *How we know*: `servo::skips_and_never_bursts`, `servo::the_same_script_gives_the_same_bytes`,
 //! `no_allocation::a_tick_allocates_nothing`, `servo::a_panic_stops_the_device`.
 //!
-//! *Limits*: on an ordinary operating system the longest lateness is that of the scheduler, milliseconds.
+//! *Limits*: on an ordinary operating system the scheduler determines the largest lateness, milliseconds.
 
 use crate::dynamics::Compensator;
 use crate::limits::{CommandedForce, Guard, Limits, OutputForce, Stage};
@@ -21,7 +21,7 @@ use crate::{
     Sample, Scheduler, ServoSettings, Supervisor, Vec3, latest, log,
 };
 
-/// What others see of a loop.
+/// The readers' ends of a loop.
 pub struct ServoReader {
     /// The latest sample; none before the first tick.
     pub latest: latest::Receiver<Option<Sample>>,
@@ -29,13 +29,13 @@ pub struct ServoReader {
     pub log: log::Reader<Sample>,
     /// The loop's report, ten times a second.
     pub report: latest::Receiver<LoopReport>,
-    /// What arms its forces and takes them off.
+    /// Arms its forces and takes them off.
     pub supervisor: Supervisor,
-    /// When its device answered last, for a watch.
+    /// Time of its device's last answer, for a watch.
     pub pulse: Pulse,
 }
 
-/// A device, what controls it, and what it passes. Dropping it disables the device.
+/// A device, its controller and its limits. Dropping it disables the device.
 pub struct ServoLoop {
     device: Box<dyn Device>,
     controller: Box<dyn Controller>,
@@ -46,12 +46,12 @@ pub struct ServoLoop {
     period: f64,
     number: u64,
     last_time: Option<f64>,
-    /// When a scheduler called first [s].
-    called_first: Option<f64>,
-    /// What the device gets at the next tick.
+    /// Time of the scheduler's first call [s].
+    first_call: Option<f64>,
+    /// The device's force at the next tick.
     force: OutputForce,
     compensator: Option<Compensator>,
-    /// Whether the device may display forces, and what it said when it last might not any more.
+    /// Whether the device may display forces, and its answer when it was last disabled.
     enabled: bool,
     disabled: Option<Disabled>,
     latest: latest::Sender<Option<Sample>>,
@@ -59,15 +59,15 @@ pub struct ServoLoop {
     report: latest::Sender<LoopReport>,
     supervisor: Supervisor,
     pulse: Pulse,
-    /// How often a person had armed when the loop last heard of it.
+    /// The session's count of armings that the loop read last.
     armings: u64,
     last: Option<Sample>,
     fault: Option<Fault>,
 }
 
 impl ServoLoop {
-    /// A loop that has not begun, and what is seen of it. It owns the device: nothing else calls it. Its session is its
-    /// own, and armed.
+    /// A loop that has not begun, and its readers. It owns the device: nothing else calls it. It has a session of its
+    /// own, already armed.
     ///
     /// # Errors
     /// When a setting is out of range.
@@ -114,7 +114,7 @@ impl ServoLoop {
             period: settings.period,
             number: 0,
             last_time: None,
-            called_first: None,
+            first_call: None,
             force: OutputForce::default(),
             compensator: settings.compensation.map(Compensator::new),
             enabled: false,
@@ -131,24 +131,24 @@ impl ServoLoop {
         Ok((servo, reader))
     }
 
-    /// The scheduler of the device, from whose thread it has to be ticked; none for one that any thread may tick.
+    /// The scheduler of the device, on whose thread the loop has to tick; none if any thread may tick it.
     pub fn scheduler(&self) -> Option<Box<dyn Scheduler>> {
         self.device.scheduler()
     }
 
-    /// Asks for real-time priority for the thread that calls, which shall be the one that runs the loop.
+    /// Asks for real-time priority for the calling thread, which must be the one that runs the loop.
     pub fn raise_priority(&mut self) {
         self.priority = raise_priority();
     }
 
-    /// Its host starts at `time` [s]; from then on its device has to answer.
+    /// Its host starts at `time` [s]; the device has to answer from then on.
     pub(crate) fn begin(&self, time: f64) {
         self.pulse.begin(time);
     }
 
-    /// Ticks while `go_on` says so, given the number of the next tick, or until the device fails.
+    /// Ticks while `go_on`, called with the number of the next tick, returns true, or until the device fails.
     pub fn run(&mut self, clock: &mut Clock, mut go_on: impl FnMut(u64) -> bool) -> LoopReport {
-        // A loop that goes on does so one period after its last tick.
+        // A resumed loop ticks one period after its last tick.
         let start = self.last_time.map_or(0.0, |last| last + self.period);
         let first = start.max(clock.now()) - self.number as f64 * self.period;
         while go_on(self.number) {
@@ -175,14 +175,14 @@ impl ServoLoop {
     /// As for [`tick`](Self::tick).
     pub(crate) fn tick_as_called(&mut self, clock: &mut Clock) -> Result<(), Fault> {
         if let Clock::Virtual(_) = clock {
-            let first = *self.called_first.get_or_insert(clock.now());
+            let first = *self.first_call.get_or_insert(clock.now());
             clock.wait_until(first + self.number as f64 * self.period);
         }
         let began = clock.now();
         let late = self
             .last_time
             .map_or(0.0, |last| began - last - self.period);
-        // Ticks for which it was not called.
+        // Ticks that the scheduler missed.
         let missed = match clock {
             Clock::Real(_) => (late / self.period).floor().max(0.0) as u64,
             Clock::Virtual(_) => 0,
@@ -193,7 +193,7 @@ impl ServoLoop {
         Ok(())
     }
 
-    /// Disables the device; what the loop measured.
+    /// Disables the device and returns the report.
     pub fn finish(&mut self) -> LoopReport {
         self.disable();
         self.pulse.end();
@@ -202,7 +202,7 @@ impl ServoLoop {
         report
     }
 
-    /// The same after a panic, of which the other loops of the session are told.
+    /// The same after a panic; it also trips the other loops of the session.
     pub(crate) fn abandon(&mut self) {
         self.supervisor.trip_others();
         self.guard.trip(Fault::Panicked);
@@ -217,7 +217,7 @@ impl ServoLoop {
     pub fn tick(&mut self, time: f64, lateness: f64) -> Result<Sample, Fault> {
         let permission = self.supervisor.permission(time);
         self.follow_session(&permission);
-        // What was made before a stop is not sent after it, be the session armed again meanwhile.
+        // A force from before a stop is not sent after it, even if the session is armed again meanwhile.
         let goes_on = permission.state.allows_force() && permission.armings == self.armings;
         let (held, force) = match goes_on {
             true => (self.guard.rendered(), std::mem::take(&mut self.force)),
@@ -241,7 +241,7 @@ impl ServoLoop {
         Ok(sample)
     }
 
-    /// What the loop has measured so far.
+    /// The report so far.
     pub fn report(&self) -> LoopReport {
         let fault = match self.guard.stage() {
             Stage::Faulted(fault) => Some(fault),
@@ -257,7 +257,7 @@ impl ServoLoop {
         }
     }
 
-    /// From the state of the hand to the force of the next command.
+    /// From the state of the hand to the next command's force.
     fn control(&mut self, time: f64, mut state: DeviceState, permission: &Permission) -> Sample {
         state.time = time;
         let gap = self.last_time.map_or(self.period, |last| time - last);
@@ -284,7 +284,7 @@ impl ServoLoop {
         }
         let was = self.guard.stage();
         self.force = self.guard.pass(&commanded, &state, gap);
-        self.tell_session(was);
+        self.report_stage(was);
         if self.is_off() {
             // The same tick, not the next one.
             self.disable();
@@ -302,7 +302,7 @@ impl ServoLoop {
         }
     }
 
-    /// What the loop may do once the stop button of its device was looked at: it stops all loops of the session.
+    /// The permission after a check of the device's stop button, which stops all loops of the session.
     fn after_stop_button(&self, state: &DeviceState, permission: Permission) -> Permission {
         let is_pressed = state.buttons & self.device.capabilities().stop_buttons != 0;
         if !is_pressed || permission.state == ForceState::Off {
@@ -315,14 +315,14 @@ impl ServoLoop {
         }
     }
 
-    /// Lets the device display forces when a person armed, and not any more when the session is over.
+    /// Enables the device after a person armed, and disables it when the session is over.
     fn follow_session(&mut self, permission: &Permission) {
         if matches!(permission.state, ForceState::Off | ForceState::Tripped) {
             self.disable();
         }
         let asked = permission.armings != self.armings;
-        let waits = self.is_off() && !asked;
-        if self.enabled || waits || !permission.state.allows_force() {
+        let stays_off = self.is_off() && !asked;
+        if self.enabled || stays_off || !permission.state.allows_force() {
             return;
         }
         match self.device.enable() {
@@ -347,8 +347,8 @@ impl ServoLoop {
         }
     }
 
-    /// Tells the session how far forces are on. A fault that ends by itself, of a device without force, concerns nobody.
-    fn tell_session(&self, was: Stage) {
+    /// Reports the stage to the session. A fault that ends by itself, of a device without force, affects no other loop.
+    fn report_stage(&self, was: Stage) {
         match (was, self.guard.stage()) {
             (Stage::Faulted(_), _) => {}
             (_, Stage::Faulted(_)) if self.guard.is_latched() => self.supervisor.trip_others(),
@@ -357,7 +357,7 @@ impl ServoLoop {
         }
     }
 
-    /// What is wanted for the device itself [N].
+    /// The compensation force for the device itself [N].
     fn compensation(&mut self, state: &DeviceState, dt: f64) -> Vec3 {
         let Some(compensator) = &mut self.compensator else {
             return Vec3::zeros();
@@ -375,16 +375,16 @@ impl ServoLoop {
         self.log.add(sample);
     }
 
-    /// The device is disabled, and the log ends with why: nobody is at the handle any more.
+    /// Disables the device and ends the log with the reason: no hand is present any more.
     fn fail(&mut self, fault: Fault) -> Fault {
         self.disable();
-        let told = self.fault.is_some();
+        let had_failed = self.fault.is_some();
         if self.guard.is_latched() {
             self.supervisor.trip_others();
         }
         self.guard.trip(fault);
         self.fault = Some(fault);
-        if let Some(mut sample) = self.last.filter(|_| !told) {
+        if let Some(mut sample) = self.last.filter(|_| !had_failed) {
             sample.tick = self.number;
             sample.state.present = false;
             let none = Vec3::zeros();

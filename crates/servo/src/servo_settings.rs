@@ -1,21 +1,21 @@
 use crate::Limits;
 use crate::dynamics::Compensation;
 
-/// How a loop runs.
+/// The settings of a loop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ServoSettings {
-    /// Time from tick to tick [s].
+    /// Period of the ticks [s].
     pub period: f64,
-    /// What forces have to pass; none means those that belong to the device.
+    /// The limits of its forces; none selects those of the device.
     pub limits: Option<Limits>,
-    /// What is added for the device itself; none for one that does it on its own, or cannot.
+    /// The compensation of the device's dynamics; none for a device that compensates by itself, or cannot.
     pub compensation: Option<Compensation>,
-    /// Samples that the log has room for.
+    /// Capacity of the log, in samples.
     pub log: usize,
 }
 
 impl Default for ServoSettings {
-    /// 1 kHz, and four seconds of samples until somebody reads them.
+    /// 1 kHz, and a log of four seconds.
     fn default() -> Self {
         Self {
             period: 1e-3,

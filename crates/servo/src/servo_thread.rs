@@ -1,8 +1,8 @@
-//! A servo loop that runs by itself: on a thread of ours, or in the scheduler of its device.
+//! A servo loop that runs by itself: on a thread of its own, or in the scheduler of its device.
 //!
-//! Both hosts make the same ticks. A panic in a tick disables the device, in the thread that called it, and takes the
-//! forces of all loops of the session off. Nobody waits for a host without an end: a call into a device that does not
-//! return is [`Fault::Hung`], and what it holds is never freed.
+//! Both hosts make the same ticks. A panic in a tick disables the device, on the thread that called it, and takes off
+//! the forces of all loops of the session. Every wait for a host has a timeout: a call into a device that does not
+//! return is [`Fault::Hung`], and its memory is never freed.
 //!
 //! *How we know*: `hosts::…`, `servo::a_panic_stops_the_device`.
 
@@ -12,14 +12,14 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use crate::panics::{self, Panic, caught};
+use crate::panics::{self, Panic, catch_panic};
 use crate::{Clock, Fault, LoopReport, Next, Scheduler, ServoLoop};
 
-/// How long a scheduler may take to its next call before its device is disabled from here: more than the guard lets a tick
+/// Timeout for a scheduler's next call, after which the device is disabled from here: longer than the guard lets a tick
 /// be late.
 const CALL: Duration = Duration::from_millis(50 * SLOWER);
 
-/// How long the end of a loop is waited for: some of the longest calls that a driver makes, of 20 ms each.
+/// Timeout for the end of a loop: some of the longest calls that a driver makes, of 20 ms each.
 const END: Duration = Duration::from_millis(500 * SLOWER);
 
 /// A tick in Miri takes as long as hundreds elsewhere.
@@ -29,7 +29,7 @@ const SLOWER: u64 = if cfg!(miri) { 1000 } else { 1 };
 pub struct ServoThread {
     signals: Signals,
     ended: Receiver<Result<LoopReport, Fault>>,
-    /// None once it was waited for.
+    /// None after the thread has been joined.
     host: Option<Host>,
 }
 
@@ -38,7 +38,7 @@ enum Host {
     Device(Box<dyn Scheduler>),
 }
 
-/// What both sides of a host see.
+/// State that both sides of a host share.
 #[derive(Clone)]
 struct Signals {
     stop: Arc<AtomicBool>,
@@ -54,8 +54,8 @@ struct Hosted {
 }
 
 impl ServoThread {
-    /// Starts `servo` on `clock`: in the scheduler of its device where it has one, else on a thread at the best
-    /// priority that there is.
+    /// Starts `servo` on `clock`: in the scheduler of its device if it has one, otherwise on a thread with the highest
+    /// available priority.
     ///
     /// # Errors
     /// When the operating system gives no thread, or the scheduler does not start.
@@ -113,7 +113,7 @@ impl ServoThread {
         let mut ended = self.ended.recv_timeout(CALL);
         if ended == Err(RecvTimeoutError::Timeout) {
             if let Host::Device(scheduler) = &mut host {
-                // Whether it is done nobody can say: the loop is told that it hangs.
+                // Its state is unknown: the loop is marked as hung.
                 scheduler.disable();
             }
             ended = self.ended.recv_timeout(END.saturating_sub(CALL));
@@ -122,7 +122,7 @@ impl ServoThread {
             limit: END.as_secs_f64(),
         };
         let left = match host {
-            // One whose call does not return is left to itself; it disables its device should it return.
+            // A loop whose call does not return is abandoned; it disables its device if the call ever returns.
             Host::Ours(_) if ended == Err(RecvTimeoutError::Timeout) => Err(hung),
             Host::Ours(handle) => handle.join().map_err(|_| Fault::Panicked),
             Host::Device(mut scheduler) => scheduler.stop(END),
@@ -137,15 +137,15 @@ impl ServoThread {
 
 impl Drop for ServoThread {
     fn drop(&mut self) {
-        // Who wants to know calls `stop`.
+        // `stop` returns the result.
         let _ = self.join();
     }
 }
 
 impl Hosted {
-    /// All ticks, on the thread that calls.
+    /// All ticks, on the calling thread.
     fn run(mut self) {
-        let ran = caught(|| {
+        let ran = catch_panic(|| {
             let stop = self.signals.stop.clone();
             self.servo.raise_priority();
             self.servo
@@ -159,7 +159,7 @@ impl Hosted {
         if !self.signals.running.load(Ordering::Acquire) {
             return Next::End;
         }
-        let ticked = caught(|| {
+        let ticked = catch_panic(|| {
             let stops = self.signals.stop.load(Ordering::Acquire);
             let goes_on = !stops && self.servo.tick_as_called(&mut self.clock).is_ok();
             (!goes_on).then(|| self.servo.finish())
@@ -174,14 +174,14 @@ impl Hosted {
 
     fn ended(&mut self, how: Result<LoopReport, Panic>) {
         let how = how.map_err(|panic| {
-            // The device may be what panicked.
-            let abandoned = caught(|| self.servo.abandon());
+            // The device itself may have panicked.
+            let abandoned = catch_panic(|| self.servo.abandon());
             panic.report();
             abandoned.map_or_else(Panic::report, |()| ());
             Fault::Panicked
         });
         self.signals.running.store(false, Ordering::Release);
-        // Nobody waits for it when the other end was dropped.
+        // Nothing receives it if the other end was dropped.
         let _ = self.end.try_send(how);
     }
 }

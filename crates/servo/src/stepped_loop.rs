@@ -1,16 +1,16 @@
-//! A loop of which somebody waits for every tick, such as a rig that decides after each where it goes next.
+//! A loop whose caller waits for every tick, such as a rig that decides on its next target after each tick.
 //!
-//! On a device that any thread may call the ticks are made by who asks for them. On one with a scheduler of its own
-//! they are the scheduler's, and who asks waits for the next.
+//! If any thread may call the device, the caller's thread makes the ticks. If the device has a scheduler, the scheduler
+//! makes them, and the caller waits for the next.
 //!
 //! *How we know*: `hosts::a_stepped_loop_gives_the_samples_of_its_host`.
 
 use std::time::{Duration, Instant};
 
-use crate::panics::{self, Panic, caught};
+use crate::panics::{self, Panic, catch_panic};
 use crate::{Clock, Fault, Sample, ServoLoop, ServoThread, Stage, log};
 
-/// How long a tick of a scheduler is waited for: longer than the guard lets one be late.
+/// Timeout for a tick of a scheduler: longer than the guard lets one be late.
 const LATEST: Duration = Duration::from_millis(100);
 /// How long a waiting thread sleeps.
 const NAP: Duration = Duration::from_micros(100);
@@ -29,7 +29,7 @@ enum Host {
 }
 
 impl SteppedLoop {
-    /// Of `servo` and the `samples` of its log. What a device with a scheduler does begins at once, on `clock`.
+    /// From `servo` and the `samples` of its log. For a device with a scheduler the ticks begin at once, on `clock`.
     ///
     /// # Errors
     /// When the scheduler does not start.
@@ -49,15 +49,15 @@ impl SteppedLoop {
         Ok(Self { host })
     }
 
-    /// Asks for real-time priority for the thread that calls, where that is the one that makes the ticks.
+    /// Asks for real-time priority for the calling thread, if it makes the ticks.
     pub fn raise_priority(&mut self) {
         if let Host::Here(servo) = &mut self.host {
             servo.raise_priority();
         }
     }
 
-    /// The tick at `time` [s], `lateness` [s] after it was due; of a device with a scheduler the newest that nobody
-    /// has seen, or else its next.
+    /// The tick at `time` [s], `lateness` [s] after it was due; for a device with a scheduler the newest unread tick,
+    /// or else its next.
     ///
     /// # Errors
     /// When the device fails; it is disabled then.
@@ -68,7 +68,7 @@ impl SteppedLoop {
         };
         let until = Instant::now() + LATEST;
         loop {
-            // In this order: an end comes after its last sample.
+            // In this order: an end follows its last sample.
             let runs = thread.is_running();
             match samples.drain().last() {
                 Some(sample) if runs => return Ok(sample),
@@ -84,10 +84,10 @@ impl SteppedLoop {
     }
 }
 
-/// A tick of a loop on the thread of whoever asks.
+/// A tick of a loop on the caller's thread.
 fn ticked(servo: &mut ServoLoop, time: f64, lateness: f64) -> Result<Sample, Fault> {
-    caught(|| servo.tick(time, lateness)).unwrap_or_else(|panic| {
-        let abandoned = caught(|| servo.abandon());
+    catch_panic(|| servo.tick(time, lateness)).unwrap_or_else(|panic| {
+        let abandoned = catch_panic(|| servo.abandon());
         panic.report();
         abandoned.map_or_else(Panic::report, |()| ());
         Err(Fault::Panicked)

@@ -9,43 +9,43 @@
 //! | [`trip`](Supervisor::trip), or a fault of a loop | tripped | tripped | tripped | tripped | tripped |
 //! | [`switch_off`](Supervisor::switch_off) | off | off | off | off | off |
 //!
-//! In *off*, *paused* and *tripped* the force that is sent is exactly zero from the next tick on; in *armed* it is
-//! zero until the hand is slow and the force small ([`crate::limits::arming`]). Nothing but a person leads out of these
-//! states.
+//! In *off*, *paused* and *tripped* the sent force is exactly zero from the next tick on; in *armed* it is zero until
+//! the hand is slow and the force small ([`crate::limits::arming`]). Only a person can end these states.
 //!
 //! *How we know*: `tests` (every pair), `supervisor::…`.
 //!
-//! *Limits*: a loop that hangs in its device reads nothing; [`crate::watch`] notices that, but cannot reach the device.
+//! *Limits*: a loop that hangs in its device does not read the state; [`crate::watch`] detects that, but cannot reach
+//! the device.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::Fault;
 
-/// How long a program that has to report may be silent before forces are taken off [s]: longer than it takes to lay out
-/// a window, shorter than it takes a person to wonder.
+/// How long a program that has to report may be silent before forces go off [s]: longer than the layout of a window
+/// takes, shorter than a person notices.
 pub const SILENCE: f64 = 2.0;
 
-/// How long the thread that watches the loops may be silent before forces are taken off [s]: it reports a thousand times a
+/// How long the thread that watches the loops may be silent before forces go off [s]: it reports a thousand times a
 /// second, and a loaded machine can delay it by some tens of milliseconds.
 pub const WATCH_SILENCE: f64 = 0.5;
 
 /// Whether forces may be displayed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ForceState {
-    /// Nobody has asked for forces.
+    /// No person has asked for forces.
     Off,
-    /// Somebody has; they are raised once the hand is slow and the force small.
+    /// A person has armed; forces ramp up once the hand is slow and the force small.
     Armed,
-    /// They are displayed.
+    /// Forces are on.
     Running,
-    /// They are off until somebody goes on.
+    /// Forces are off until a person resumes.
     Paused,
-    /// They are off until somebody has seen why and arms them again.
+    /// Forces are off until a person has acknowledged the reason and arms again.
     Tripped,
 }
 
-/// What leads from one state to another.
+/// The events that change the state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Transition {
     Arm,
@@ -56,31 +56,31 @@ enum Transition {
     SwitchOff,
 }
 
-/// Why forces were taken off.
+/// The reason for a stop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StopReason {
     /// A person, at the keyboard or in the window.
     EmergencyStop,
     /// A fault of one of the loops.
     OtherDevice,
-    /// The program that shows what is touched is silent.
+    /// The program that shows the touch is silent.
     Silence,
     /// A person, by the stop button of a device.
     DeviceButton,
-    /// The program was asked to end: Ctrl-C, SIGTERM or the end of its terminal.
+    /// The program received a request to end: Ctrl-C, SIGTERM or the end of its terminal.
     Signal,
-    /// A device does not answer any more: its loop hangs inside a call of the driver.
+    /// A device no longer answers: its loop hangs inside a call of the driver.
     HungDevice,
-    /// What happens can no longer be recorded.
+    /// The recording failed.
     Unrecorded,
     /// The thread that watches the loops is silent.
     Unwatched,
 }
 
-/// The state of a session and its ends: cheap to clone, and safe to use from any thread. No call waits.
+/// A handle to the state of a session: cheap to clone, and safe to use from any thread. No call waits.
 #[derive(Debug, Clone)]
 pub struct Supervisor {
-    /// How often forces were armed, the reason of a stop and the state, packed.
+    /// The count of armings, the reason of a stop and the state, packed.
     word: Arc<AtomicU64>,
     /// When the program reported last [s, as bits]; infinite when it does not have to.
     reported: Arc<AtomicU64>,
@@ -88,18 +88,18 @@ pub struct Supervisor {
     watched: Arc<AtomicU64>,
 }
 
-/// What a loop reads at a tick.
+/// The permission that a loop reads at a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Permission {
     pub(crate) state: ForceState,
-    /// Another number whenever a person armed what was off.
+    /// Changes whenever a person arms forces that were off.
     pub(crate) armings: u64,
-    /// Why forces are off, where they tripped.
+    /// Why forces are off, if they tripped.
     pub(crate) fault: Option<Fault>,
 }
 
 impl ForceState {
-    /// Whether a force may be other than zero, as far as the session is concerned.
+    /// Whether the session allows a force other than zero.
     pub fn allows_force(self) -> bool {
         matches!(self, Self::Armed | Self::Running)
     }
@@ -184,14 +184,14 @@ impl Default for Supervisor {
 }
 
 impl Supervisor {
-    /// One whose session is armed already.
+    /// A supervisor whose session is already armed.
     pub fn armed() -> Self {
         let supervisor = Self::default();
         supervisor.arm();
         supervisor
     }
 
-    /// What holds now.
+    /// The current state.
     pub fn state(&self) -> ForceState {
         unpacked(self.word.load(Ordering::Acquire)).0
     }
@@ -221,13 +221,13 @@ impl Supervisor {
         self.apply(Transition::Trip, Some(reason));
     }
 
-    /// The session is over.
+    /// Ends the session.
     pub fn switch_off(&self) {
         self.apply(Transition::SwitchOff, None);
     }
 
-    /// The program that shows what is touched is alive at `time` [s] of the loops' clock. From the first time on forces
-    /// trip when it is silent for [`SILENCE`].
+    /// The program that shows the touch is alive at `time` [s] of the loops' clock. After the first call forces trip
+    /// when the next one does not come within [`SILENCE`].
     pub fn report(&self, time: f64) {
         self.reported.store(time.to_bits(), Ordering::Relaxed);
     }
@@ -237,7 +237,7 @@ impl Supervisor {
         self.watched.store(time.to_bits(), Ordering::Relaxed);
     }
 
-    /// What a loop may do at `time` [s].
+    /// The permission of a loop at `time` [s].
     pub(crate) fn permission(&self, time: f64) -> Permission {
         let since = |last: &AtomicU64| time - f64::from_bits(last.load(Ordering::Relaxed));
         if self.state().allows_force() {
@@ -261,7 +261,7 @@ impl Supervisor {
         self.apply(Transition::Run, None);
     }
 
-    /// A loop took its force off; all others do.
+    /// A loop took its force off; all others do the same.
     pub(crate) fn trip_others(&self) {
         self.trip_because(StopReason::OtherDevice);
     }
@@ -270,12 +270,12 @@ impl Supervisor {
         let next = |word| {
             let (state, reason, armings) = unpacked(word);
             let next = state.after(transition);
-            // A loop that sees another number begins anew, also when it was between two ticks that forces were off.
+            // A loop that reads another count restarts, even if forces were off only between two of its ticks.
             let armed = next == ForceState::Armed
                 && matches!(transition, Transition::Arm | Transition::Resume);
             let armed =
                 u64::from(armed && (transition == Transition::Arm || state == ForceState::Paused));
-            // Who stopped first is told.
+            // The first reason is the one reported.
             let reason = match state {
                 ForceState::Tripped => reason,
                 _ => why.unwrap_or(reason),
@@ -334,7 +334,7 @@ mod tests {
         let limit = WATCH_SILENCE;
         let unwatched = supervisor.permission(1.1 + WATCH_SILENCE).fault;
         assert_eq!(unwatched, Some(Fault::Unwatched { limit }));
-        // One that ended in good order does not have to report.
+        // A thread that ended in good order does not have to report.
         supervisor.report_watch(f64::INFINITY);
         supervisor.arm();
         assert_eq!(supervisor.permission(1e9).fault, None);

@@ -1,7 +1,7 @@
 use crate::Vec3;
 
-/// Time over which a velocity is taken [s]. A difference over one tick of 1 ms would show the step of an
-/// encoder, 0.03 mm, as 30 mm/s; over ten it is 3 mm/s.
+/// Time window of a velocity [s]. A difference over one tick of 1 ms would show the step of an encoder, 0.03 mm, as 30
+/// mm/s; over ten it is 3 mm/s.
 const WINDOW: f64 = 0.010;
 
 /// Most ticks in a window: 10 ms at 12 kHz.
@@ -27,7 +27,7 @@ impl Velocity {
         }
     }
 
-    /// Begins anew: what comes next was not reached by a way.
+    /// Restarts: the next position is not reached by a motion.
     pub(crate) fn forget(&mut self) {
         self.seen = 0;
     }

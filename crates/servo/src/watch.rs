@@ -1,9 +1,9 @@
-//! A thread that looks at the loops of a session from outside, a thousand times a second.
+//! A thread that monitors the loops of a session from outside, a thousand times a second.
 //!
-//! - A loop whose device has not answered for [`HUNG`] hangs inside a call of the driver. The supervisor takes all forces
-//!   off. The device that hangs cannot be reached: nobody knows what it displays, and a person has to cut its power.
-//! - A program that was asked to end (Ctrl-C, SIGTERM) has no force from then on, whatever its window does.
-//! - The loops look at the watch in turn: when it is silent, they take their forces off ([`crate::supervisor`]).
+//! - A loop whose device has not answered for [`HUNG`] hangs inside a call of the driver. The supervisor takes all
+//!   forces off. The hung device itself is out of reach: its force is unknown, and a person has to cut its power.
+//! - After a request to end the program (Ctrl-C, SIGTERM) all forces are off, whatever its window does.
+//! - The loops monitor the watch in turn: when it is silent, they take their forces off ([`crate::supervisor`]).
 //!
 //! *How we know*: `watch::…`, and `session_end::…` of the crates `simulate` and `measure`.
 //!
@@ -18,39 +18,39 @@ use crate::priority::raise_watch_priority;
 use crate::supervisor::{ForceState, StopReason};
 use crate::{Clock, Fault, Supervisor};
 
-/// How long a device may take to answer [s]: many ticks, less than it takes a person to pull a hand away.
+/// Timeout for an answer of a device [s]: many ticks, less than it takes a person to pull a hand away.
 pub const HUNG: f64 = 0.1;
 
-/// How long the first answer of a device may take besides [s].
+/// Additional timeout for the first answer of a device [s].
 const FIRST: f64 = 1.0;
 
-/// Between two looks.
+/// Period of the watch.
 const PERIOD: Duration = Duration::from_millis(1);
 
-/// When the device of a loop answered last: the loop writes it, the watch reads it.
+/// Time of the last answer of a loop's device: the loop writes it, the watch reads it.
 #[derive(Debug, Clone)]
 pub struct Pulse(Arc<AtomicU64>);
 
 /// A loop that is watched.
 #[derive(Debug, Clone)]
 pub struct Watched {
-    /// What a person calls it, such as the tool and its device.
+    /// Its name for people, such as the tool and its device.
     pub name: String,
-    /// When it ticked.
+    /// Time of its last tick.
     pub pulse: Pulse,
 }
 
-/// What is watched, and what hangs.
+/// The watched loops, and the hung ones.
 #[derive(Debug, Clone)]
 pub struct Watch {
     supervisor: Supervisor,
     loops: Vec<Watched>,
     is_ended: fn() -> bool,
-    /// Bit by bit, which of the loops hang.
+    /// Bit mask of the hung loops.
     hung: Arc<AtomicU64>,
 }
 
-/// A watch on a thread of its own. Dropping it ends the watch, which then takes no force off.
+/// A watch on its own thread. Dropping it ends the watch, which then takes no force off.
 pub struct WatchThread {
     watch: Watch,
     stop: Arc<AtomicBool>,
@@ -58,7 +58,7 @@ pub struct WatchThread {
 }
 
 impl Default for Pulse {
-    /// Of a loop that does not run.
+    /// For a loop that does not run.
     fn default() -> Self {
         Self(Arc::new(AtomicU64::new(f64::INFINITY.to_bits())))
     }
@@ -86,8 +86,8 @@ impl Pulse {
 }
 
 impl Watch {
-    /// A watch over `loops`, 64 at most, of the session of `supervisor`; `is_ended` says whether the program was asked to
-    /// end.
+    /// A watch over `loops`, 64 at most, of the session of `supervisor`; `is_ended` returns whether the program
+    /// received a request to end.
     pub fn new(supervisor: Supervisor, loops: Vec<Watched>, is_ended: fn() -> bool) -> Self {
         Self {
             supervisor,
@@ -97,7 +97,7 @@ impl Watch {
         }
     }
 
-    /// One look at `time` [s] of the loops' clock.
+    /// One check at `time` [s] of the loops' clock.
     pub fn look(&self, time: f64) {
         let silent = |watched: &Watched| time - watched.pulse.last() > HUNG;
         let bits = self.loops.iter().enumerate();
@@ -117,7 +117,7 @@ impl Watch {
         }
     }
 
-    /// The names of the loops that hang.
+    /// The names of the hung loops.
     pub fn hung(&self) -> Vec<&str> {
         let hung = self.hung.load(Ordering::Relaxed);
         let loops = self.loops.iter().enumerate();
@@ -125,7 +125,7 @@ impl Watch {
         hung.map(|(_, watched)| watched.name.as_str()).collect()
     }
 
-    /// What a person has to know of the loops that hang; none when none does.
+    /// A sentence for a person about the hung loops; none if no loop hangs.
     pub fn warning(&self) -> Option<String> {
         let hung = self.hung();
         (!hung.is_empty()).then(|| {
@@ -141,13 +141,13 @@ impl WatchThread {
     /// Watches on `clock`, which is that of the loops.
     ///
     /// # Errors
-    /// When the operating system gives no thread.
+    /// When the operating system provides no thread.
     pub fn start(watch: Watch, clock: Clock) -> Result<Self, Fault> {
         let stop = Arc::new(AtomicBool::new(false));
-        let (asked, own) = (stop.clone(), watch.clone());
+        let (stopped, own) = (stop.clone(), watch.clone());
         let run = move || {
             raise_watch_priority();
-            while !asked.load(Ordering::Relaxed) {
+            while !stopped.load(Ordering::Relaxed) {
                 own.look(clock.now());
                 std::thread::sleep(PERIOD);
             }
@@ -161,7 +161,7 @@ impl WatchThread {
         })
     }
 
-    /// What it watches, and what hangs.
+    /// The watched loops, and the hung ones.
     pub fn watch(&self) -> &Watch {
         &self.watch
     }

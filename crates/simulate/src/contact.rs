@@ -1,15 +1,15 @@
-//! Where a tip touches: the first contact by global search, the successive ones among neighbours.
+//! Contact of a tip: the first contact point by a global search, the next ones among neighbouring triangles.
 //!
-//! A tip below the rest surface is in contact, from the first step with positive depth until the depth
-//! is gone. A tip that slips is met by the surface that it is over; one that sticks carries the place
-//! of its first contact with it, as long as it is pressed against the organ. Where the organ would pull on it, nothing
-//! holds it to that place: it goes on as one that slips, and sticks where it is pressed again. With friction it sticks
-//! beside the place that it is over, and slides where the force leaves the cone.
+//! A tip below the rest surface is in contact, from the first step with positive depth until the depth is zero. The
+//! contact point of a slipping tip follows the surface below it; a sticking tip keeps its first contact point for as
+//! long as it is pressed against the organ. Where the organ would pull on a sticking tip, its contact point is
+//! released: it follows the tip, and sticks again where the tip is pressed again. With friction a tip sticks relative
+//! to the surface point below it, and slides where the force leaves the friction cone.
 //!
 //! *How we know*: `invariants::real_organs_under_random_pokes_and_slides`.
 //!
-//! *Limits*: over ridges and thin walls the depth creeps towards its measure, so that a slide there lags
-//! behind the nearest point of the surface.
+//! *Limits*: over ridges and thin walls the rate of change of the depth is limited, so that a slide there lags behind
+//! the nearest point of the surface.
 
 use nalgebra::{Matrix3, Rotation3};
 use palpate_geometry::{
@@ -21,25 +21,25 @@ use palpate_mechanics::finite_spheres::{LocalContact, Placement, Surroundings, f
 use crate::simulation::Simulation;
 use crate::tool::Tool;
 
-/// A tip below this depth [m] that has come out of the organ elsewhere has passed through it.
+/// A tip below this depth [m] whose closest surface point is on another side has passed through the organ.
 const PASSED_THROUGH: f64 = 0.025;
 
-/// A surface at rest as a tip feels it.
+/// The rest surface for one tip.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RestSurface<'a> {
     pub(crate) surface: &'a Surface,
     pub(crate) tree: &'a AabbTree,
-    /// Its normals and curvatures over the tip.
+    /// Its normals and curvatures, averaged over the tip.
     pub(crate) patches: &'a PatchField,
     /// Radius of a hemisphere of its volume [m].
     pub(crate) radius: f64,
-    /// What it yields beyond a half-space at each vertex [1/m]; none where only its volume is known.
+    /// Its compliance beyond a half-space at each vertex [1/m]; none if only its volume is known.
     pub(crate) further: Option<&'a [Matrix3<f64>]>,
 }
 
 impl Simulation {
-    /// The organ as `tool` feels it.
-    pub(crate) fn ground<'a>(&'a self, tool: &'a Tool) -> RestSurface<'a> {
+    /// The organ's rest surface for `tool`.
+    pub(crate) fn rest_surface<'a>(&'a self, tool: &'a Tool) -> RestSurface<'a> {
         RestSurface {
             surface: &self.surface,
             tree: &self.tree,
@@ -53,28 +53,28 @@ impl Simulation {
 /// A contact of one tool.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
-    /// Where the tip is over the rest surface now.
+    /// The current contact point below the tip on the rest surface.
     pub(crate) contact_point: ContactPoint,
-    /// The place that answers: that of the contact point, or of the first contact of a tip that sticks.
+    /// The location of the local model: the contact point, or the first contact point of a tip that sticks.
     pub(crate) place: LocalContact,
-    /// Where the tool is [m].
+    /// Reference point of the tool [m].
     pub(crate) tip: Vec3,
     /// Its signed distance to the rest surface [m], negative inside.
     pub(crate) signed: f64,
     /// Depth below the rest surface [m].
     pub depth: f64,
-    /// How the organ has turned there since rest; only the nonlinear model turns it.
+    /// The rotation of the organ there since rest; only the nonlinear model rotates it.
     pub(crate) turn: Rotation3<f64>,
-    /// Whether it was pressed against the organ in its last step, without which nothing holds it there.
+    /// Whether the tip pressed on the organ in the last step; a tip that sticks is released otherwise.
     pub(crate) is_pressed: bool,
-    /// How far friction holds it back beside the place that it is over [m], along the surface.
+    /// Offset due to friction, relative to the contact point below the tip, along the surface [m].
     sheared: Vec3,
-    /// Whether it slid in its last step, against friction.
+    /// Whether it slid against friction in its last step.
     pub(crate) slides: bool,
 }
 
 impl Contact {
-    /// Unit outward normal of the surface where it is touched [-].
+    /// Unit outward normal of the surface at the contact [-].
     pub fn normal(&self) -> Vec3 {
         self.turn * self.rest_normal()
     }
@@ -89,12 +89,12 @@ impl Contact {
         self.turn * self.place.frame
     }
 
-    /// The touched point of the rest surface [m].
+    /// The contact location on the rest surface [m].
     pub fn point(&self) -> Vec3 {
         self.place.point
     }
 
-    /// Displacement of the touched place by `tool` at `tip` [m], in the place's frame: tangents, normal.
+    /// Displacement of the contact location by `tool` at `tip` [m], in the contact frame: tangents, normal.
     pub(crate) fn displacement(&self, tool: &Tool, tip: &Vec3) -> Vec3 {
         let mut local = self.place.frame.tr_mul(&(tip - self.place.point));
         local.z -= tool.overhang();
@@ -105,7 +105,7 @@ impl Contact {
         local
     }
 
-    /// Lets a tip slide whose `force` [N] is outside the cone of its friction, which is left inside.
+    /// Slides a tip whose `force` [N] is outside its friction cone; the remaining force is inside.
     pub(crate) fn slide(&mut self, tool: &Tool, force: &mut Vec3) {
         self.slides = false;
         let Some(friction) = tool.friction else {
@@ -124,8 +124,8 @@ impl Contact {
     }
 }
 
-/// A ball in which a tool does not touch one surface, because none of it is there: a signed distance changes no more than
-/// its point moves. It saves searches and changes no result.
+/// A ball in which a tool does not touch a surface: a signed distance changes no more than its point moves. It saves
+/// searches and changes no result.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Clearance {
     /// Its centre and radius [m].
@@ -133,25 +133,25 @@ pub(crate) struct Clearance {
     room: f64,
 }
 
-/// Left of the room for rounding [m].
+/// Margin for rounding [m].
 const ROUNDING: f64 = 1e-9;
 
 impl Clearance {
-    /// The contact of `tool` at `tip` [m], given its last one. Always for the same surface and tool.
+    /// The contact of `tool` at `tip` [m], given its last one. Valid only for one and the same surface and tool.
     pub(crate) fn detect(
         &mut self,
-        ground: &RestSurface<'_>,
+        rest: &RestSurface<'_>,
         tool: &Tool,
         last: Option<&Contact>,
         tip: &Vec3,
     ) -> Option<Contact> {
         match last {
-            Some(last) => detect_after(ground, tool, last, tip),
+            Some(last) => detect_after(rest, tool, last, tip),
             None if (tip - self.tip).norm() < self.room => None,
             None => {
-                let (nearest, signed) = ground.surface.signed_distance(ground.tree, tip);
+                let (nearest, signed) = rest.surface.signed_distance(rest.tree, tip);
                 (self.tip, self.room) = (*tip, signed - tool.overhang() - ROUNDING);
-                begin(ground, tool, tip, nearest, signed)
+                begin(rest, tool, tip, nearest, signed)
             }
         }
     }
@@ -159,34 +159,34 @@ impl Clearance {
 
 /// The contact of `tool` at `tip` [m], given its last one.
 pub(crate) fn detect(
-    ground: &RestSurface<'_>,
+    rest: &RestSurface<'_>,
     tool: &Tool,
     last: Option<&Contact>,
     tip: &Vec3,
 ) -> Option<Contact> {
-    Clearance::default().detect(ground, tool, last, tip)
+    Clearance::default().detect(rest, tool, last, tip)
 }
 
 fn detect_after(
-    ground: &RestSurface<'_>,
+    rest: &RestSurface<'_>,
     tool: &Tool,
     last: &Contact,
     tip: &Vec3,
 ) -> Option<Contact> {
     let anew = || {
-        let (nearest, signed) = ground.surface.signed_distance(ground.tree, tip);
-        begin(ground, tool, tip, nearest, signed)
+        let (nearest, signed) = rest.surface.signed_distance(rest.tree, tip);
+        begin(rest, tool, tip, nearest, signed)
     };
     let Some(contact_point) = follow(
-        ground.surface,
-        ground.patches,
+        rest.surface,
+        rest.patches,
         &last.contact_point,
         &last.tip,
         tip,
     ) else {
         return anew();
     };
-    let (below, signed) = depth_of_tip(ground, &contact_point, tip);
+    let (below, signed) = depth_of_tip(rest, &contact_point, tip);
     let run = (contact_point.point - last.contact_point.point).norm();
     let depth = limit_depth_rate(last, tool.overhang() + below, signed, tip, run);
     if depth > PASSED_THROUGH && signed > tool.overhang() {
@@ -207,7 +207,7 @@ fn detect_after(
         slides: last.slides,
     };
     if tool.slides() || !last.is_pressed {
-        contact.place = place(ground, tool, &contact_point, depth, Some(&last.place.frame));
+        contact.place = place(rest, tool, &contact_point, depth, Some(&last.place.frame));
     }
     match tool.bond {
         Friction::Frictionless => {}
@@ -225,8 +225,8 @@ fn detect_after(
     Some(contact)
 }
 
-/// A tip that has left the side that it touched and is below another one touches that, and its depth
-/// grows from nothing.
+/// A tip that has left the side that it touched and is below another side touches that one, and its depth grows from
+/// zero.
 fn go_on_elsewhere(
     mut contact: Contact,
     tool: &Tool,
@@ -243,10 +243,10 @@ fn go_on_elsewhere(
 /// in a tenth of a millimetre.
 const LARGEST_DEPTH_RATE: f64 = 250.0;
 
-/// The depth that follows `last` when `measured` [m] is measured at `tip` [m]. Where the surface that is
-/// touched becomes another one the measure leaps; the depth goes there as fast as the tip comes nearer
-/// to the surface or goes away from it, and by a small part of itself along it: by half of that part while
-/// the touched point runs twice as fast as the tip, by `run` [m], for then the organ under it changes as well.
+/// The next depth after `last` when `measured` [m] is measured at `tip` [m]. Where the closest surface changes, the
+/// measured depth jumps; the returned depth approaches it as fast as the tip approaches or leaves the surface, plus a
+/// small part of itself for motion along it: half of that part while the contact point moves twice as fast as the tip,
+/// by `run` [m], since the organ below it then changes as well.
 fn limit_depth_rate(last: &Contact, measured: f64, signed: f64, tip: &Vec3, run: f64) -> f64 {
     let travel = (tip - last.tip).norm();
     let slid = travel - 0.5 * (run - travel).clamp(0.0, travel);
@@ -255,17 +255,16 @@ fn limit_depth_rate(last: &Contact, measured: f64, signed: f64, tip: &Vec3, run:
     measured.clamp(last.depth - most, last.depth + most)
 }
 
-/// Depth of the tool's reference point below the rest surface [m]: its distance, where the nearest
-/// point of the surface is the one that is touched. Where it is another one (below a thin wall, or
-/// behind a ridge) it is the depth below the contact point, with a continuous passage between the two. With
-/// it the signed distance.
-fn depth_of_tip(ground: &RestSurface<'_>, contact_point: &ContactPoint, tip: &Vec3) -> (f64, f64) {
-    let surface = ground.surface;
-    let (nearest, signed) = surface.signed_distance(ground.tree, tip);
+/// Depth of the tool's reference point below the rest surface [m]: its distance, if the closest point of the surface is
+/// the contact point. Otherwise (below a thin wall, or behind a ridge) it is the depth below the contact point, with a
+/// continuous transition between the two. Also returns the signed distance.
+fn depth_of_tip(rest: &RestSurface<'_>, contact_point: &ContactPoint, tip: &Vec3) -> (f64, f64) {
+    let surface = rest.surface;
+    let (nearest, signed) = surface.signed_distance(rest.tree, tip);
     let outward = (tip - nearest.on.position) * signed.signum();
     let cosine = outward.dot(&contact_point.normal) / nearest.distance.max(f64::MIN_POSITIVE);
     let apart = (signed + contact_point.depth).abs() / signed.abs().max(contact_point.depth.abs());
-    // Full trust within 60 degrees and half the depth, none at 90 degrees or nine tenths.
+    // Full weight within 60 degrees and half the depth, none at 90 degrees or nine tenths.
     let same_side = (2.0 * cosine).clamp(0.0, 1.0);
     let same_depth = ((0.9 - apart) / 0.4).clamp(0.0, 1.0);
     let trust = same_side * same_depth;
@@ -277,9 +276,9 @@ fn depth_of_tip(ground: &RestSurface<'_>, contact_point: &ContactPoint, tip: &Ve
     (below, signed)
 }
 
-/// The first contact: at the `nearest` point of the rest surface, when the tip is below it.
+/// The first contact: at the `nearest` point of the rest surface, if the tip is below it.
 fn begin(
-    ground: &RestSurface<'_>,
+    rest: &RestSurface<'_>,
     tool: &Tool,
     tip: &Vec3,
     nearest: Nearest,
@@ -293,19 +292,18 @@ fn begin(
         triangle: nearest.triangle,
         barycentric: nearest.on.barycentric,
         point: nearest.on.position,
-        normal: ground
+        normal: rest
             .patches
-            .at(ground.surface, nearest.triangle, &nearest.on.barycentric)
+            .at(rest.surface, nearest.triangle, &nearest.on.barycentric)
             .normal,
         depth: -signed,
     };
-    // The nearest point of a mesh leaps at its edges; the point under the averaged normal does not.
-    let normals = ground.patches.vertex_normals();
-    let contact_point =
-        project_contact_point(ground.surface, normals, &found, tip).unwrap_or(found);
+    // The closest point of a mesh jumps at its edges; the point below the averaged normal does not.
+    let normals = rest.patches.vertex_normals();
+    let contact_point = project_contact_point(rest.surface, normals, &found, tip).unwrap_or(found);
     Some(Contact {
         contact_point,
-        place: place(ground, tool, &contact_point, depth, None),
+        place: place(rest, tool, &contact_point, depth, None),
         tip: *tip,
         signed,
         depth,
@@ -316,30 +314,30 @@ fn begin(
     })
 }
 
-/// The place at `contact_point`, with tangents carried along from `last`, so that the particles do not turn
-/// under a sliding tip; at first along an edge of the triangle, so that they turn with the organ.
+/// The contact frame at `contact_point`: tangents transported from `last`, so that the particles do not turn under a
+/// sliding tip; initially along an edge of the triangle, so that they turn with the organ.
 pub(crate) fn place(
-    ground: &RestSurface<'_>,
+    rest: &RestSurface<'_>,
     tool: &Tool,
     contact_point: &ContactPoint,
     depth: f64,
     last: Option<&Matrix3<f64>>,
 ) -> LocalContact {
-    let patch = ground.patches.at(
-        ground.surface,
+    let patch = rest.patches.at(
+        rest.surface,
         contact_point.triangle,
         &contact_point.barycentric,
     );
     let along = match (tool.placement, last) {
         (Placement::Template, Some(frame)) => frame.column(0).into_owned(),
         (Placement::Template, None) => {
-            let [a, b, _] = ground.surface.mesh().positions(contact_point.triangle);
+            let [a, b, _] = rest.surface.mesh().positions(contact_point.triangle);
             b - a
         }
-        (Placement::Source, _) => first_direction(ground.surface, contact_point.triangle),
+        (Placement::Source, _) => first_direction(rest.surface, contact_point.triangle),
     };
     let flat = |v: &Vec3| (v - patch.normal * patch.normal.dot(v)).try_normalize(1e-9 * v.norm());
-    // A tangent that has become the normal says nothing any more; any other will do.
+    // A tangent parallel to the normal is useless; any other will do.
     let first = flat(&along)
         .or_else(|| flat(&Vec3::x()))
         .or_else(|| flat(&Vec3::y()))
@@ -359,23 +357,23 @@ pub(crate) fn place(
         curvature,
         triangle: contact_point.triangle,
         radius: tool.tip.beside(mean).contact_radius(depth),
-        surroundings: surroundings(ground, tool, contact_point, &frame),
-        // As the calibrated model has it: held as a hemisphere of its volume is.
-        thickness: ground.radius,
+        surroundings: surroundings(rest, tool, contact_point, &frame),
+        // As in the calibrated model: fixed like a hemisphere of its volume.
+        thickness: rest.radius,
     }
 }
 
-/// What the organ is around a place, in its frame.
+/// The surroundings of a location, in its frame.
 fn surroundings(
-    ground: &RestSurface<'_>,
+    rest: &RestSurface<'_>,
     tool: &Tool,
     contact_point: &ContactPoint,
     frame: &Matrix3<f64>,
 ) -> Surroundings {
-    let Some(at) = ground.further else {
-        return tool.model.by_volume(ground.radius);
+    let Some(at) = rest.further else {
+        return tool.model.by_volume(rest.radius);
     };
-    let nodes = ground.surface.mesh().corners(contact_point.triangle);
+    let nodes = rest.surface.mesh().corners(contact_point.triangle);
     let further: Matrix3<f64> = nodes
         .iter()
         .zip(contact_point.barycentric)
@@ -393,13 +391,13 @@ mod tests {
         [model]\nkind = \"local\"\n[[tool]]\nname = \"right\"\ndevice = \"mouse\"\n\
         tip = { shape = \"flat\", radius_m = 0.002, contact = \"slip\" }\n";
 
-    /// Judge: a search at every place. Forty places within 2 cm of one, then of another: most are in the air.
+    /// Judge: a search at every location. Forty locations within 2 cm of one, then of another: most are in the air.
     #[test]
     fn a_tip_in_the_air_is_found_when_it_touches() {
         let scene = Scene::parse(SCENE, "scene.toml").unwrap();
         let simulation = Simulation::new(&scene).unwrap();
         let (tool, mesh) = (&simulation.tools()[0], simulation.surface().mesh());
-        let ground = simulation.ground(tool);
+        let rest = simulation.rest_surface(tool);
         let (mut clearance, mut last, mut skipped, mut touched) =
             (Clearance::default(), None, 0, 0);
         let middle = mesh.vertices().iter().sum::<Vec3>() / mesh.vertices().len() as f64;
@@ -412,8 +410,8 @@ mod tests {
             let outward = (from - middle).normalize();
             let tip = from + outward * walk + aside * 0.02;
             skipped += usize::from((tip - clearance.tip).norm() < clearance.room);
-            let found = clearance.detect(&ground, tool, last.as_ref(), &tip);
-            assert_eq!(found, detect(&ground, tool, last.as_ref(), &tip), "{step}");
+            let found = clearance.detect(&rest, tool, last.as_ref(), &tip);
+            assert_eq!(found, detect(&rest, tool, last.as_ref(), &tip), "{step}");
             touched += usize::from(found.is_some());
             last = found;
         }

@@ -1,5 +1,5 @@
-//! The surface that is seen, if it is time: every vertex near a contact moved by the model's field, those of several
-//! contacts added, and the bounding boxes refitted around what has moved.
+//! Updates the displayed surface if it is due: moves every vertex near a contact by the model's displacement field,
+//! adds those of several contacts, and refits the bounding boxes of the moved vertices.
 
 use palpate_geometry::{NodeId, Vec3};
 use palpate_mechanics::finite_spheres::LocalContact;
@@ -58,7 +58,7 @@ fn press(
     move_near(simulation, number, &tip, &place, state, workspace);
 }
 
-/// Moves the vertices near a place whose tip, that of tool `number`, has moved it by `tip` [m].
+/// Moves the vertices near a contact that tool `number` has displaced by `tip` [m].
 fn move_near(
     simulation: &Simulation,
     number: usize,
@@ -68,7 +68,7 @@ fn move_near(
     workspace: &mut SimulationWorkspace,
 ) {
     let tool = &simulation.tools[number];
-    // In another workspace than the step's, this solves once more.
+    // In another workspace than the step's, this solves again.
     let response = tool.model.respond(place, &mut workspace.models[number]);
     let reach = tool.model.shown_radius(place.radius);
     collect_near(simulation, workspace, place, reach);
@@ -87,8 +87,8 @@ fn move_near(
     }
 }
 
-/// The vertices within `reach` [m] of a place, going from neighbour to neighbour: what lies near
-/// through air is not moved.
+/// The vertices within `reach` [m] of a location, found from neighbour to neighbour: parts that are near only through
+/// air are not moved.
 fn collect_near(
     simulation: &Simulation,
     workspace: &mut SimulationWorkspace,
@@ -99,7 +99,7 @@ fn collect_near(
     let mesh = simulation.surface.mesh();
     workspace.near.clear();
     let visit = |node: NodeId, workspace: &mut SimulationWorkspace| {
-        let mark = &mut workspace.seen[node.index()];
+        let mark = &mut workspace.visited[node.index()];
         let near = (mesh.vertices()[node.index()] - place.point).norm() < reach;
         if *mark != turn && near {
             workspace.near.push(node);
@@ -129,7 +129,7 @@ fn mark_for_refit(
 ) {
     for &node in &state.moved.0 {
         for &triangle in simulation.surface.adjacency().around(node) {
-            let mark = &mut workspace.seen_triangles[triangle.index()];
+            let mark = &mut workspace.visited_triangles[triangle.index()];
             if *mark != turn {
                 *mark = turn;
                 workspace.refit.push(triangle);

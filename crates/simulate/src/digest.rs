@@ -1,14 +1,14 @@
-//! A name for what was simulated, from surface, tissue, model and tools. Folders, names of files, devices, and what
-//! is only shown do not count.
+//! A digest that identifies a simulation by surface, tissue, model and tools. Folders, file names, devices and
+//! display-only settings do not count.
 //!
 //! The digest of version 2 is `2-` and the first 16 hexadecimal digits of the SHA-256 of the canonical form: the
-//! coordinates and nodes of the surface as bytes, then a line `key = values` for each number and word, under keys
-//! that stand here and nowhere else. Numbers are the bits of their IEEE 754 form, so that no way of printing changes
-//! them, and words are those of the documents. A field that is renamed in the program keeps its key here; one
-//! that is added is written only where it is not the value that every earlier scene had.
+//! coordinates and nodes of the surface as bytes, then a line `key = values` for each number and word, under keys that
+//! are defined only here. Numbers are the bits of their IEEE 754 form, so that their printed form does not matter, and
+//! words are those of the documents. A field that is renamed in the program keeps its key here; a new field is written
+//! only if its value differs from that of all earlier scenes.
 //!
 //! The digest of version 1 was 16 digits, from the names of the fields in the program. It is still computed, so that
-//! sessions of that time are known again.
+//! sessions of that version are recognized.
 //!
 //! *How we know*: `digest::…`.
 
@@ -25,10 +25,10 @@ use sha2::{Digest, Sha256};
 
 use crate::neighbour::Neighbour;
 
-/// Of every neighbour, before a scene could state it [N/m].
+/// Stiffness of every neighbour before scenes could state it [N/m].
 const EARLIER_STIFFNESS: f64 = 1000.0;
 
-/// Before the digits of a digest of the canonical form.
+/// Prefix of a digest of the canonical form.
 const VERSION: &str = "2-";
 
 /// The digests of a scene.
@@ -36,25 +36,25 @@ const VERSION: &str = "2-";
 pub(crate) struct SceneDigest {
     /// Of the canonical form.
     pub(crate) canonical: String,
-    /// As it was before there was one.
+    /// Of version 1, before the canonical form.
     former: String,
 }
 
 impl SceneDigest {
-    /// `felt` are the tissues of layers and inclusions that are felt, `enclosed` the surfaces of inclusions, and `neighbours`
-    /// those of bodies beside the organ, each with the neighbour at which tools stop if it is rigid.
+    /// `effective` are the tissues of layers and inclusions that affect the forces, `enclosed` the surfaces of inclusions,
+    /// and `neighbours` those of other bodies, each with the neighbour at which tools stop if it is rigid.
     pub(crate) fn of<'a>(
         scene: &Scene,
         surface: &Surface,
         tissue: &Tissue,
-        felt: &[Tissue],
+        effective: &[Tissue],
         enclosed: &[Surface],
         neighbours: impl Iterator<Item = (&'a Surface, Option<&'a Neighbour>)>,
     ) -> Self {
         let mut form = canonical(scene, tissue);
-        felt.iter().for_each(|tissue| form.tissue(tissue));
+        effective.iter().for_each(|tissue| form.tissue(tissue));
         if scene.model.gravity_m_per_s2.is_some() {
-            for tissue in std::iter::once(tissue).chain(felt) {
+            for tissue in std::iter::once(tissue).chain(effective) {
                 form.numbers("density_kg_m3", &[tissue.density_kg_m3.value]);
             }
         }
@@ -85,7 +85,7 @@ impl SceneDigest {
     }
 }
 
-/// Whether two digests are of different scenes; none where they are of different versions, which nothing compares.
+/// Whether two digests are of different scenes; none if their versions differ, since these cannot be compared.
 pub(crate) fn differ(one: &str, other: &str) -> Option<bool> {
     let is_canonical = |digest: &str| digest.starts_with(VERSION);
     (is_canonical(one) == is_canonical(other)).then(|| one != other)
@@ -114,7 +114,7 @@ fn digits(hash: Sha256) -> String {
 
 /// The text of version 1.
 fn former(scene: &Scene, tissue: &Tissue) -> String {
-    // Who moves a tool does not change what it meets.
+    // The device of a tool does not affect the simulation.
     let mut tools = scene.tools.clone();
     tools
         .iter_mut()
@@ -130,7 +130,7 @@ fn former(scene: &Scene, tissue: &Tissue) -> String {
         &scene.organ.estimated_inclusions,
     ];
     let text = parts.map(|part| format!("{part:?}")).concat();
-    // Layers had no toughness of their own then, and the local model no calibration.
+    // In version 1 layers had no toughness of their own, and the local model no calibration.
     text.replace(", toughness_j_per_m2: None", "")
         .replace(", calibration: Fitted", "")
         .replace(", reason: None", "")
@@ -179,7 +179,7 @@ fn canonical(scene: &Scene, tissue: &Tissue) -> Form {
     form
 }
 
-/// Lines `key = values`. Structs are taken apart whole, so that a field that is new asks for its place here.
+/// Lines `key = values`. Structs are destructured completely, so that the compiler demands a line for a new field.
 #[derive(Default)]
 struct Form(String);
 
@@ -203,7 +203,7 @@ impl Form {
     }
 
     fn tissue(&mut self, tissue: &Tissue) {
-        // How well a number is known, and what it is called, changes no force.
+        // The uncertainty and the name of a number change no force.
         self.word("law", tissue.elasticity.law().word());
         for (key, parameter) in tissue.elasticity.parameters() {
             self.numbers(key, &[parameter.value]);
@@ -237,7 +237,7 @@ impl Form {
     fn model(&mut self, model: &Model) {
         let Model {
             kind,
-            // Why is no part of what was simulated.
+            // The reason is no part of the simulation.
             reason: _,
             step_s,
             local,
@@ -271,7 +271,7 @@ impl Form {
             IntegrationPoints::Many => "many",
         };
         self.word("integration_points", points);
-        // Sessions from before there was a choice keep their digest.
+        // Sessions from before this choice keep their digest.
         if *calibration != Calibration::Fitted {
             self.word("calibration", calibration.word());
         }
@@ -314,9 +314,9 @@ impl Form {
             trocar_friction_n,
             trocar_stiffness_n_per_m,
             jaws,
-            // Only shown.
+            // Display only.
             mesh: _,
-            // Who moves a tool does not change what it meets.
+            // The device of a tool does not affect the simulation.
             device: _,
         } = tool;
         self.word("tool", name);
@@ -324,7 +324,7 @@ impl Form {
         self.word("shape", shape.word());
         self.numbers("radius_m", &[*radius_m]);
         self.word("contact", contact.word());
-        // Written where a scene states one: earlier scenes had none.
+        // Written if a scene states one: earlier scenes had none.
         if let Some(friction) = friction {
             self.numbers("tip_friction", &[*friction]);
         }
@@ -364,7 +364,7 @@ impl Form {
         self.optional("force_limit_n", *force_limit_n);
     }
 
-    /// A layer's own tissue stands among those that are felt, if it is.
+    /// A layer's own tissue is listed with those that affect the forces, if it does.
     fn layer(&mut self, layer: &Layer) {
         let Layer {
             name: _,
@@ -381,7 +381,7 @@ impl Form {
         }
     }
 
-    /// A surface is told by its vertices, and a tissue stands among those that are felt.
+    /// A surface is identified by its vertices; its tissue is listed with those that affect the forces.
     fn inclusion(&mut self, inclusion: &Inclusion) {
         match inclusion.cavity() {
             Some(CavityContent::Pressure(pressure)) => self.numbers("cavity", &[pressure]),
@@ -442,7 +442,7 @@ mod tests {
         Simulation::new(&scene).unwrap().scene_digest
     }
 
-    /// The digest that a session of version 0.1.0 has of this scene. That of now is in `tests/it/digest.rs`.
+    /// The digest of this scene in a session of version 0.1.0. The current one is in `tests/it/digest.rs`.
     #[test]
     fn digests_of_recorded_sessions_are_known() {
         let esophagus = digest(ESOPHAGUS);
@@ -452,7 +452,7 @@ mod tests {
         assert!(!esophagus.is("2-03af0b310a409016"));
     }
 
-    /// What changes a force changes the digest; names, devices and the way numbers are written do not.
+    /// Every change of a force changes the digest; names, devices and number formats do not.
     #[test]
     fn whatever_changes_a_force_changes_the_digest() {
         let own = digest(SCENE);

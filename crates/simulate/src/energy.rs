@@ -1,25 +1,25 @@
-//! An organ gives back no more work than was done on it.
+//! Energy check: an organ returns no more work than was done on it.
 //!
-//! From the first touch of an organ at rest to the last release, with F the force on a tool and x its tip (of jaws, the
-//! tissue that they hold), step by step over all tools,
+//! From the first touch of an organ at rest to the last release, with F the force on a tool and x its tip (for jaws,
+//! the tissue that they hold), step by step over all tools,
 //!
 //! ```text
 //! W = −½ (F₀ + F₁)·(x₁ − x₀)      a contact that begins: ½ F₁ᵀ K⁻¹ F₁      one that ends: −½ F₀ᵀ K⁻¹ F₀
 //! ```
 //!
-//! A tip that is no longer pressed against the organ ends its contact: its force falls to zero somewhere on the way of
-//! that step. Where it is pressed again another contact begins. Of a step in which held tissue slips, the work counts that
-//! changes ½ Fᵀ K⁻¹ F: the slip takes the rest, and the force falls to what friction bears somewhere on the way.
+//! A tip that is no longer pressed against the organ ends its contact: its force falls to zero within that step. Where
+//! it is pressed again another contact begins. In a step in which held tissue slips, the work is the change of ½ Fᵀ K⁻¹
+//! F: the slip dissipates the rest, and the force falls to the friction limit within the step.
 //!
-//! The positive parts are the work done, the negative ones the work given back. Where the second exceeds
+//! The positive parts are the work done, the negative ones the work returned. Where the second exceeds
 //! [`MOST_RETURNED`] times the first, the solution is not that of an elastic organ: [`Event::EnergyGain`], once for
 //! each touch, on every tool that touches.
 //!
 //! *How we know*: `grip::energy::…`, `random_scenes::…`.
 //!
-//! *Limits*: only touches by jaws and by flat tips that stick are checked. A tip that slips passes without work between
-//! places of different stiffness, a sphere that sticks shears at one depth and returns at another, and work done by
-//! turning jaws is not felt: those models have no energy that could be compared.
+//! *Limits*: only touches by jaws and by flat tips that stick are checked. A slipping tip moves without work between
+//! locations of different stiffness, a sticking sphere shears at one depth and returns at another, and the work of
+//! turning jaws does not appear in the force: those models have no energy to compare with.
 
 use palpate_files::session::Event;
 use palpate_geometry::Vec3;
@@ -30,24 +30,24 @@ use crate::simulation::Simulation;
 use crate::state::{SimulationState, ToolState};
 use crate::tool::Tool;
 
-/// Work given back over work done beyond which there is a gain [-]. A contact that begins or ends within a step counts
-/// by its tangent stiffness: for a force that rises with the n-th power of depth that is (n+1)/2n of its energy, never
+/// Work returned over work done above which there is a gain [-]. A contact that begins or ends within a step counts by
+/// its tangent stiffness: for a force that rises with the n-th power of depth that is (n+1)/2n of its energy, never
 /// less than a half. Linear tissue returns at most 1.01.
 const MOST_RETURNED: f64 = 2.0;
 
 /// Work below this is rounding [J]: a micronewton over a tenth of a millimetre.
 const NOISE: f64 = 1e-10;
 
-/// Jaws that have turned farther than this with tissue between them [rad] did work that is not felt.
+/// Jaws that have turned farther than this with tissue between them [rad] did work that does not appear in the force.
 const MOST_TURNED: f64 = 0.1;
 
 /// The work of all tools since the organ was at rest.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct EnergyAccount {
-    /// Done on the organ, and given back by it [J].
+    /// Done on the organ, and returned by it [J].
     done: f64,
     returned: f64,
-    /// Whether this touch is not checked any more: it cannot be, or its gain has been reported.
+    /// Whether this touch is no longer checked: it cannot be, or its gain has been reported.
     is_closed: bool,
 }
 
@@ -57,7 +57,7 @@ impl EnergyAccount {
         self.returned -= work.min(0.0);
     }
 
-    /// Checks nothing until the organ is at rest again.
+    /// Stops the check until the organ is at rest again.
     pub(crate) fn close(&mut self) {
         self.is_closed = true;
     }
@@ -67,17 +67,17 @@ impl EnergyAccount {
     }
 }
 
-/// Where the tip of a tool that is pressed against the organ is, and the tissue that it holds [m], and the force on it [N].
+/// The tip of a pressing tool, or the tissue that it holds [m], and the force on it [N].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pressed {
     tip: Vec3,
     held: Option<Vec3>,
-    /// The touched point of the organ at rest [m]: another one is another contact.
+    /// The contact location on the organ at rest [m]: a change means another contact.
     point: Vec3,
-    /// How far what jaws hold has slipped [m].
+    /// Slip of the tissue in the jaws [m].
     slid: Vec3,
     force: Vec3,
-    /// Energy of its contact alone [J].
+    /// Energy of this contact alone [J].
     stored: f64,
 }
 
@@ -97,11 +97,11 @@ pub(crate) fn check(simulation: &Simulation, state: &mut SimulationState) {
                 account.add(now.stored - before.stored);
             }
             (Some(before), Some(now)) if goes_on(&before, &now) => {
-                let way = match (before.held, now.held) {
+                let motion = match (before.held, now.held) {
                     (Some(before), Some(now)) => now - before,
                     _ => now.tip - before.tip,
                 };
-                account.add(-0.5 * (before.force + now.force).dot(&way));
+                account.add(-0.5 * (before.force + now.force).dot(&motion));
             }
             (before, now) => {
                 account.add(-before.map_or(0.0, |before| before.stored));
@@ -112,7 +112,7 @@ pub(crate) fn check(simulation: &Simulation, state: &mut SimulationState) {
     if account.gains() {
         account.close();
         for own in &mut state.tools {
-            // A tool that has just released it took part.
+            // A tool that has just released took part.
             if own.touches() || own.row.events.contains(Event::Release) {
                 own.row.events.insert(Event::EnergyGain);
                 own.limits.count_energy_gain();
@@ -127,7 +127,7 @@ pub(crate) fn check(simulation: &Simulation, state: &mut SimulationState) {
 /// Whether the force on a tool is the derivative of an energy.
 fn has_energy(tool: &Tool, state: &ToolState) -> bool {
     if state.is_pushed() {
-        // What bears on a shaft moves with other than the tip.
+        // The load on a shaft does not move with the tip.
         return false;
     }
     match &state.grip.hold {

@@ -7,13 +7,13 @@ use palpate_geometry::{MeshError, OrganError, ReadError, SimplifyError};
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// A file of the scene is wrong or cannot be read.
+    /// A file of the scene is invalid or cannot be read.
     #[error(transparent)]
     File(#[from] palpate_files::Error),
     /// A mesh cannot be read.
     #[error(transparent)]
     Mesh(#[from] ReadError),
-    /// A mesh bounds no solid.
+    /// A mesh encloses no solid.
     #[error("{path}: {fault}", path = path.display())]
     NoSolid {
         /// The mesh.
@@ -21,20 +21,20 @@ pub enum Error {
         /// What is wrong with it.
         fault: MeshError,
     },
-    /// A scene whose numbers have not been drawn.
+    /// A scene with undrawn random numbers.
     #[error(
         "the scene draws its numbers for each attempt; draw a variant of it first (`draw_variant`)"
     )]
     NotDrawn,
-    /// A neighbour cannot stand where the scene has it.
+    /// A neighbour cannot have the location that the scene gives it.
     #[error(
         "a neighbour bounds no solid where it is placed ({fault}); give `at_m` and `scale` that fit a body"
     )]
     Misplaced {
-        /// What is wrong with it there.
+        /// The problem with it there.
         fault: MeshError,
     },
-    /// A neighbour that bends is held nowhere.
+    /// A neighbour that bends has no fixed part.
     #[error(
         "the anchor of body number {number} beside the organ (those of `[[neighbour]]`, then further `[[organ]]`) takes in \
          no vertex of it, and it could move without force; give planes, boxes or spheres of the scene that take in a part of \
@@ -53,17 +53,17 @@ pub enum Error {
     /// A mesh cannot be made coarser.
     #[error(transparent)]
     Simplify(#[from] SimplifyError),
-    /// The coarse mesh that was to carry the mechanics bounds no solid.
+    /// The coarse mechanical mesh encloses no solid.
     #[error(
         "the mechanical mesh that was made of the organ's: {0}; set another `model.mechanical_triangles`"
     )]
     MechanicalMesh(MeshError),
-    /// The anchor and the touchable region leave nothing to touch.
+    /// The anchor and the touchable region leave no touchable triangle.
     #[error(
         "no triangle of the organ can be touched: the anchor holds all of them, or `organ.touchable` names none that is free; make `organ.anchor` smaller or `organ.touchable` larger"
     )]
     NothingTouchable,
-    /// The layers are thicker than what they are layers of.
+    /// The layers are thicker than their body.
     #[error(
         "down to the layer {layer:?} the layers are {sum_mm} mm thick, but the organ is {wall_mm} mm thick in most places; give thinner `organ.layer`s",
         sum_mm = millimetres(*sum),
@@ -89,7 +89,7 @@ pub enum Error {
         /// Thickness of the organ [m].
         wall: f64,
     },
-    /// A stored response is that of something else.
+    /// A stored response belongs to other inputs.
     #[error("{path} is the response of another organ; delete it, and it is made again when it is needed", path = path.display())]
     OtherResponse {
         /// The file.
@@ -98,17 +98,17 @@ pub enum Error {
     /// A device or its loop cannot be run.
     #[error(transparent)]
     Servo(#[from] palpate_servo::Fault),
-    /// There is not one place for a device for each tool.
+    /// The number of devices differs from the number of tools.
     #[error(
         "the scene has {tools} tools, but {devices} devices were given; give one, or none, for each"
     )]
     OtherDevices {
         /// Tools of the scene.
         tools: usize,
-        /// Devices, and nones, that were given.
+        /// Given devices, including nones.
         devices: usize,
     },
-    /// An estimated inclusion has its middle outside of the organ.
+    /// The centre of an estimated inclusion is outside the organ.
     #[error(
         "the middle of the organ's part {name:?} lies {} mm outside of the organ; move it in (`palpate mesh info` reports where the organ lies)",
         millimetres(*.outside)
@@ -143,7 +143,7 @@ pub enum Error {
         "the organ does not come to rest under the pressure in its cavities, which its tissue bears as it is when it has relaxed; lower their `pressure_pa`"
     )]
     CavityPressure,
-    /// Two inclusions share a place.
+    /// Two inclusions overlap.
     #[error("the organ's parts {one:?} and {other:?} overlap; move them apart")]
     InclusionsOverlap {
         /// The name of one.
@@ -151,41 +151,41 @@ pub enum Error {
         /// The name of the other.
         other: String,
     },
-    /// A session was recorded under other conditions than those of its scene now.
+    /// A session was recorded under conditions other than those of its scene now.
     #[error(
         "the session was recorded with the {what} {was}, and its scene now has {is}; it can be scored, but not be played again"
     )]
     OtherSession {
-        /// Which condition.
+        /// The condition.
         what: &'static str,
-        /// What it was.
+        /// Its recorded value.
         was: String,
-        /// What it is.
+        /// Its current value.
         is: String,
     },
-    /// No session where those of experts should be.
+    /// No expert session at this path.
     #[error(
         "{path} holds no session; name a session's folder, or a folder in which there are some", path = path.display()
     )]
     NoExpert {
-        /// Where was looked.
+        /// The path.
         path: std::path::PathBuf,
     },
-    /// The rows of a session that is played cannot be written.
+    /// The rows of a session cannot be written.
     #[error("{cause}")]
     Unrecorded {
-        /// Why, in a sentence.
+        /// The reason, in a sentence.
         cause: String,
     },
-    /// There is nothing to play again.
+    /// There is nothing to replay.
     #[error("the session has no row; record one in which a tool moves")]
     EmptySession,
-    /// A tool is moved by a device that cannot be opened.
+    /// The device of a tool cannot be opened.
     #[error("the tool {tool:?} has no device: {why}")]
     NoDevice {
         /// The tool.
         tool: String,
-        /// Why it cannot be opened.
+        /// The reason.
         why: OpenError,
     },
     /// A tool would pass through the abdominal wall inside the organ.
@@ -198,39 +198,39 @@ pub enum Error {
         /// How deep it lies [m].
         depth: f64,
     },
-    /// Nothing that a tip can touch is at the place that a task wants touched.
+    /// The target of a task is on no touchable surface.
     #[error(
         "`task.touch.target_m` is {:.1} mm from the nearest neighbour that collides, but only a tip within {:.1} mm of it counts; move it to the surface of that neighbour", 1e3 * distance, 1e3 * tolerance
     )]
     TargetOutOfReach {
-        /// How far the surface is [m].
+        /// Distance of the surface [m].
         distance: f64,
-        /// How far a tip may be [m].
+        /// Largest allowed distance [m].
         tolerance: f64,
     },
-    /// A line that a task wants cut has no length.
+    /// The line of a cutting task has no length.
     #[error("the line of `task.cut` is too short to be one; give it some millimetres")]
     NoLine,
-    /// A line that a task wants cut lies away from the organ.
+    /// The line of a cutting task is away from the organ.
     #[error(
         "the line of `task.cut` is up to {:.1} mm from the organ's surface, but no cut more than {:.1} mm from it passes; move it to the surface, or make it smaller", 1e3 * distance, 1e3 * tolerance
     )]
     LineOffOrgan {
         /// The largest distance from the surface [m].
         distance: f64,
-        /// The largest that may be [m].
+        /// The largest allowed distance [m].
         tolerance: f64,
     },
-    /// The thread of the model ended in a panic.
+    /// The model thread panicked.
     #[error("the model thread panicked, and the devices were stopped; report it as a defect")]
     ModelPanicked,
-    /// Another model cannot take over in a touch that goes on.
+    /// Another model cannot take over during this touch.
     #[error("the simulation cannot continue with this model: {why}; restart")]
     NoTakeOver {
-        /// Why.
+        /// The reason.
         why: &'static str,
     },
-    /// The motion moves a tool that the scene has not.
+    /// The motion moves a tool that is not in the scene.
     #[error("the motion moves the tool {found:?}, but the scene has {known}; name one of these")]
     UnknownTool {
         /// The name in the motion.
@@ -238,7 +238,7 @@ pub enum Error {
         /// The names in the scene.
         known: String,
     },
-    /// The motion takes more steps than can be meant.
+    /// The motion has implausibly many steps.
     #[error(
         "the motion lasts {duration} s, which is {steps} steps of {step} s; at most {most} are played: cut the motion or set a longer `model.step_s`"
     )]
@@ -247,9 +247,9 @@ pub enum Error {
         duration: f64,
         /// Length of a step [s].
         step: f64,
-        /// How many steps that makes.
+        /// Number of steps.
         steps: u64,
-        /// How many are played at most.
+        /// Largest number of steps.
         most: u64,
     },
 }
@@ -260,7 +260,7 @@ fn millimetres(length: f64) -> f64 {
 }
 
 impl Error {
-    /// Whether the user's input is wrong, rather than the machine's disk.
+    /// Whether the input is invalid, rather than the disk at fault.
     pub fn is_input(&self) -> bool {
         match self {
             Self::NoSolid { fault, .. }

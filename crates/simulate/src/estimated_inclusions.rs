@@ -1,12 +1,13 @@
-//! Stiff inclusions whose effect on the force is estimated, for they are in no model that was prepared.
+//! Stiff inclusions that are in no prepared model; their effect on the force is estimated.
 //!
-//! A tip over them is moved less by L F than without, where L follows in closed form from the stress under the tip and the energy that
-//! the inclusion takes from that (`palpate_mechanics::inclusion`): its force F₀(δ) becomes the F of which F = F₀(δ + L F).
+//! Inclusions reduce the displacement of a tip by L F, where L follows in closed form from the stress under the tip and
+//! the energy that the inclusion takes from it (`palpate_mechanics::inclusion`): the tip's force F₀(δ) becomes the F
+//! with F = F₀(δ + L F).
 //!
 //! *How we know*: `regions::estimated_inclusions_press_back_as_finite_elements`, `estimated_inclusions::…`.
 //!
-//! *Limits*: the surface is flat there and the same at every depth; what an inclusion does to a force along the surface is what it does
-//! to one along the normal; the organ's shape is that without it.
+//! *Limits*: the surface is flat there and the same at every depth; the effect on a tangential force is that on a
+//! normal one; the organ's shape is that without inclusions.
 
 use palpate_files::Scene;
 use palpate_files::scene::EstimatedInclusion;
@@ -21,31 +22,32 @@ use crate::simulation::Simulation;
 use crate::state::ToolState;
 use crate::tool::Tool;
 
-/// Rounds, of which a few are needed: where a sphere touches what is nearly all stiff, each leaves 0.9 of the change.
+/// Iterations, of which a few are needed: where a sphere touches nearly only stiff tissue, each leaves 0.9 of the
+/// change.
 const MOST_ROUNDS: usize = 40;
 
-/// Change of the force that ends the rounds, in parts of it: a hundredth of what the estimate is good for [-].
+/// Relative change of the force that ends the iterations: a hundredth of the accuracy of the estimate [-].
 const SETTLED: f64 = 5e-4;
 
 /// Rounds of Newton's method, each of which leaves the square of the error: of a root of 0.1 a thousandth.
 const NEWTON_ROUNDS: usize = 6;
 
-/// What is left at least of a tip's compliance, which is positive but for rounding [-].
+/// Smallest remaining part of a tip's compliance, which is positive except for rounding [-].
 const LEAST_LEFT: f64 = 0.01;
 
-/// Refuses those of `scene`, whose organ has this `surface`, that lie outside of it.
+/// Rejects inclusions of `scene` that lie outside its organ with this `surface`.
 ///
 /// # Errors
-/// When the middle of one is not in the organ.
+/// When the centre of one is not in the organ.
 pub fn check_estimated_inclusions(scene: &Scene, surface: &Surface) -> Result<(), Error> {
     let tree = AabbTree::new(surface.mesh());
     check(&scene.organ.estimated_inclusions, surface, &tree)
 }
 
-/// Those in tissue of the law `around`, for compliances that are scaled to the Young's modulus `unit` [Pa].
+/// The inclusions in tissue of the law `around`, for compliances that are scaled to the Young's modulus `unit` [Pa].
 ///
 /// # Errors
-/// When the middle of one is not in the organ.
+/// When the centre of one is not in the organ.
 pub(crate) fn field(
     inclusions: &[EstimatedInclusion],
     surface: &Surface,
@@ -74,7 +76,7 @@ fn check(
     Ok(())
 }
 
-/// Makes the force of a tip that touches, and its stiffness, what they are over the inclusions of the `field`.
+/// Corrects the force and stiffness of a tip in contact for the inclusions of the `field`.
 pub(crate) fn stiffen(
     simulation: &Simulation,
     field: &InclusionField,
@@ -93,7 +95,7 @@ pub(crate) fn stiffen(
     }
     let (point, normal) = (contact.point(), contact.rest_normal());
     let exchange = TipExchange::unsolved(field, tool.tip, &point, &normal);
-    // What is more than a linear tip's is a nonlinear law's, which the inclusion has as well.
+    // The rest beyond a linear tip comes from a nonlinear law, which the inclusion has as well.
     let most = 2.0 * radius * law.youngs_modulus() / (1.0 - law.poissons_ratio().powi(2));
     let stiffness = normal.dot(&(state.stiffness * normal)).clamp(0.0, most);
     let yields = |ratio: f64| {

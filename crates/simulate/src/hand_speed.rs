@@ -1,8 +1,7 @@
-//! A hand has a fastest speed. A pose farther from the last one than a hand gets in that time is not where the tool
-//! was moved to but where it was set down: a tracker that lost it, a slip in a motion file, a device that restarts.
-//!
-//! The model knows nothing of the path between the two poses, so nothing is pulled along it: the tool loses what it
-//! touched and held ([`Event::Jump`]) and touches anew where it is now, as in the first step of a motion.
+//! The largest plausible hand speed. A pose farther from the last one than a hand gets in that time is not a motion but
+//! a jump: a tracker that lost the tool, an error in a motion file, a device that restarts.
+//! The model knows nothing of the path between the two poses, so it drags nothing along: the tool releases its contact
+//! and its held tissue ([`Event::Jump`]) and touches anew at its new pose, as in the first step of a motion.
 //!
 //! *How we know*: `grip::jumps::…`.
 
@@ -18,8 +17,8 @@ use crate::state::ToolState;
 /// the organ is wide.
 pub const FASTEST_HAND: f64 = 20.0;
 
-/// Releases what the tool touched and held where `pose` is farther away than a hand gets in `elapsed` [s], and at least
-/// in a step of the model.
+/// Releases the tool's contact and held tissue if `pose` is farther away than a hand gets in `elapsed` [s], and in at
+/// least one step of the model.
 pub(crate) fn follow(
     simulation: &Simulation,
     pose: Option<&Pose>,
@@ -29,8 +28,8 @@ pub(crate) fn follow(
     let (Some(before), Some(now)) = (&state.pose, pose) else {
         return Events::NONE;
     };
-    let way = (Vec3::from(now.position_m) - Vec3::from(before.position_m)).norm();
-    let speed = way / elapsed.max(simulation.step);
+    let distance = (Vec3::from(now.position_m) - Vec3::from(before.position_m)).norm();
+    let speed = distance / elapsed.max(simulation.step);
     if speed <= FASTEST_HAND {
         return Events::NONE;
     }

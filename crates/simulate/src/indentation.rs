@@ -1,13 +1,12 @@
-//! A motion that presses a tip straight into an organ, as deep as an indenter was pressed into a specimen.
+//! A motion that indents an organ with a tip along its normal, as deep as an indenter indented a specimen.
 //!
-//! At depth d the tip's reference point, the centre of a flat face or of a sphere of radius r, is at
-//! x + (r − d) n or x − d n: x is a place of the organ at rest and n its outward normal there, as the tip
-//! feels it.
+//! At depth d the tip's reference point, the centre of a flat face or of a sphere of radius r, is at x + (r − d) n or x
+//! − d n: x is a point of the organ at rest and n its outward normal there, averaged over the tip.
 //!
-//! *How we know*: `indentation::…`: the session's depth is the one that was asked for.
+//! *How we know*: `indentation::…`: the session's depth is the requested one.
 //!
-//! *Limits*: where the organ is thin, or its surface turns within a few radii of the tip, the depth that is
-//! felt is not the one along the normal; a session says which it was.
+//! *Limits*: where the organ is thin, or its surface turns within a few radii of the tip, the contact depth is not the
+//! depth along the normal; a session records it.
 
 use palpate_files::motion::{MotionRow, ToolMotion};
 use palpate_files::{Motion, Pose};
@@ -15,18 +14,18 @@ use palpate_geometry::Vec3;
 
 use crate::{Simulation, Tool};
 
-/// A place of an organ at rest, and the way out of it.
+/// A point of an organ at rest, with its normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Site {
-    /// Where it is [m].
+    /// The point [m].
     pub point: Vec3,
     /// The outward normal, of length 1 [-].
     pub normal: Vec3,
 }
 
 impl Simulation {
-    /// The place of the organ at rest that is nearest to a point [m], as `tool` feels it; without a point, the
-    /// one nearest to the middle of the top (+z) of the box around the organ.
+    /// The point of the organ at rest that is closest to a given point [m], for `tool`; without one, the point closest
+    /// to the middle of the top (+z) of the organ's bounding box.
     pub fn site(&self, tool: &Tool, near: Option<Vec3>) -> Site {
         let (low, high) = self.surface.mesh().bounds();
         let top = Vec3::new(0.5 * (low.x + high.x), 0.5 * (low.y + high.y), high.z);
@@ -45,7 +44,7 @@ impl Simulation {
 }
 
 impl Site {
-    /// The motion of `tool` that is `depths` [m] deep here at `times` [s]; a depth below zero is above the organ.
+    /// The motion of `tool` that is `depths` [m] deep here at `times` [s]; a negative depth is above the organ.
     ///
     /// # Errors
     /// When there are no times, they do not grow, or a number is not finite.

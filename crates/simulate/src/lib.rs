@@ -1,4 +1,4 @@
-//! Tools that meet an organ: from a scene and the motion of tools to forces, deformation and events.
+//! Simulation of tools on an organ: from a scene and the motion of tools to forces, deformation and events.
 //!
 //! ```text
 //! Scene ──Simulation::new──▶ Simulation ──step──▶ SimulationState (forces, contacts, moved surface)
@@ -6,10 +6,9 @@
 //!                     Motion ──poses──            SessionRow per tool
 //! ```
 //!
-//! A [`Simulation`] is built once and never changes; a [`SimulationState`] is all that a step changes;
-//! a [`SimulationWorkspace`] is scratch. [`play`] runs a whole motion on a virtual clock: nothing there
-//! waits, and the same motion gives the same bytes. [`interactive`] runs the same steps beside a servo loop
-//! and a display, for a hand.
+//! A [`Simulation`] is built once and never changes; a [`SimulationState`] has all state that a step changes; a
+//! [`SimulationWorkspace`] is scratch. [`play`] runs a whole motion on a virtual clock: nothing there waits, and the
+//! same motion gives the same bytes. [`interactive`] runs the same steps in real time, with a servo loop and a display.
 //!
 //! ```
 //! use palpate_files::{Pose, Scene};

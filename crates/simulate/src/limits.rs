@@ -1,4 +1,4 @@
-//! Bounds of the models that acted while tools touched, counted during the steps and told afterwards.
+//! Counts of the model bounds that acted while tools touched, reported afterwards.
 //!
 //! *How we know*: `limits::…`.
 
@@ -6,26 +6,26 @@ use palpate_mechanics::{Limit, Limits, Reached};
 
 use crate::hand_speed::FASTEST_HAND;
 
-/// How often each bound acted under one tool, and its worst case. A step only counts.
+/// Counts and worst cases of each bound under one tool. A step only counts.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LimitCounts {
     steps: u64,
     acted: [u64; Limit::ALL.len()],
     worst: Limits,
-    /// Steps that were too far for a hand, and the fastest of them [m/s].
+    /// Steps too long for a hand, and the largest speed among them [m/s].
     jumps: u64,
     fastest: f64,
     energy_gains: u64,
 }
 
 impl LimitCounts {
-    /// Counts a step that no hand moves, with its `speed` [m/s].
+    /// Counts a step that exceeds the speed of a hand, with its `speed` [m/s].
     pub(crate) fn count_jump(&mut self, speed: f64) {
         self.jumps += 1;
         self.fastest = self.fastest.max(speed);
     }
 
-    /// Counts a touch that gave back more work than was done.
+    /// Counts a touch that returned more work than was done.
     pub(crate) fn count_energy_gain(&mut self) {
         self.energy_gains += 1;
     }
@@ -49,7 +49,7 @@ impl LimitCounts {
         &self.worst
     }
 
-    /// One plain sentence for each bound that acted under the tip of the tool with this name.
+    /// One sentence for each bound that acted under the tip of the tool with this name.
     pub fn warnings(&self, tool: &str) -> impl Iterator<Item = String> {
         let jumps = (self.jumps > 0).then(|| {
             format!(
@@ -151,7 +151,7 @@ fn sentence(limit: Limit, reached: &Reached, tool: &str, when: &str) -> String {
     }
 }
 
-/// What a stiffness of this part of the unbounded one lacks.
+/// The missing part of the unbounded stiffness.
 fn too_low(part: f64) -> String {
     match part > 0.0 {
         true => format!(

@@ -1,12 +1,13 @@
-//! Neighbours at which tools stop: bodies of fixed shape that push a tip back along their surface's normal.
+//! Neighbours that stop tools: rigid bodies that push a tip back along their surface normal.
 //!
-//! A tip that is d deep is pushed with k d, k the neighbour's stiffness. One that sticks is held in place by the same k, up to its friction. A tool
-//! touches a neighbour once it comes from outside: one that first appears within it, as where an organ grows through
-//! the diaphragm, is let out.
+//! At the depth d a neighbour pushes a tip with k d, k being its stiffness. A tip that sticks is held with the same k,
+//! up to its friction. A tool touches a neighbour once it comes from outside: a neighbour lets out a tool that first
+//! appears inside it, as where an organ grows through the diaphragm.
 //!
 //! *How we know*: `neighbours::…`.
 //!
-//! *Limits*: no shafts touch them, and only an organ of the nonlinear model stays out of them (`nonlinear::neighbours`).
+//! *Limits*: no contact with shafts, and only an organ of the nonlinear model stays out of them
+//! (`nonlinear::neighbours`).
 
 use nalgebra::Matrix3;
 use palpate_files::Scene;
@@ -20,34 +21,34 @@ use crate::state::{SimulationState, ToolState};
 use crate::tool::Tool;
 use crate::{Error, organ};
 
-/// A body at which tools stop.
+/// A body that stops tools.
 #[derive(Debug, Clone)]
 pub(crate) struct Neighbour {
     pub(crate) surface: Surface,
     tree: AabbTree,
-    /// Its normals as each tool feels them.
+    /// Its normals for each tool.
     patches: Vec<PatchField>,
     radius: f64,
-    /// Coulomb's coefficient between it and the organ [-].
+    /// Coulomb friction coefficient between it and the organ [-].
     pub(crate) friction: f64,
     /// The force on a tip per depth [N/m].
     pub(crate) stiffness: f64,
 }
 
-/// What neighbours do to one tool.
+/// The action of neighbours on one tool.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Stopped {
-    /// Where the tip was in the last step [m].
+    /// The tip in the last step [m].
     tip: Option<Vec3>,
-    /// Force on the tool [N], how it changes with the tip's place [N/m], and the normal of what was touched last [-].
+    /// Force on the tool [N], its derivative with the tip's position [N/m], and the normal of the last contact [-].
     pub(crate) force: Vec3,
     pub(crate) gradient: Matrix3<f64>,
     pub(crate) normal: Option<Vec3>,
 }
 
-/// The place of a neighbour that is nearest to another.
+/// The point of a neighbour that is closest to another point.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct NearestPlace {
+pub(crate) struct ClosestPoint {
     /// Signed distance, negative inside [m].
     pub(crate) distance: f64,
     /// Smooth normal there [-].
@@ -56,7 +57,7 @@ pub(crate) struct NearestPlace {
 }
 
 impl Neighbour {
-    /// Those of `scene` at which its tools stop. The others are read too, so that a missing file is told here.
+    /// The neighbours of `scene` that stop its tools. The others are read too, so that a missing file is reported here.
     pub(crate) fn all(scene: &Scene, tools: &[Tool]) -> Result<Vec<Self>, Error> {
         let mut all = Vec::new();
         for neighbour in &scene.neighbours {
@@ -82,8 +83,8 @@ impl Neighbour {
         Ok(all)
     }
 
-    /// The place nearest to `place` [m]; the search is faster if `near` is a triangle close to it.
-    pub(crate) fn nearest(&self, place: &Vec3, near: Option<TriangleId>) -> NearestPlace {
+    /// The point closest to `place` [m]; the search is faster if `near` is a triangle close to it.
+    pub(crate) fn nearest(&self, place: &Vec3, near: Option<TriangleId>) -> ClosestPoint {
         let (nearest, distance) = self.surface.signed_distance_from(&self.tree, place, near);
         let corners = self.surface.mesh().corners(nearest.triangle);
         let normals = self.surface.vertex_normals();
@@ -92,7 +93,7 @@ impl Neighbour {
             .zip(nearest.on.barycentric)
             .map(|(node, weight)| normals[node.index()] * weight)
             .sum();
-        NearestPlace {
+        ClosestPoint {
             distance,
             normal: normal.normalize(),
             triangle: nearest.triangle,
@@ -110,7 +111,7 @@ impl Neighbour {
     }
 }
 
-/// Adds what neighbours do to tool `number`.
+/// Adds the forces of neighbours on tool `number`.
 pub(crate) fn press(simulation: &Simulation, number: usize, state: &mut SimulationState) {
     let neighbours = &simulation.neighbours;
     let own = &mut state.tools[number];

@@ -11,10 +11,10 @@ use palpate_mechanics::Material;
 
 use crate::Error;
 
-/// The tissue of `choice`, which must be one that a simulation can take, and its material.
+/// The tissue of `choice`, which must be suitable for a simulation, and its material.
 ///
 /// # Errors
-/// When it cannot be read, is that of no solid, or has fibres, whose direction a scene does not give.
+/// When it cannot be read, is not a solid, or has fibres, whose direction a scene does not give.
 pub fn read_tissue(choice: &TissueChoice) -> Result<(Tissue, Material), Error> {
     let tissue = choice.read()?;
     let material = Material::isotropic(&tissue, "a simulation")?;
@@ -24,7 +24,7 @@ pub fn read_tissue(choice: &TissueChoice) -> Result<(Tissue, Material), Error> {
 /// The surface of `shape`, read and repaired or made, and warnings.
 ///
 /// # Errors
-/// When the file cannot be read or what it holds bounds no solid.
+/// When the file cannot be read or its mesh encloses no solid.
 pub fn read_organ(shape: &Shape) -> Result<(Surface, Vec<String>), Error> {
     match shape {
         Shape::Builtin { organ, triangles } => {
@@ -54,8 +54,8 @@ pub fn read_organ(shape: &Shape) -> Result<(Surface, Vec<String>), Error> {
                 let fault = match problem.kind {
                     ProblemKind::DoubleWall => "the solid is a thin sheet with two sides",
                     ProblemKind::SelfIntersecting => "the surface passes through itself",
-                    // Slivers are felt no worse than other triangles; the size got a warning on reading,
-                    // and the rest is not there any more.
+                    // Slivers are as good as other triangles for the forces; the size got a warning on reading, and the
+                    // other problems are repaired.
                     _ => continue,
                 };
                 warnings.push(format!("{}: {fault}. {}", path.display(), problem.remedy));
@@ -65,10 +65,10 @@ pub fn read_organ(shape: &Shape) -> Result<(Surface, Vec<String>), Error> {
     }
 }
 
-/// The surface of `neighbour` where it stands, and warnings.
+/// The surface of `neighbour` at its location, and warnings.
 ///
 /// # Errors
-/// When its file cannot be read, what it holds bounds no solid, or it stands too far away for numbers.
+/// When its file cannot be read, its mesh encloses no solid, or it is too far away for floating-point numbers.
 pub fn read_neighbour(neighbour: &Neighbour) -> Result<(Surface, Vec<String>), Error> {
     let (surface, warnings) = read_organ(&neighbour.shape)?;
     let Location {
@@ -84,14 +84,14 @@ pub fn read_neighbour(neighbour: &Neighbour) -> Result<(Surface, Vec<String>), E
     Ok((Surface::new(mesh).map_err(misplaced)?, warnings))
 }
 
-/// A `place` of the scene [m] in the frame of a body that stands at `location`.
+/// A `place` of the scene [m] in the frame of a body at `location`.
 pub(crate) fn back(location: &Location, place: &Vec3) -> Vec3 {
     let [x, y, z] = location.turn_rad;
     let turn = Rotation3::from_euler_angles(x, y, z);
     turn.inverse() * (place - Vec3::from(location.at_m)) / location.scale
 }
 
-/// Where an organ of `shape` is held: as `stated`, or else where a built-in one grows.
+/// The fixed region of an organ of `shape`: as `stated`, or that of the built-in organ.
 pub fn held_region(shape: &Shape, stated: Option<&Region>) -> Region {
     match (stated, shape) {
         (Some(stated), _) => stated.clone(),
@@ -110,7 +110,7 @@ fn plane(plane: &AnchorPlane) -> RegionPlane {
     }
 }
 
-/// The organ that a scene's word names.
+/// The organ of this name in a scene.
 pub fn builtin_organ(organ: BuiltinOrgan) -> Organ {
     match organ {
         BuiltinOrgan::Esophagus => Organ::Esophagus,

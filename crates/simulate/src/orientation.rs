@@ -1,15 +1,14 @@
-//! Which way a shaft points. A quaternion takes the tool's frame to the scene; the shaft runs along the
-//! tool's +z, away from the tissue.
+//! The direction of a shaft. A quaternion takes the tool's frame to the scene; the shaft runs along the tool's +z, away
+//! from the tissue.
 
 use nalgebra::{Quaternion, Unit, UnitQuaternion};
 use palpate_geometry::Vec3;
 
-/// How far two directions of length one are apart that are the same but for rounding [-].
+/// Distance of two unit directions that are equal up to rounding [-].
 const ROUNDING: f64 = 1e-12;
 
-/// The orientation of a tool at `tip` [m] as the contract has it: with a trocar the shaft runs to it and
-/// a quaternion gives the roll; else the quaternion; else the surface's outward normal, where there is
-/// contact; else upright.
+/// The orientation of a tool at `tip` [m] by the contract: with a trocar the shaft runs to it and a quaternion gives
+/// the roll; else the quaternion; else the surface's outward normal, if there is contact; else upright.
 pub(crate) fn orientation(
     tip: &Vec3,
     trocar: Option<&Vec3>,
@@ -18,7 +17,7 @@ pub(crate) fn orientation(
 ) -> UnitQuaternion<f64> {
     let given = given.map(|[x, y, z, w]| unit(Quaternion::new(w, x, y, z)));
     match (trocar.and_then(|t| (t - tip).try_normalize(1e-9)), given) {
-        // What was recorded is played again to the last bit.
+        // A recorded orientation replays to the last bit.
         (Some(shaft), Some(given)) if (given * Vec3::z() - shaft).norm() < ROUNDING => given,
         (Some(shaft), roll) => {
             let roll = roll.map_or(UnitQuaternion::identity(), |q| twist_about_z(&q));
@@ -29,7 +28,7 @@ pub(crate) fn orientation(
     }
 }
 
-/// What is one but for rounding stays as it is.
+/// A quaternion that is a unit up to rounding stays unchanged.
 fn unit(quaternion: Quaternion<f64>) -> UnitQuaternion<f64> {
     match (quaternion.norm_squared() - 1.0).abs() < ROUNDING {
         true => Unit::new_unchecked(quaternion),

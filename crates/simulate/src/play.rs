@@ -6,23 +6,23 @@ use palpate_files::{Motion, SessionRow};
 use crate::summary::{Summary, Tally};
 use crate::{Error, Simulation, SimulationState, SimulationWorkspace, step};
 
-/// More steps than this in one motion are a slip of the keyboard: 55 hours at 200 Hz.
+/// A motion with more steps than this is probably a typing error: 55 hours at 200 Hz.
 const MOST_STEPS: u64 = 40_000_000;
 
-/// Whether to go on after a step.
+/// Whether to continue after a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Flow {
-    /// On to the next step.
+    /// Continue with the next step.
     GoOn,
-    /// End here; what was played counts.
+    /// End here; the steps so far count.
     Stop,
 }
 
-/// A step that was played.
+/// A completed step.
 pub struct Frame<'a> {
     /// Number of the step, from zero.
     pub number: u64,
-    /// How many there will be.
+    /// Number of all steps.
     pub steps: u64,
     /// Its time [s].
     pub time: f64,
@@ -31,14 +31,13 @@ pub struct Frame<'a> {
 }
 
 impl Frame<'_> {
-    /// What the session records of this step: a row for each tool that is there.
+    /// The rows of this step for the session: one for each tool that is present.
     pub fn rows(&self) -> impl Iterator<Item = &SessionRow> {
         let present = self.state.tools.iter().filter(|tool| tool.pose.is_some());
         present.map(|tool| &tool.row)
     }
 
-    /// Whether this step is one of `wanted`, evenly from the first to the last, of which `done` were
-    /// taken.
+    /// Whether this step is one of `wanted` frames, evenly from the first to the last, of which `done` were taken.
     pub fn is_due(&self, done: u64, wanted: u64) -> bool {
         let due = match wanted {
             0 => return false,
@@ -49,21 +48,20 @@ impl Frame<'_> {
     }
 }
 
-/// Refuses a motion that cannot be played: before a result is written anywhere.
+/// Rejects a motion that cannot be played, before a result is written anywhere.
 ///
 /// # Errors
-/// When the motion moves a tool that the scene has not or takes too many steps.
+/// When the motion moves a tool that is not in the scene or takes too many steps.
 pub fn check_motion(simulation: &Simulation, motion: &Motion) -> Result<(), Error> {
     match_tools(simulation, motion)?;
     whole_steps(simulation, motion.final_time_s() - motion.first_time_s())?;
     Ok(())
 }
 
-/// Plays a whole motion, from its first time to its last, as fast as it goes; `observe` sees every step.
+/// Plays a whole motion, from its first time to its last, as fast as possible; it calls `observe` after every step.
 ///
 /// # Errors
-/// When the motion moves a tool that the scene has not or takes too many steps, and whatever `observe`
-/// answers.
+/// When the motion moves a tool that is not in the scene or takes too many steps, and every error of `observe`.
 pub fn play<E: From<Error>>(
     simulation: &Simulation,
     motion: &Motion,

@@ -6,25 +6,25 @@ use palpate_geometry::Vec3;
 /// Points joined by straight pieces.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Polyline {
-    /// Points [m], and how far along the line they are [m].
+    /// Points [m], and their arc length along the line [m].
     points: Vec<(f64, Vec3)>,
     /// Twice the area that a closed line encloses, along its normal [m²]; none of an open one.
     enclosed: Option<Vec3>,
 }
 
-/// The place of a line that is nearest to another one.
+/// The point of a line that is closest to another point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct NearestOnLine {
-    /// How far along the line it is [m].
+    /// Arc length of it along the line [m].
     pub(crate) along: f64,
-    /// From it to the other place [m].
+    /// From it to the other point [m].
     pub(crate) aside: Vec3,
-    /// Whether the other place is inside of the line; none of an open one.
+    /// Whether the other point is inside the line; none for an open one.
     pub(crate) is_inside: Option<bool>,
 }
 
 impl Polyline {
-    /// The line of a cut; none where it has no length.
+    /// The line of a cut; none if it has no length.
     pub(crate) fn new(line: &CutLine) -> Option<Self> {
         let mut points: Vec<(f64, Vec3)> = Vec::new();
         for point in line.points_m() {
@@ -59,7 +59,7 @@ impl Polyline {
         self.points.iter().map(|(_, point)| *point)
     }
 
-    /// The place so far along it [m]: beyond the ends of an open line straight on, of a closed one around again.
+    /// The point at this arc length [m]: beyond the ends of an open line straight on, of a closed one around again.
     pub(crate) fn at(&self, along: f64) -> Vec3 {
         let along = match self.is_closed() {
             true => along.rem_euclid(self.length()),
@@ -71,7 +71,7 @@ impl Polyline {
         from + (to - from) * ((along - start) / (stop - start))
     }
 
-    /// The straight pieces between two places along it [m]: their ends [m].
+    /// The straight pieces between two arc lengths [m]: their ends [m].
     pub(crate) fn pieces(&self, from: f64, to: f64) -> Vec<[Vec3; 2]> {
         let inner = self.points.iter().map(|(along, _)| *along);
         let inner = inner.filter(|along| from < *along && *along < to);
@@ -86,7 +86,7 @@ impl Polyline {
         pieces.map(|piece| [at(piece[0]), at(piece[1])]).collect()
     }
 
-    /// Its place that is nearest to `place` [m].
+    /// Its point that is closest to `place` [m].
     pub(crate) fn nearest(&self, place: &Vec3) -> NearestOnLine {
         let mut found = NearestOnLine {
             along: 0.0,
@@ -95,17 +95,17 @@ impl Polyline {
         };
         for piece in self.points.windows(2) {
             let ((start, from), (stop, to)) = (piece[0], piece[1]);
-            let way = to - from;
-            let part = (place - from).dot(&way) / way.norm_squared();
+            let segment = to - from;
+            let part = (place - from).dot(&segment) / segment.norm_squared();
             let part = if part.is_finite() {
                 part.clamp(0.0, 1.0)
             } else {
                 0.0
             };
-            let aside = place - (from + way * part);
+            let aside = place - (from + segment * part);
             if aside.norm_squared() < found.aside.norm_squared() {
-                // A closed line goes counter-clockwise about what it encloses.
-                let outward = self.enclosed.map(|enclosed| way.cross(&enclosed));
+                // A closed line runs counter-clockwise about its enclosed area.
+                let outward = self.enclosed.map(|enclosed| segment.cross(&enclosed));
                 found = NearestOnLine {
                     along: start + (stop - start) * part,
                     aside,

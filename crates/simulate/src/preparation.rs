@@ -6,15 +6,14 @@ use palpate_devices::publisher::Publisher;
 
 use crate::Error;
 
-/// What may be used to make a simulation.
+/// Resources for making a simulation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Resources {
-    /// The folder in which responses of whole organs are kept, and looked for first; none: they are solved
-    /// anew each time.
+    /// The folder of stored responses of whole organs, which is searched first; none: they are solved anew each time.
     pub responses: Option<PathBuf>,
-    /// Memory [byte] that may be taken; what needs more is refused before it begins.
+    /// The memory limit [byte]; a model that needs more is rejected before it begins.
     pub memory: usize,
-    /// Where services and libraries of haptic devices are looked for.
+    /// Where to look for services and libraries of haptic devices.
     pub devices: Places,
     /// Servers that send the running simulation to other programs.
     pub publishers: Vec<Publisher>,
@@ -24,7 +23,7 @@ pub struct Resources {
 const MEMORY: usize = 8 << 30;
 
 impl Default for Resources {
-    /// Nothing is kept, and eight gibibytes may be used.
+    /// Stores nothing, and uses up to eight gibibytes.
     fn default() -> Self {
         Self {
             responses: None,
@@ -35,12 +34,12 @@ impl Default for Resources {
     }
 }
 
-/// Work that may take long while a simulation is made.
+/// Long work while a simulation is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Work {
     /// The force of nonlinear tissue over depth.
     ForceOverDepth,
-    /// A stored response of the whole organ is read.
+    /// Reading a stored response of the whole organ.
     Reading,
     /// The influences of the organ's triangles on one another.
     Influences,
@@ -48,14 +47,14 @@ pub enum Work {
     Tetrahedra,
     /// The factors of the equations.
     Factors,
-    /// The answer to a force on each touchable triangle.
+    /// The response to a force on each touchable triangle.
     Responses,
-    /// The response is stored.
+    /// Storing the response.
     Storing,
 }
 
 impl Work {
-    /// What is being done, for people.
+    /// A description for people.
     pub fn words(self) -> &'static str {
         match self {
             Self::ForceOverDepth => "the tissue's force over depth",
@@ -69,28 +68,28 @@ impl Work {
     }
 }
 
-/// How far the making of a simulation is.
+/// The progress of making a simulation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
-    /// What is being done.
+    /// The current work.
     pub work: Work,
-    /// How much of it is done [-]; of a response, how much of all its works.
+    /// The completed part of it [-]; for a response, of all its works.
     pub part: f64,
 }
 
 impl Progress {
-    /// At the beginning of a work that is told alone.
+    /// The beginning of a work that reports no parts.
     pub(crate) fn begin(work: Work) -> Self {
         Self { work, part: 0.0 }
     }
 }
 
-/// Tells what is begun; an error when it shall not be.
-pub(crate) fn tell(
-    watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+/// Reports the beginning of a work; an error if it is cancelled.
+pub(crate) fn report_progress(
+    on_progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     progress: Progress,
 ) -> Result<(), Error> {
-    match watch(progress) {
+    match on_progress(progress) {
         ControlFlow::Continue(()) => Ok(()),
         ControlFlow::Break(()) => Err(palpate_mechanics::Error::BrokenOff.into()),
     }

@@ -1,13 +1,13 @@
-//! A session played again: the same hands on the same organ give the same forces, to the last bit.
+//! Replay of a session: the same motions on the same organ give the same forces, to the last bit.
 //!
-//! A row has where its tool was; that it was gone (`lifted`), that a cut was taken back (`undo_cut`) and that all
-//! began anew (`reset`) are events. Rows of one time are one step, as long as the time between them.
+//! A row has the pose of its tool; events mark that the tool left (`lifted`), that a cut was undone (`undo_cut`) and
+//! that all restarted (`reset`). Rows of one time are one step, as long as the time between them.
 //!
 //! *How we know*: `replay::what_was_felt_is_felt_again`, `replay::going_back_is_exact`,
 //! `replay::states_from_ahead_are_those_of_the_session`.
 //!
-//! *Limits*: without an orientation of its own a free tool's shaft was not known; played again with another model than the
-//! nonlinear one it is, and may be told to touch where it did not before. Rows that were lost stay lost.
+//! *Limits*: the shaft of a free tool without an orientation of its own is unknown; replayed with another model than
+//! the nonlinear one it is known, and may cause contact events that the session does not have. Lost rows stay lost.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -19,29 +19,29 @@ use palpate_files::{Event, Pose, Session, SessionRow};
 use crate::interactive::DISPLAY;
 use crate::{Error, Simulation, SimulationState, SimulationWorkspace, step};
 
-/// Time between two states that are kept to go to [s], where a session is short.
+/// Interval of the stored states for seeking [s], in a short session.
 const APART: f64 = 1.0;
 
-/// States that are kept of a long one: some megabytes each.
-const KEPT: f64 = 128.0;
+/// Number of stored states of a long session: some megabytes each.
+const STORED_STATES: f64 = 128.0;
 
-/// A session that is played again, step by step, forth and back.
+/// A session that is replayed step by step, forwards and backwards.
 pub struct Replay {
-    course: Course,
+    recorded: RecordedSession,
     state: SimulationState,
     workspace: SimulationWorkspace,
-    /// How many steps were played.
+    /// Number of replayed steps.
     played: usize,
-    /// States by the number of steps before them.
-    kept: BTreeMap<usize, SimulationState>,
-    /// Further ones, from a thread that plays ahead.
+    /// Stored states by the number of steps before them.
+    stored: BTreeMap<usize, SimulationState>,
+    /// Further stored states, from a thread that plays ahead.
     ahead: Option<Receiver<(usize, SimulationState)>>,
     poses: Vec<Option<Pose>>,
 }
 
-/// What happened, and on what.
+/// The recorded session, and its simulation.
 #[derive(Clone)]
-struct Course {
+struct RecordedSession {
     simulation: Arc<Simulation>,
     rows: Arc<[SessionRow]>,
     /// The pose of each.
@@ -51,10 +51,10 @@ struct Course {
 }
 
 impl Replay {
-    /// Nothing is played yet.
+    /// A replay before its first step.
     ///
     /// # Errors
-    /// When the session is of another scene, model or step, or there is nothing in it.
+    /// When the session is of another scene, model or step, or is empty.
     pub fn new(simulation: Arc<Simulation>, session: &Session) -> Result<Self, Error> {
         let (was, is) = (&session.header, simulation.session_header());
         let other = |what, was: &dyn ToString, is: &dyn ToString| Error::OtherSession {
@@ -87,7 +87,7 @@ impl Replay {
         if steps.is_empty() {
             return Err(Error::EmptySession);
         }
-        Ok(Self::of(Course {
+        Ok(Self::of(RecordedSession {
             simulation,
             rows: session.rows.iter().map(in_scene).collect(),
             poses: session.poses().collect(),
@@ -95,31 +95,31 @@ impl Replay {
         }))
     }
 
-    fn of(course: Course) -> Self {
-        let simulation = &course.simulation;
+    fn of(recorded: RecordedSession) -> Self {
+        let simulation = &recorded.simulation;
         Self {
-            state: course.start(),
+            state: recorded.start(),
             workspace: SimulationWorkspace::new(simulation),
             poses: vec![None; simulation.tools().len()],
             played: 0,
-            kept: BTreeMap::new(),
+            stored: BTreeMap::new(),
             ahead: None,
-            course,
+            recorded,
         }
     }
 
-    /// Plays the session on a thread of its own as well, once, so that [`Self::go_to`] and [`Self::jump`] soon find a
-    /// state near every step. Where there is no thread to be had, they know what was played.
+    /// Also replays the session once on a background thread, so that [`Self::go_to`] and [`Self::jump`] soon find a
+    /// state near every step. If the system provides no thread, only states of replayed steps are available.
     pub fn look_ahead(&mut self) {
         let (sender, receiver) = sync_channel(4);
-        let course = self.course.clone();
+        let recorded = self.recorded.clone();
         let ahead = std::thread::Builder::new().name("palpate-replay".to_owned());
         let ahead = ahead.spawn(move || {
-            let mut replay = Self::of(course);
+            let mut replay = Self::of(recorded);
             while replay.advance() {
-                // Nobody listens any more once the session is closed.
-                if let Some(kept) = replay.kept.pop_first()
-                    && sender.send(kept).is_err()
+                // The receiver is gone once the session is closed.
+                if let Some(stored) = replay.stored.pop_first()
+                    && sender.send(stored).is_err()
                 {
                     break;
                 }
@@ -128,56 +128,58 @@ impl Replay {
         self.ahead = ahead.is_ok().then_some(receiver);
     }
 
-    /// How many steps there are.
+    /// Number of all steps.
     pub fn steps(&self) -> usize {
-        self.course.steps.len()
+        self.recorded.steps.len()
     }
 
-    /// How many were played.
+    /// Number of replayed steps.
     pub fn played(&self) -> usize {
         self.played
     }
 
     /// The time of a step [s].
     pub fn time(&self, step: usize) -> f64 {
-        self.course.time(step)
+        self.recorded.time(step)
     }
 
-    /// The state after the steps that were played.
+    /// The state after the replayed steps.
     pub fn state(&self) -> &SimulationState {
         &self.state
     }
 
-    /// What was recorded of the last step that was played, with the scene's numbers of its tools; nothing
-    /// before the first.
+    /// The recorded rows of the last replayed step, with the scene's numbers of its tools; empty before the first.
     pub fn recorded(&self) -> &[SessionRow] {
         self.recorded_in(self.played.saturating_sub(1)..self.played)
     }
 
-    /// What was recorded of these steps, with the scene's numbers of its tools.
+    /// The recorded rows of these steps, with the scene's numbers of their tools.
     ///
     /// # Panics
     /// When there are no such steps.
     pub fn recorded_in(&self, steps: Range<usize>) -> &[SessionRow] {
-        match &self.course.steps[steps] {
+        match &self.recorded.steps[steps] {
             [] => &[],
-            [first, .., last] => &self.course.rows[first.start..last.end],
-            [only] => &self.course.rows[only.clone()],
+            [first, .., last] => &self.recorded.rows[first.start..last.end],
+            [only] => &self.recorded.rows[only.clone()],
         }
     }
 
-    /// Plays the next step. Whether there was one.
+    /// Replays the next step. Returns whether there was one.
     pub fn advance(&mut self) -> bool {
-        let course = &self.course;
-        let Some(step_rows) = course.steps.get(self.played).cloned() else {
+        let recorded = &self.recorded;
+        let Some(step_rows) = recorded.steps.get(self.played).cloned() else {
             return false;
         };
-        let (rows, poses) = (&course.rows[step_rows.clone()], &course.poses[step_rows]);
+        let (rows, poses) = (
+            &recorded.rows[step_rows.clone()],
+            &recorded.poses[step_rows],
+        );
         let time = rows[0].time_s;
-        let mut before = self.played.checked_sub(1).map(|last| course.time(last));
+        let mut before = self.played.checked_sub(1).map(|last| recorded.time(last));
         let happened = |event| rows.iter().any(|row| row.events.contains(event));
         if happened(Event::BeginAnew) {
-            self.state.reset(&course.simulation);
+            self.state.reset(&recorded.simulation);
             before = None;
         }
         if happened(Event::UndoCut) {
@@ -190,7 +192,7 @@ impl Replay {
             }
         }
         step(
-            &course.simulation,
+            &recorded.simulation,
             time,
             before.map_or(0.0, |before| time - before),
             &self.poses,
@@ -198,44 +200,45 @@ impl Replay {
             &mut self.workspace,
         );
         self.played += 1;
-        self.keep();
+        self.store();
         true
     }
 
-    /// Plays until so many steps were played, forth, or back and forth from the nearest state that was kept.
+    /// Goes to the state after this number of steps, forwards, or backwards from the nearest stored state.
     pub fn go_to(&mut self, played: usize) {
         self.jump(played);
         while self.played < played && self.advance() {}
     }
 
-    /// Takes the last state that was kept before so many steps were played, where it is nearer than the present one.
-    /// It computes nothing.
+    /// Takes the last stored state before this number of steps, if it is nearer than the present one. It computes
+    /// nothing.
     pub fn jump(&mut self, played: usize) {
         if let Some(ahead) = &self.ahead {
-            self.kept.extend(ahead.try_iter());
+            self.stored.extend(ahead.try_iter());
         }
         let goes_back = played < self.played;
-        match self.kept.range(..=played).next_back() {
+        match self.stored.range(..=played).next_back() {
             Some((at, state)) if goes_back || *at > self.played => {
                 (self.played, self.state) = (*at, state.clone());
             }
-            None if goes_back => (self.played, self.state) = (0, self.course.start()),
+            None if goes_back => (self.played, self.state) = (0, self.recorded.start()),
             _ => {}
         }
     }
 
-    fn keep(&mut self) {
-        let since = |step| self.course.time(step) - self.course.time(0);
-        let apart = APART.max(since(usize::MAX) / KEPT);
+    fn store(&mut self) {
+        let since = |step| self.recorded.time(step) - self.recorded.time(0);
+        let apart = APART.max(since(usize::MAX) / STORED_STATES);
         let [last, this] = [self.played - 1, self.played].map(since);
-        if (last / apart).floor() < (this / apart).floor() && !self.kept.contains_key(&self.played)
+        if (last / apart).floor() < (this / apart).floor()
+            && !self.stored.contains_key(&self.played)
         {
-            self.kept.insert(self.played, self.state.clone());
+            self.stored.insert(self.played, self.state.clone());
         }
     }
 }
 
-impl Course {
+impl RecordedSession {
     /// The time of a step, or of the last one [s].
     fn time(&self, step: usize) -> f64 {
         let step = step.min(self.steps.len() - 1);

@@ -1,4 +1,4 @@
-//! The folder of a session: what happened, and the scene that it happened in, so that it can be looked at again.
+//! The folder of a session: its rows and its scene, for replay.
 
 use std::path::{Path, PathBuf};
 
@@ -15,8 +15,8 @@ use crate::{Error, Simulation};
 const SESSION: &str = "session.csv";
 const SCENE: &str = "scene.toml";
 
-/// What was made of a session. It goes with it, at the same moment: a summary is never beside another session, and a
-/// session that stays keeps its own.
+/// Files derived from a session. They are removed together with it: a summary never appears with another session's
+/// rows, and a session that stays keeps its own.
 const MADE_OF_SESSION: [&str; 4] = ["summary.json", "force.png", "force-depth.png", "beside.png"];
 
 /// A session that was read from its folder.
@@ -24,18 +24,18 @@ const MADE_OF_SESSION: [&str; 4] = ["summary.json", "force.png", "force-depth.pn
 pub struct SessionFolder {
     /// The folder.
     pub path: PathBuf,
-    /// What happened.
+    /// The rows.
     pub session: Session,
     /// The scene; none for a session that was recorded without it.
     pub scene: Option<Scene>,
     /// The file of the session.
     file: PathBuf,
-    /// Whether a later session lies beside it that was not finished.
+    /// Whether there is also a later, unfinished session.
     has_unfinished: bool,
 }
 
-/// Writes the folder of a session while it is played. Until it is finished, an older session in the folder stays as
-/// it was, and the new one is beside it, in files with the ending `.part`.
+/// Writes the folder of a session while it runs. Until it is finished, an older session in the folder stays unchanged,
+/// and the new one is in files with the ending `.part`.
 #[derive(Debug)]
 pub struct SessionFolderWriter {
     session: SessionWriter,
@@ -45,8 +45,7 @@ pub struct SessionFolderWriter {
 }
 
 impl SessionFolderWriter {
-    /// Begins a session of `tools` with `header` in the claimed `folder`; `scene` is the text of its scene, where
-    /// that is known.
+    /// Begins a session of `tools` with `header` in the claimed `folder`; `scene` is the text of its scene, if known.
     ///
     /// # Errors
     /// When there is a session in the folder that may not be replaced, or a file cannot be written.
@@ -75,7 +74,7 @@ impl SessionFolderWriter {
         self.session.write(row)
     }
 
-    /// Brings all rows to the file.
+    /// Flushes all rows to the file.
     ///
     /// # Errors
     /// When the operating system refuses.
@@ -83,16 +82,16 @@ impl SessionFolderWriter {
         self.session.flush()
     }
 
-    /// Ends the session: it takes the place of an older one, with its scene. The folder stays claimed until what is
-    /// given back is dropped.
+    /// Ends the session: it replaces an older one, with its scene. The folder stays claimed until the return value is
+    /// dropped.
     ///
     /// # Errors
     /// When the operating system refuses.
     pub fn finish(self) -> Result<Claim, palpate_files::Error> {
         let at = |name: &str| self.folder.path().join(name);
         let (session, scene) = (at(SESSION), at(SCENE));
-        // In this order a reader never meets one session's rows beside another's scene: without a `session.csv` it
-        // takes the `.part` files.
+        // In this order a reader never gets one session's rows with another's scene: without a `session.csv` it reads
+        // the `.part` files.
         self.session.finish_after(|| {
             remove(&session)?;
             for name in MADE_OF_SESSION {
@@ -151,11 +150,10 @@ impl SessionFolder {
         file.exists() || unfinished(file).exists()
     }
 
-    /// Reads a folder, or the session of a file alone. Of a folder whose only session was not finished that one is
-    /// read.
+    /// Reads a folder, or the session of a single file. If the folder has only an unfinished session, it reads that.
     ///
     /// # Errors
-    /// When the session cannot be read, or a scene is there that cannot be.
+    /// When the session, or an existing scene, cannot be read.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let (folder, file) = match path.is_dir() {
             true => (path, path.join(SESSION)),
@@ -189,21 +187,20 @@ impl SessionFolder {
         whole(&self.file).is_some_and(|own| whole(&other.file) == Some(own))
     }
 
-    /// Whether both are of different scenes; none where versions of this program wrote them whose digests nothing
-    /// compares.
+    /// Whether both are of different scenes; none if they were written by versions whose digests cannot be compared.
     pub fn is_of_other_scene(&self, other: &Self) -> Option<bool> {
         let digest = |folder: &Self| folder.session.header.scene_digest.clone();
         differ(&digest(self), &digest(other))
     }
 
-    /// When its last row was written, since the beginning of 1970 [s]; none where the system does not say.
+    /// Time of its last row, since the beginning of 1970 [s]; none if the system does not say.
     pub fn when(&self) -> Option<i64> {
         let written = std::fs::metadata(&self.file).ok()?.modified().ok()?;
         let since = written.duration_since(std::time::UNIX_EPOCH).ok()?;
         Some(since.as_secs() as i64)
     }
 
-    /// What is not right with the session as it was recorded, in sentences.
+    /// Problems of the session as recorded, in sentences.
     pub fn warnings(&self) -> Vec<String> {
         let path = self.path.display();
         let incomplete = self.session.incomplete.iter();
@@ -216,7 +213,7 @@ impl SessionFolder {
         warnings
     }
 
-    /// What was to be done; nothing in particular without a scene.
+    /// The goal of its task; none without a scene.
     pub fn task(&self) -> Task {
         self.scene
             .as_ref()

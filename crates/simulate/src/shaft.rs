@@ -11,7 +11,7 @@ use crate::tool::Tool;
 /// Length of a shaft without a trocar [m].
 const LENGTH: f64 = 0.3;
 
-/// A rod that begins at the tip: the places that are nearer to its axis than its radius.
+/// A rod that begins at the tip: all points within its radius of its axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Shaft {
     /// The reference point of the tip [m].
@@ -43,7 +43,7 @@ impl Shaft {
         })
     }
 
-    /// The jaws of `tool` at `pose`, if they are `turned` so, or else its tip alone.
+    /// The jaws of `tool` at `pose`, if they are `turned` so, or only its tip.
     pub(crate) fn of_jaws(tool: &Tool, pose: &Pose, turned: Option<&UnitQuaternion<f64>>) -> Self {
         let jaws = tool.jaws.map_or(0.0, |jaws| jaws.length_m);
         Self {
@@ -55,28 +55,28 @@ impl Shaft {
         }
     }
 
-    /// The ends [m] of its axis beyond `from` [m] from the tip; none if it is shorter.
+    /// The ends [m] of its axis farther than `from` [m] from the tip; none if it is shorter.
     pub(crate) fn axis(&self, from: f64) -> Option<[Vec3; 2]> {
         let is_tip_alone = self.length == 0.0 && from == 0.0;
         (self.length > from || is_tip_alone)
             .then(|| [from, self.length].map(|at| self.tip + self.along * at))
     }
 
-    /// Where on its axis a `place` [m] is: from the tip [m].
+    /// Coordinate of a `place` [m] along its axis: from the tip [m].
     pub(crate) fn at(&self, place: &Vec3) -> f64 {
         self.along.dot(&(place - self.tip)).clamp(0.0, self.length)
     }
 }
 
 impl Tool {
-    /// How far behind the tip the shaft begins [m] where the tip touches: nearer, it stands in the dimple that the tip makes,
-    /// and jaws are there for what is between them.
+    /// Where the shaft begins behind the tip if the tip is in contact [m]: the part in front of it is in the dimple of
+    /// the tip, and jaws act on the tissue between them.
     pub(crate) fn shaft_begins(&self) -> f64 {
         let dimple = 2.0 * self.patches.radius();
         self.jaws.map_or(dimple, |jaws| dimple.max(jaws.length_m))
     }
 
-    /// The same where the tip touches nothing: its round end does not stand out beyond the tip.
+    /// The same if the tip is not in contact: its round end does not protrude beyond the tip.
     pub(crate) fn shaft_ends(&self) -> f64 {
         match self.tip {
             Tip::Flat { radius } => radius,

@@ -13,7 +13,7 @@ use crate::cutting::{CuttingModel, cuts};
 use crate::digest::SceneDigest;
 use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin, surround};
 use crate::neighbour::Neighbour;
-use crate::nonlinear::{Beside, NonlinearOrgan, SoftBody};
+use crate::nonlinear::{ContactBodies, NonlinearOrgan, SoftBody};
 use crate::regions::{InclusionTable, RegionTissue, Regions};
 use crate::tool::{Tool, settings, typical_radius};
 use crate::{
@@ -25,20 +25,20 @@ use crate::{
 pub struct Simulation {
     pub(crate) surface: Surface,
     pub(crate) tree: AabbTree,
-    /// That at the surface.
+    /// The material at the surface.
     pub(crate) material: Material,
     pub(crate) tools: Vec<Tool>,
-    /// How the whole organ answers, if the scene wants that.
+    /// The organ-scale model, if the scene has one.
     pub(crate) global: Option<GlobalModel>,
-    /// How it bends, if the scene wants that.
+    /// The nonlinear model, if the scene has one.
     pub(crate) nonlinear: Option<Arc<NonlinearOrgan>>,
-    /// How it is cut, if anything can.
+    /// The cutting model, if anything can cut.
     pub(crate) cutting: Option<CuttingModel>,
-    /// The bodies at which tools stop.
+    /// The rigid neighbours that stop tools.
     pub(crate) neighbours: Vec<Neighbour>,
-    /// The inclusions with a tissue, if the model does not solve them.
+    /// Inclusions with a tissue that the model does not solve.
     unsolved: InclusionField,
-    /// All whose effect is estimated.
+    /// All inclusions whose effect is estimated.
     pub(crate) estimated: Arc<InclusionField>,
     /// The organ's tissue at rest, below its layers.
     tissue_at_rest: LinearElastic,
@@ -50,30 +50,31 @@ pub struct Simulation {
     hand_over: HandOver,
     force_scale: f64,
     pub(crate) scene_digest: SceneDigest,
-    /// That of the variant; 0 for a scene of fixed numbers.
+    /// The seed of the variant; 0 for a scene of fixed numbers.
     seed: u64,
     warnings: Vec<String>,
 }
 
 impl Simulation {
-    /// Reads what `scene` names and makes the models. Of the whole organ this takes from seconds to
-    /// minutes, and seconds for most nonlinear laws: see [`Self::prepare`].
+    /// Reads the files of `scene` and makes the models. For an organ-scale model this takes from seconds to minutes,
+    /// and seconds for most nonlinear laws: see [`Self::prepare`].
     ///
     /// # Errors
-    /// When a file is missing or wrong, a mesh bounds no solid, or the scene asks for what is not there.
+    /// When a file is missing or invalid, a mesh encloses no solid, or the scene refers to something that does not
+    /// exist.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
         let go_on = &mut |_| ControlFlow::Continue(());
         Self::prepare(scene, &Resources::default(), go_on)
     }
 
-    /// As [`Self::new`], with `resources`; `watch` hears how far long work is, and may break it off.
+    /// As [`Self::new`], with `resources`; `on_progress` receives the progress of long work, and may cancel it.
     ///
     /// # Errors
     /// As [`Self::new`], and when it is cancelled.
     pub fn prepare(
         scene: &Scene,
         resources: &Resources,
-        watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+        on_progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         if scene.draws.is_some() {
             return Err(Error::NotDrawn);
@@ -97,13 +98,13 @@ impl Simulation {
         let inclusions = &scene.organ.inclusions;
         let regions = Regions::read(layers, inclusions, &surface, &tree, &tissue, &material)?;
         warnings.extend_from_slice(&regions.warnings);
-        warnings.extend(not_felt(scene, &regions));
+        warnings.extend(simplifications(scene, &regions));
         let mut enclosed: Vec<Surface> = regions.enclosed().cloned().collect();
         let law = |region: &RegionTissue| match kind {
             ModelKind::Nonlinear => region.law,
             ModelKind::Local | ModelKind::Hybrid => region.material.at_rest,
         };
-        let (unsolved, mut felt) = match is_of_one_tissue {
+        let (unsolved, mut effective) = match is_of_one_tissue {
             true => {
                 let inclusions = regions.inclusions(law, &regions.tissues[0]);
                 let tissues = regions.of_inclusions().cloned().collect();
@@ -174,17 +175,17 @@ impl Simulation {
                 let regions = regions.as_ref();
                 let law = &surface_material.at_rest;
                 let problem = GlobalProblem::new(scene, &surface, law, regions)?;
-                let (global, more) = problem.solve(scene, &surface, resources, watch)?;
+                let (global, more) = problem.solve(scene, &surface, resources, on_progress)?;
                 warnings.extend(more);
                 tools
                     .iter_mut()
-                    .try_for_each(|tool| global.lie_under(tool, regions))?;
+                    .try_for_each(|tool| global.apply_to_tip(tool, regions))?;
                 Some(global)
             }
         };
-        let beside = regions.iter().flat_map(Regions::beside);
+        let of_regions = regions.iter().flat_map(Regions::without_organ);
         let bending = soft.iter().flat_map(|body| body.regions.all());
-        felt.extend(beside.chain(bending).cloned());
+        effective.extend(of_regions.chain(bending).cloned());
         let neighbours = Neighbour::all(scene, &tools)?;
         target::check_touch(
             &scene.task.goal,
@@ -204,21 +205,21 @@ impl Simulation {
             let at_step = &mut |part| {
                 let work = Work::ForceOverDepth;
                 // It cannot be cancelled, and takes seconds.
-                let _ = watch(Progress { work, part });
+                let _ = on_progress(Progress { work, part });
             };
             warnings.extend(body.meet(scene, &tools, at_step)?);
         }
         warnings.extend(tip_laws::stiffen(&mut tools, &touched, &mut |part| {
             let work = Work::ForceOverDepth;
             // It cannot be cancelled, and takes seconds.
-            let _ = watch(Progress { work, part });
+            let _ = on_progress(Progress { work, part });
         })?);
         if let Some(regions) = &regions {
-            tools.iter_mut().for_each(|tool| regions.lie_under(tool));
+            tools.iter_mut().for_each(|tool| regions.apply_to_tip(tool));
         }
         let nonlinear = match regions {
             Some(regions) if is_nonlinear => {
-                let beside = Beside {
+                let bodies = ContactBodies {
                     tools: &tools,
                     soft: &soft,
                     neighbours: &neighbours,
@@ -229,8 +230,8 @@ impl Simulation {
                     &tree,
                     &organ_surface,
                     regions,
-                    beside,
-                    watch,
+                    bodies,
+                    on_progress,
                 )?;
                 warnings.extend(more);
                 Some(Arc::new(organ))
@@ -267,7 +268,7 @@ impl Simulation {
                 scene,
                 &organ_surface,
                 &tissue,
-                &felt,
+                &effective,
                 &enclosed,
                 neighbours
                     .iter()
@@ -295,7 +296,7 @@ impl Simulation {
         })
     }
 
-    /// Whose effect is estimated: `inclusions`, and those that the model does not solve.
+    /// The inclusions whose effect is estimated: `inclusions`, and those that the model does not solve.
     pub(crate) fn estimate(
         &self,
         inclusions: &[EstimatedInclusion],
@@ -306,7 +307,7 @@ impl Simulation {
         Ok(field.joined(&self.unsolved))
     }
 
-    /// The surface that nothing touches, and its boxes: that at rest, or as the organ hangs under its weight.
+    /// The untouched surface and its boxes: at rest, or as the organ hangs under its weight.
     pub(crate) fn untouched(&self) -> (&TriangleMesh, &AabbTree) {
         let organ = self.nonlinear.as_deref();
         organ
@@ -314,7 +315,7 @@ impl Simulation {
             .unwrap_or((self.surface.mesh(), &self.tree))
     }
 
-    /// Whether what is cut yields more.
+    /// Whether cuts change the forces.
     pub(crate) fn forces_follow_cuts(&self) -> bool {
         self.cutting
             .as_ref()
@@ -326,8 +327,8 @@ impl Simulation {
         &self.surface
     }
 
-    /// The depths of the lower faces of what a cut can open, from outside [m]: the layers, or the whole cut in an
-    /// organ without layers. Empty where nothing cuts.
+    /// The depths of the lower faces of the layers that a cut can open, from outside [m]; for an organ without layers
+    /// the depth of the cut. Empty if nothing cuts.
     pub fn cut_depths(&self) -> Vec<f64> {
         let layers = self.cutting.iter().flat_map(|model| &model.layers);
         layers.map(|layer| layer.bottom).collect()
@@ -343,7 +344,7 @@ impl Simulation {
         self.cutting.as_ref().is_some_and(|model| model.is_layered)
     }
 
-    /// How far a cut gapes [m]; none where nothing cuts.
+    /// The gape of a cut [m]; none if nothing cuts.
     pub fn cut_width(&self) -> Option<f64> {
         self.cutting.as_ref().map(|model| model.width)
     }
@@ -353,18 +354,18 @@ impl Simulation {
         &self.tools
     }
 
-    /// What was prepared of the whole organ, if the scene wants that.
+    /// The prepared organ-scale model, if the scene has one.
     pub fn response(&self) -> Option<&ResponseOrigin> {
         self.global.as_ref().map(|global| &global.origin)
     }
 
-    /// How the whole organ is shown around its contacts, if the scene wants one.
+    /// How the organ-scale model is displayed around its contacts, if the scene has one.
     pub fn enhancement(&self) -> Option<&Enhancement> {
         let global = self.global.as_ref()?;
         Some(global.enhancement.settings())
     }
 
-    /// Whether the shown surface has a mesh of its own, finer than the one that carries the mechanics.
+    /// Whether the displayed surface has a mesh of its own, finer than the mechanical one.
     pub fn is_carried(&self) -> bool {
         let global = self.global.as_ref();
         global.is_some_and(|global| global.enhancement.is_finer())
@@ -375,22 +376,22 @@ impl Simulation {
         self.step
     }
 
-    /// What is handed over to the servo loop between two steps.
+    /// The hand-over of forces to the servo loop between two steps.
     pub fn hand_over(&self) -> HandOver {
         self.hand_over
     }
 
-    /// Factor on every force that is felt [-].
+    /// Scale factor of every force that a device displays [-].
     pub fn force_scale(&self) -> f64 {
         self.force_scale
     }
 
-    /// Plain sentences on warnings in this scene.
+    /// Warnings about this scene, as sentences.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
     }
 
-    /// What stands at the head of a session of this scene.
+    /// The header of a session of this scene.
     pub fn session_header(&self) -> SessionHeader {
         SessionHeader {
             version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -403,7 +404,7 @@ impl Simulation {
     }
 }
 
-/// Whether the method that a scene asks for knows one tissue alone.
+/// Whether the scene's method supports only one tissue.
 fn is_of_one_tissue(scene: &Scene) -> bool {
     match scene.model.kind {
         ModelKind::Local => true,
@@ -412,8 +413,8 @@ fn is_of_one_tissue(scene: &Scene) -> bool {
     }
 }
 
-/// What a model does not feel of the parts of an organ.
-fn not_felt(scene: &Scene, regions: &Regions) -> Vec<String> {
+/// Warnings about parts of an organ that a model ignores or simplifies.
+fn simplifications(scene: &Scene, regions: &Regions) -> Vec<String> {
     let organ = &scene.organ;
     let is_hybrid = scene.model.kind == ModelKind::Hybrid;
     let ignores = is_of_one_tissue(scene);
@@ -421,35 +422,35 @@ fn not_felt(scene: &Scene, regions: &Regions) -> Vec<String> {
         true => "a response by boundary elements is of one tissue (`model.response`):",
         false => "the local model is of one tissue:",
     };
-    let mut said = Vec::new();
+    let mut warnings = Vec::new();
     if ignores && !organ.layers.is_empty() {
-        said.push(format!(
+        warnings.push(format!(
             "{model} layers are cut, seen and perforated each by itself, and to a touch the organ answers as its own tissue"
         ));
     }
     if ignores && !organ.inclusions.is_empty() {
-        said.push(format!(
+        warnings.push(format!(
             "{model} the effect of inclusions on a force is estimated, as of Eshelby's inclusions in a half-space"
         ));
     }
     if is_hybrid && !ignores && !regions.are_alike() {
         if !regions.relax_alike() {
-            said.push(
+            warnings.push(
                 "the hybrid model relaxes everywhere as the tissue at the surface does; the nonlinear model has the relaxation \
                  of each tissue"
                     .to_owned(),
             );
         }
         if scene.tools.iter().any(|tool| cuts(tool.kind)) {
-            said.push(
+            warnings.push(
                 "a cut changes the forces of the hybrid model as in one tissue, that at the surface".to_owned(),
             );
         }
     }
-    said
+    warnings
 }
 
-/// Of the hemisphere with the volume V of a body: R³ = 3 V / (2 π) [m].
+/// Radius of the hemisphere with the volume V of a body: R³ = 3 V / (2 π) [m].
 pub(crate) fn radius_of_hemisphere(surface: &Surface) -> f64 {
     (1.5 * surface.mesh().volume() / std::f64::consts::PI).cbrt()
 }

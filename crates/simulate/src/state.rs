@@ -19,16 +19,16 @@ use crate::neighbour::Stopped;
 use crate::nonlinear::{Body, Moved, NonlinearOrgan, NonlinearWorkspace, Pushed};
 use crate::{Contact, Error, Simulation};
 
-/// All that a step changes.
+/// All state that a step changes.
 #[derive(Debug, Clone)]
 pub struct SimulationState {
     /// Per tool.
     pub tools: Vec<ToolState>,
-    /// The organ as it is deformed now.
+    /// The deformed organ.
     pub deformed: TriangleMesh,
-    /// What moved it, if the whole organ answers.
+    /// The displacement field of the organ-scale model, if there is one.
     pub whole: Option<OrganField>,
-    /// Where the nonlinear model has it, if that answers.
+    /// The state of the nonlinear model, if there is one.
     pub(crate) body: Option<Body>,
     /// Its cuts, if anything can cut it.
     pub cuts: Option<Cuts>,
@@ -36,127 +36,128 @@ pub struct SimulationState {
     pub(crate) estimated: Arc<InclusionField>,
     /// The boxes around it.
     pub(crate) tree: AabbTree,
-    /// The vertices that are not at rest.
+    /// The displaced vertices.
     pub(crate) moved: MovedVertices,
-    /// The least time between two shapes of a whole organ [s]; zero follows every step.
+    /// The least time between two updates of an organ-scale shape [s]; zero updates at every step.
     pub(crate) show_every: f64,
-    /// Whether the whole organ was shaped otherwise than at rest.
+    /// Whether the displayed organ-scale shape differs from rest.
     pub(crate) shown_deformed: bool,
-    /// When the whole organ was shaped last [s].
+    /// Time of the last update of the organ-scale shape [s].
     pub(crate) shown_at: f64,
     /// The work of the tools on it.
     pub(crate) energy: EnergyAccount,
-    /// When the cuts were last taken to where the organ is [s].
+    /// Time of the last update of the cuts' shape [s].
     pub(crate) cuts_shown_at: f64,
-    /// Where tools touch neighbours, or how far they are from them; those of each tool one after the other.
+    /// Contacts of tools with neighbours, or the clearance; those of each tool in succession.
     pub(crate) touched_neighbours: Vec<(Option<Contact>, Clearance)>,
 }
 
-/// Vertices, with room for all of the organ's, which a clone has as well: its steps allocate nothing either.
+/// Displaced vertices, with capacity for all of the organ's. A clone has the same capacity, so that its steps allocate
+/// nothing either.
 #[derive(Debug)]
 pub(crate) struct MovedVertices(pub(crate) Vec<NodeId>);
 
 impl MovedVertices {
-    fn with_room(vertices: usize) -> Self {
+    fn with_capacity(vertices: usize) -> Self {
         Self(Vec::with_capacity(vertices))
     }
 }
 
 impl Clone for MovedVertices {
     fn clone(&self) -> Self {
-        let mut own = Self::with_room(self.0.capacity());
+        let mut own = Self::with_capacity(self.0.capacity());
         own.0.extend_from_slice(&self.0);
         own
     }
 }
 
-/// What one tool does and feels.
+/// The state of one tool.
 #[derive(Debug, Clone)]
 pub struct ToolState {
-    /// Where it is; none before its motion begins.
+    /// Its pose; none before its motion begins.
     pub pose: Option<Pose>,
-    /// What it touches.
+    /// Its contact.
     pub contact: Option<Contact>,
-    /// How far it is from the organ at rest.
+    /// Its clearance from the organ at rest.
     pub(crate) clearance: Clearance,
-    /// Force on the tool [N], of the organ and of the neighbours at which it stops. What bears on the shaft is taken to the
-    /// tip: by its work of a tool in a trocar, else with [`Self::torque`].
+    /// Force on the tool [N], by the organ and by the neighbours that stop it. The load on the shaft is transferred to
+    /// the tip: by its work for a tool in a trocar, else with [`Self::torque`].
     pub force: Vec3,
-    /// Torque on a free tool about its tip [N m], of tissue that bears on its shaft; what the tip touches makes none.
+    /// Torque on a free tool about its tip [N m], from the load on its shaft; the contact of the tip causes none.
     pub torque: Vec3,
-    /// Stiffness of the contact or of held tissue, in the scene's frame [N/m]; zero without either, and where a thin wall wraps
-    /// around the tip.
+    /// Stiffness of the contact or of held tissue, in the scene's frame [N/m]; zero without either, and where a thin
+    /// wall wraps around the tip.
     pub stiffness: nalgebra::Matrix3<f64>,
-    /// With how much each of its jaws presses on the tissue that it holds [N]; zero without.
+    /// Force of each of its jaws on the tissue that it holds [N]; zero without.
     pub grip_force: f64,
-    /// What the session records of the step.
+    /// The row of the step for the session.
     pub row: SessionRow,
     /// Bounds of the models that acted in its steps so far.
     pub limits: LimitCounts,
-    /// Those of the last answer.
+    /// The bounds that acted in the last solution.
     pub(crate) limited: Limits,
     pub(crate) grip: Grip,
     pub(crate) response: Option<Response>,
-    /// Force on the tool as it is displaced now, before relaxation [N].
+    /// Force on the tool at the present displacement, before relaxation [N].
     pub(crate) elastic: Vec3,
-    /// Displacement of the touched point where the whole organ answers [m].
+    /// Displacement of the touched point in the organ-scale model [m].
     pub(crate) displaced: Vec3,
-    /// Its elastic force at the last solution of the nonlinear model [N], and how the place that it touches has moved.
+    /// Its elastic force at the last solution of the nonlinear model [N], and the motion of its contact location.
     pub(crate) solved: Vec3,
     pub(crate) moved: Moved,
-    /// Where its tip is beside the organ at rest [m], if it touched nothing in the step before.
+    /// Position of its tip relative to the organ at rest [m], if it touched nothing in the step before.
     pub(crate) met: Option<Vec3>,
-    /// How far its tip moves the organ beside all that others do [m].
+    /// Displacement of the organ at its tip that it causes alone, without all others [m].
     pub(crate) moves: f64,
-    /// How it pressed in the last step.
+    /// Its pressing state in the last step.
     pub(crate) pressed: Option<Pressed>,
-    /// What of it a half-space would yield [m].
+    /// The part of it that a half-space would yield [m].
     pub(crate) own: Vec3,
-    /// Where it touches the whole organ's mechanical surface.
+    /// Its contact point on the mechanical surface of the organ-scale model.
     pub(crate) site: Option<SurfacePoint>,
-    /// Whether it touches the whole organ where nothing was prepared.
+    /// Whether it touches the organ-scale model where it has no prepared response.
     pub(crate) off_model: bool,
-    /// The force before a pull was taken from it [N]: what it is extrapolated from.
+    /// The force before its pull was removed [N]: the basis of the extrapolation.
     pub(crate) with_pull: Vec3,
     pub(crate) history: ForceHistory,
-    /// Where the history was made [m].
+    /// The location to which the history belongs [m].
     pub(crate) history_at: Option<Vec3>,
-    /// The frame of the contact in which it was made, of a tip that slides against friction [-].
+    /// The contact frame to which the history belongs, for a tip that slides against friction [-].
     pub(crate) history_frame: Option<nalgebra::Matrix3<f64>>,
-    /// Whether it was not there in the step before.
-    pub(crate) is_away: bool,
+    /// Whether the tool was absent in the step before.
+    pub(crate) was_absent: bool,
     pub(crate) shaft_touches: bool,
-    /// Whether the direction of its shaft was not known when it was there last.
+    /// Whether its shaft direction was unknown when it was last present.
     pub(crate) shaft_is_unknown: bool,
-    /// What neighbours do to it.
+    /// The action of neighbours on it.
     pub(crate) stopped: Stopped,
-    /// What tissue does to its shaft.
+    /// The action of tissue on its shaft.
     pub(crate) pushed: Pushed,
     pub(crate) beyond_trust: bool,
-    /// Triangles from the end of an opening to the blade that makes it.
+    /// Number of triangles between the end of an opening and its blade.
     pub cut_lag: usize,
-    /// Where its edge is, while it cuts.
+    /// Its cutting edge, while it cuts.
     pub(crate) blade: Option<Blade>,
-    /// How many layers have given way to its force since it touches; with one it is a blade.
+    /// Number of layers that have given way to its force in this touch; with one it is a blade.
     pub(crate) broken_layers: usize,
-    /// Whether it has opened the innermost layer since it touches.
+    /// Whether it has opened the innermost layer in this touch.
     pub(crate) perforates: bool,
 }
 
-/// Scratch of a step. Its loss changes no result.
+/// Scratch of a step. Losing it changes no result.
 pub struct SimulationWorkspace {
     pub(crate) models: Vec<FiniteSphereWorkspace>,
     pub(crate) global: Option<GlobalWorkspace>,
     pub(crate) nonlinear: Option<NonlinearWorkspace>,
-    pub(crate) seen: Vec<u32>,
-    pub(crate) seen_triangles: Vec<u32>,
+    pub(crate) visited: Vec<u32>,
+    pub(crate) visited_triangles: Vec<u32>,
     pub(crate) turn: u32,
     pub(crate) near: Vec<NodeId>,
     pub(crate) refit: Vec<TriangleId>,
 }
 
 impl SimulationState {
-    /// Nothing touched yet.
+    /// An untouched organ.
     pub fn new(simulation: &Simulation) -> Self {
         let tools = (0..simulation.tools().len()).map(ToolState::new).collect();
         let (rest, boxes) = simulation.untouched();
@@ -174,7 +175,7 @@ impl SimulationState {
                 .map(|organ| Body::at_rest(organ, simulation.tools.len())),
             estimated: Arc::clone(&simulation.estimated),
             tree: boxes.clone(),
-            moved: MovedVertices::with_room(simulation.surface.mesh().vertices().len()),
+            moved: MovedVertices::with_capacity(simulation.surface.mesh().vertices().len()),
             show_every: 0.0,
             shown_deformed: false,
             shown_at: f64::NEG_INFINITY,
@@ -187,8 +188,8 @@ impl SimulationState {
         }
     }
 
-    /// The organ at rest and whole, as if nothing had been touched yet. It allocates nothing, so that a model in real time
-    /// may do it between two steps.
+    /// Resets to the intact organ at rest, as if untouched. It allocates nothing, so that a real-time model may do it
+    /// between two steps.
     pub fn reset(&mut self, simulation: &Simulation) {
         let Self {
             tools,
@@ -231,11 +232,11 @@ impl SimulationState {
         (*shown_at, *cuts_shown_at) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
     }
 
-    /// Replaces the estimated inclusions of the scene: one model serves organs that differ in nothing else. After an error
-    /// nothing has changed.
+    /// Replaces the estimated inclusions of the scene: one model serves organs that differ only in these. An error
+    /// changes nothing.
     ///
     /// # Errors
-    /// When the middle of one is not in the organ.
+    /// When the centre of one is not in the organ.
     pub fn set_estimated_inclusions(
         &mut self,
         simulation: &Simulation,
@@ -245,7 +246,7 @@ impl SimulationState {
         Ok(())
     }
 
-    /// Plain sentences on the bounds of the models that acted in the steps so far.
+    /// Sentences about the bounds of the models that acted in the steps so far.
     pub fn warnings(&self, simulation: &Simulation) -> Vec<String> {
         let tools = simulation.tools().iter().zip(&self.tools);
         tools
@@ -259,16 +260,16 @@ impl SimulationState {
         body.map(|body| Arc::clone(&body.organ))
     }
 
-    /// Closes the last cut again. Whether there was one; while a blade is in the tissue there is none.
+    /// Undoes the last cut. Returns whether there was one; while a blade is in the tissue there is none.
     pub fn undo_cut(&mut self) -> bool {
         self.cuts_shown_at = f64::NEG_INFINITY;
-        // An organ that is whole again is stiffer under what presses on it.
+        // A closed organ is stiffer under the tools that press on it.
         self.energy.close();
         self.cuts.as_mut().is_some_and(Cuts::undo)
     }
 
-    /// Shapes the organ no more often than every `period` [s]; forces are those of every step, and a shaft touches the
-    /// organ as it was shaped last. For who only looks at it: a display that shows 60 pictures a second needs no more.
+    /// Updates the shape no more often than every `period` [s]; forces are those of every step, and a shaft touches the
+    /// last updated shape. For displays: one with 60 frames a second needs no more.
     #[must_use]
     pub fn show_every(mut self, period: f64) -> Self {
         self.set_show_every(period);
@@ -282,7 +283,7 @@ impl SimulationState {
 }
 
 impl ToolState {
-    /// The part of its force that is the organ's [N].
+    /// The organ's part of its force [N].
     pub(crate) fn force_of_organ(&self) -> Vec3 {
         self.force - self.stopped.force
     }
@@ -329,7 +330,7 @@ impl ToolState {
             history: ForceHistory::default(),
             history_at: None,
             history_frame: None,
-            is_away: true,
+            was_absent: true,
             shaft_touches: false,
             shaft_is_unknown: false,
             stopped: Stopped::default(),
@@ -344,7 +345,7 @@ impl ToolState {
 }
 
 impl SimulationWorkspace {
-    /// What to be careful about in the forces of the cuts that the last step followed, as sentences.
+    /// Warnings about the forces of the cuts in the last step, as sentences.
     pub fn warnings(&self) -> Vec<String> {
         let global = self.global.iter().flat_map(GlobalWorkspace::warnings);
         let nonlinear = self.nonlinear.iter().flat_map(NonlinearWorkspace::warnings);
@@ -367,20 +368,20 @@ impl SimulationWorkspace {
                 .nonlinear
                 .as_ref()
                 .map(|organ| NonlinearWorkspace::new(organ, simulation)),
-            seen: vec![0; mesh.vertices().len()],
-            seen_triangles: vec![0; mesh.triangles().len()],
+            visited: vec![0; mesh.vertices().len()],
+            visited_triangles: vec![0; mesh.triangles().len()],
             turn: 0,
             near: Vec::with_capacity(mesh.vertices().len()),
             refit: Vec::with_capacity(mesh.triangles().len()),
         }
     }
 
-    /// A number that no vertex and no triangle has been marked with.
+    /// A number that marks no vertex and no triangle yet.
     pub(crate) fn next_turn(&mut self) -> u32 {
         self.turn = self.turn.wrapping_add(1);
         if self.turn == 0 {
-            self.seen.fill(0);
-            self.seen_triangles.fill(0);
+            self.visited.fill(0);
+            self.visited_triangles.fill(0);
             self.turn = 1;
         }
         self.turn

@@ -1,5 +1,5 @@
-//! One step, as the source lists it (section 3.4): detect the collision, place the particles, solve for
-//! the displacement, compute the force. What a hand waits for is [`touch`]; what is seen, [`shape`].
+//! One step, as in the source (section 3.4): detect the collision, place the particles, solve for the displacement,
+//! compute the force. [`touch`] finds the forces, which the hand needs at once; [`shape`] updates the display.
 
 use palpate_files::Pose;
 use palpate_files::session::{Event, Events};
@@ -19,8 +19,8 @@ use crate::{
 /// Depth beyond which no model here has been compared with tissue [m].
 pub const TRUSTED_DEPTH: f64 = 0.010;
 
-/// Takes `state` one step of `elapsed` [s] on to `time` [s], with the tools at `poses` (none: not there
-/// yet). A first step has an `elapsed` of zero: whatever depth there is then comes as a jump.
+/// Advances `state` by one step of `elapsed` [s] to `time` [s], with the tools at `poses` (none: absent). A first step
+/// has an `elapsed` of zero: its depth then comes as a jump.
 pub fn step(
     simulation: &Simulation,
     time: f64,
@@ -33,8 +33,8 @@ pub fn step(
     shape(simulation, time, state, workspace);
 }
 
-/// The part of [`step`] that finds the forces: [`ToolState::force`] and [`ToolState::stiffness`] are those of the step
-/// after it. [`shape`] completes the step, after the forces are handed over.
+/// The part of [`step`] that finds the forces: [`ToolState::force`] and [`ToolState::stiffness`] are final after it.
+/// [`shape`] completes the step, after the hand-over of the forces.
 pub fn touch(
     simulation: &Simulation,
     time: f64,
@@ -63,14 +63,14 @@ pub fn touch(
         own.met = tip.filter(|_| own.contact.is_none());
         own.row.events = jumps | detect(simulation, tool, pose, tip, own);
         if let (Some(pose), Some(_)) = (&pose, &simulation.nonlinear) {
-            own.tell_whether_shaft_is_known(tool, pose);
+            own.record_shaft_direction(tool, pose);
         }
         if let (Some(model), Some(cuts)) = (&simulation.cutting, &state.cuts) {
             cutting::track_blade(simulation, model, cuts, number, own);
         }
     }
     respond(simulation, elapsed, state, workspace);
-    feel_estimated_inclusions(simulation, state);
+    apply_estimated_inclusions(simulation, state);
     grip::act(simulation, elapsed, state, workspace);
     for (number, tool) in simulation.tools.iter().enumerate() {
         let own = &mut state.tools[number];
@@ -86,8 +86,8 @@ pub fn touch(
     }
 }
 
-/// The part of [`step`] that no force of it waits for: cuts go on, the surface follows the organ at `time` [s], and the
-/// rows of the tools are complete.
+/// The part of [`step`] that its forces do not need: cuts advance, the surface follows the organ at `time` [s], and the
+/// rows of the tools are completed.
 pub fn shape(
     simulation: &Simulation,
     time: f64,
@@ -107,8 +107,8 @@ pub fn shape(
     }
 }
 
-/// Moves the visible surface of `state` to its last step, however seldom [`SimulationState::show_every`] asks for it. A
-/// picture of a clone leaves the simulation as it is: the surface decides when a shaft touches.
+/// Updates the visible surface of `state` to its last step, whatever the period of [`SimulationState::show_every`].
+/// Displaying a clone leaves the simulation unchanged: the surface decides when a shaft touches.
 pub fn show(
     simulation: &Simulation,
     state: &mut SimulationState,
@@ -119,7 +119,7 @@ pub fn show(
     show_cuts(simulation, 0.0, state);
 }
 
-/// Moves the visible surface to where the organ is at `time` [s], if it is time.
+/// Updates the visible surface to the organ at `time` [s], if it is due.
 fn move_surface(
     simulation: &Simulation,
     time: f64,
@@ -135,7 +135,8 @@ fn move_surface(
     }
 }
 
-/// Where a tip is beside the organ at rest [m], which only the nonlinear model moves under it; none where it is clear.
+/// Position of a tip relative to the organ at rest [m], which only the nonlinear model moves under it; none if it is
+/// clear of the organ.
 fn at_rest(
     simulation: &Simulation,
     number: usize,
@@ -149,7 +150,7 @@ fn at_rest(
     }
 }
 
-/// 1. Where does the tip touch, which is at `tip` [m] beside the organ at rest?
+/// 1. The contact of the tip, which is at `tip` [m] relative to the organ at rest.
 fn detect(
     simulation: &Simulation,
     tool: &Tool,
@@ -163,15 +164,15 @@ fn detect(
     let tip = tip.filter(|_| !state.holds());
     state.contact = tip.and_then(|tip| {
         let last = state.contact.as_ref();
-        let ground = simulation.ground(tool);
-        state.clearance.detect(&ground, tool, last, &tip)
+        let rest = simulation.rest_surface(tool);
+        state.clearance.detect(&rest, tool, last, &tip)
     });
     match (touched, state.contact) {
         (false, Some(contact)) => {
             events.insert(Event::Contact);
             state.history_frame = None;
             state.forget_elsewhere(tool, &contact.point());
-            // Where a tip begins to stick nothing is sheared yet, whatever it sheared before.
+            // Where a tip begins to stick there is no shear yet, whatever the shear before.
             state.history.keep_along(&contact.normal());
         }
         (true, None) if !state.holds() => events.insert(Event::Release),
@@ -186,8 +187,9 @@ fn detect(
 }
 
 impl ToolState {
-    /// Tells when the direction of its shaft is not known any more, or again: rows have an orientation all the same.
-    fn tell_whether_shaft_is_known(&mut self, tool: &Tool, pose: &Pose) {
+    /// Records an event when the direction of its shaft becomes unknown, or known again: rows always have an
+    /// orientation.
+    fn record_shaft_direction(&mut self, tool: &Tool, pose: &Pose) {
         let is_unknown = Shaft::of(tool, pose).is_none();
         match (self.shaft_is_unknown, is_unknown) {
             (false, true) => self.row.events.insert(Event::ShaftUnknown),
@@ -197,20 +199,20 @@ impl ToolState {
         self.shaft_is_unknown = is_unknown;
     }
 
-    /// Relaxes while the tool was not there; how long its way into the tissue took [s]. What happens while a
-    /// tool is away follows from its rows alone, so that a session can be played again.
+    /// Relaxes for the time that the tool was absent; returns the time of its re-entry into the tissue [s]. The state
+    /// of an absent tool follows from its rows alone, so that a session can be replayed.
     fn re_enter(&mut self, simulation: &Simulation, time: f64, elapsed: f64) -> f64 {
-        if !std::mem::take(&mut self.is_away) {
+        if !std::mem::take(&mut self.was_absent) {
             return elapsed;
         }
-        let way_in = elapsed.min(simulation.step);
-        let away = (time - self.row.time_s - way_in).max(0.0);
+        let entry_time = elapsed.min(simulation.step);
+        let absence = (time - self.row.time_s - entry_time).max(0.0);
         self.history
-            .advance(&simulation.material.prony, Vec3::zeros(), away);
-        way_in
+            .advance(&simulation.material.prony, Vec3::zeros(), absence);
+        entry_time
     }
 
-    /// What tissue remembers of an earlier contact does not follow the tool to another place, `here` [m].
+    /// Forgets the history of an earlier contact if the tool is at another location, `here` [m].
     pub(crate) fn forget_elsewhere(&mut self, tool: &Tool, here: &Vec3) {
         let near = tool.patches.radius();
         if self.history_at.is_none_or(|at| (at - here).norm() > near) {
@@ -219,8 +221,8 @@ impl ToolState {
     }
 }
 
-/// Steps 2 and 3: the elastic force and its stiffness, of the whole organ or of particles around each tip. `elapsed` [s] have
-/// gone by since the last step.
+/// Steps 2 and 3: the elastic force and its stiffness, from the organ-scale model or from particles around each tip,
+/// `elapsed` [s] after the last step.
 pub(crate) fn respond(
     simulation: &Simulation,
     elapsed: f64,
@@ -251,7 +253,7 @@ pub(crate) fn respond(
     }
 }
 
-/// The same once more in a step, after tissue has slid in its jaws or out of them.
+/// The same again within a step, after tissue has slid in the jaws or out of them.
 pub(crate) fn respond_again(
     simulation: &Simulation,
     state: &mut SimulationState,
@@ -263,8 +265,8 @@ pub(crate) fn respond_again(
     }
 }
 
-/// Where an inclusion that is in no model lies under a tip, the tip is pushed harder.
-fn feel_estimated_inclusions(simulation: &Simulation, state: &mut SimulationState) {
+/// An inclusion below a tip that is in no model increases its force.
+fn apply_estimated_inclusions(simulation: &Simulation, state: &mut SimulationState) {
     let SimulationState {
         tools, estimated, ..
     } = state;
@@ -287,14 +289,14 @@ fn render_force(
     let elapsed = match state.pose {
         Some(_) => state.re_enter(simulation, time, elapsed),
         None => {
-            state.is_away = true;
+            state.was_absent = true;
             0.0
         }
     };
     if let Some(contact) = &mut state.contact {
         contact.slide(tool, &mut state.elastic);
         if tool.friction.is_some() {
-            // What it remembers along the surface stays along the surface.
+            // The tangential history stays tangential.
             let frame = contact.frame();
             if let Some(before) = state.history_frame.replace(frame) {
                 state.history.turn(&(frame * before.transpose()));
@@ -306,13 +308,13 @@ fn render_force(
         .advance(&simulation.material.prony, state.elastic, elapsed);
     state.force = Vec3::zeros();
     state.with_pull = Vec3::zeros();
-    let held = state.grip.hold.as_ref().map(|hold| hold.seen.place);
+    let held = state.grip.hold.as_ref().map(|hold| hold.displayed.place);
     let Some(here) = held.or(state.contact.map(|contact| contact.point())) else {
         return Events::NONE;
     };
     state.history_at = Some(here);
     if !relaxed.iter().all(|component| component.is_finite()) {
-        // A force that is no number is none, and is told.
+        // A force that is not finite counts as zero, and is reported.
         state.history = ForceHistory::default();
         return [Event::NonFiniteForce].into_iter().collect();
     }
@@ -321,23 +323,23 @@ fn render_force(
         state.force = relaxed;
         return Events::NONE;
     };
-    // Tissue that has not come back yet does not hold the tool: there is no adhesion.
+    // Tissue that has not yet recovered does not hold the tool: there is no adhesion.
     let normal = contact.normal();
     let outward = relaxed.dot(&normal);
     contact.is_pressed = outward > 0.0;
-    // The history of the force along the surface is another than that of its normal part.
+    // The history of the tangential force is separate from that of the normal force.
     let slides = contact.slides;
     contact.slide(tool, &mut relaxed);
     contact.slides |= slides;
     state.with_pull = match tool.bond {
         Friction::Bonded => relaxed,
-        // The history of a slide has other normals in it; there is no friction all the same.
+        // The history of a slide has other normals in it; nevertheless there is no friction.
         Friction::Frictionless => normal * outward,
     };
     if contact.is_pressed {
         state.force = state.with_pull;
     } else {
-        // It sticks anew where it is pressed again: nothing is sheared there yet.
+        // The tip sticks anew where it is pressed again: there is no shear yet.
         state.history.keep_along(&normal);
     }
     Events::NONE
@@ -361,7 +363,7 @@ fn answer(tool: &Tool, state: &mut ToolState) {
     state.limited = response.limits;
     state.limited.merge(&answer.limits);
     if !answer.force.iter().all(|component| component.is_finite()) {
-        // `render_force` tells; the surface stays where it is.
+        // `render_force` reports it; the surface stays unchanged.
         state.response = None;
     }
 }
@@ -398,7 +400,7 @@ fn record(simulation: &Simulation, tool: &Tool, time: f64, failed: Events, state
     row.events = row.events | failed;
 }
 
-/// Takes the openings to where the organ is, if it is time.
+/// Updates the shape of the openings, if it is due.
 fn show_cuts(simulation: &Simulation, time: f64, state: &mut SimulationState) {
     let due = time >= state.cuts_shown_at + state.show_every;
     let (Some(model), Some(cuts)) = (&simulation.cutting, &mut state.cuts) else {
@@ -411,8 +413,8 @@ fn show_cuts(simulation: &Simulation, time: f64, state: &mut SimulationState) {
     }
 }
 
-/// Tells when the shaft begins to touch the deformed organ, and when it no longer does. A shaft of unknown direction stands on
-/// the surface and touches nothing else.
+/// Records when the shaft begins and ends to touch the deformed organ. A shaft of unknown direction stands on the
+/// surface and touches nothing else.
 fn touch_with_shaft(tool: &Tool, number: usize, state: &mut SimulationState) {
     let own = &mut state.tools[number];
     let Some(pose) = &own.pose else {

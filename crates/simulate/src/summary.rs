@@ -7,18 +7,18 @@ use crate::nonlinear::Body;
 use crate::swings::Swings;
 use crate::{Simulation, SimulationState, SimulationWorkspace, TRUSTED_DEPTH};
 
-/// What the source could still follow, and what its devices answer to [Hz].
+/// The largest frequency [Hz] that the source could follow, and that of its devices.
 const FAST: f64 = 8.0;
 
-/// What a played motion came to.
+/// The summary of a played motion.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summary {
-    /// Steps played.
+    /// Number of steps.
     pub steps: u64,
-    /// How long they took.
+    /// Duration of the computation.
     #[serde(rename = "step_times_s")]
     pub step_times: StepTimes,
-    /// Contacts begun, over all tools.
+    /// Number of contacts, over all tools.
     pub contacts: u64,
     /// Largest magnitude of force on a tool [N].
     #[serde(rename = "peak_force_n")]
@@ -26,40 +26,40 @@ pub struct Summary {
     /// Largest depth [m].
     #[serde(rename = "largest_depth_m")]
     pub deepest: f64,
-    /// What was cut, if anything could be.
+    /// The summary of the cuts, if anything can cut.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cuts: Option<CutSummary>,
-    /// What became of each cavity.
+    /// The summary of each cavity.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub cavities: Vec<CavitySummary>,
-    /// Whether it was stopped before its end.
+    /// Whether it was cancelled.
     pub interrupted: bool,
-    /// Plain sentences on warnings.
+    /// Warnings, as sentences.
     pub warnings: Vec<String>,
 }
 
-/// What became of the surface.
+/// The summary of the cuts.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct CutSummary {
-    /// Cuts that opened something.
+    /// Cuts with an opening.
     pub count: usize,
     /// Length over the resting surface [m].
     #[serde(rename = "length_m")]
     pub length: f64,
-    /// Triangles from the end of an opening to the blade, at most.
+    /// Largest number of triangles between the end of an opening and its blade.
     #[serde(rename = "largest_lag_triangles")]
     pub largest_lag: usize,
     /// Triangles before the first cut.
     pub triangles_before: usize,
-    /// Triangles after the last.
+    /// Triangles after the last cut.
     pub triangles_after: usize,
-    /// Times that the innermost layer was opened.
+    /// How often the innermost layer was opened.
     pub perforations: u64,
     /// The cuts through each layer, from outside; empty for an organ without layers.
     pub layers: Vec<LayerCut>,
 }
 
-/// What became of a cavity.
+/// The summary of a cavity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CavitySummary {
     /// Its name in the scene.
@@ -91,21 +91,21 @@ pub struct LayerCut {
     pub length: f64,
 }
 
-/// Times that steps took [s].
+/// Percentiles of the computation times of steps [s].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct StepTimes {
-    /// Half of the steps took at most this [s].
+    /// Median [s].
     pub p50: f64,
-    /// 99 of 100 took at most this [s].
+    /// 99th percentile [s].
     pub p99: f64,
-    /// 999 of 1000 took at most this [s].
+    /// 99.9th percentile [s].
     #[serde(rename = "p99.9")]
     pub p99_9: f64,
-    /// The longest [s].
+    /// Maximum [s].
     pub max: f64,
 }
 
-/// Counts while a motion is played.
+/// Collects a summary while a motion is played.
 pub(crate) struct Tally {
     times: Vec<Duration>,
     contacts: u64,
@@ -124,7 +124,7 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    /// Of about so many steps; beyond a million it grows, since a motion may be told to be of any length.
+    /// For about this number of steps; it grows beyond a million, since a motion may have any length.
     pub(crate) fn with_capacity(steps: u64) -> Self {
         Self {
             times: Vec::with_capacity(steps.min(1_000_000) as usize),

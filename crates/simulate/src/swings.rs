@@ -1,18 +1,18 @@
-//! How fast the depth of a tool swings.
+//! The frequency at which the depth of a tool oscillates.
 
-/// A smaller swing is none [m]: rounded positions and sensors of poses make such.
+/// A smaller oscillation does not count [m]: rounded positions and pose sensors cause such.
 const LEAST: f64 = 1e-4;
 
-/// Swings of a depth, of which each sample is told.
+/// Detects oscillations of a depth, sample by sample.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Swings {
     /// None before the depth has changed.
     rises: Option<bool>,
     /// The farthest depth [m] since the last turn, and when it was [s].
     extreme: Option<(f64, f64)>,
-    /// The last two turns [s].
+    /// Times of the last two turning points [s].
     turns: [Option<f64>; 2],
-    /// The shortest time from a turn to the next but one [s].
+    /// The shortest time from a turning point to the next but one [s].
     shortest: Option<f64>,
 }
 
@@ -42,7 +42,8 @@ impl Swings {
         }
     }
 
-    /// The frequency of the fastest cycle [Hz], at least, where samples are a `step` [s] apart; none without one.
+    /// Lower bound of the frequency of the fastest cycle [Hz], for samples that are a `step` [s] apart; none without a
+    /// cycle.
     pub(crate) fn fastest(&self, step: f64) -> Option<f64> {
         self.shortest.map(|cycle| 1.0 / (cycle + step))
     }
@@ -65,7 +66,7 @@ mod tests {
         swings.fastest(STEP)
     }
 
-    /// Judge: sines. A turn is up to half a step from the sample that shows it.
+    /// Judge: sines. A turning point is up to half a step from its nearest sample.
     #[test]
     fn a_sine_has_its_frequency() {
         for frequency in [1.0, 4.0, 8.0, 12.0] {

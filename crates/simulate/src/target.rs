@@ -1,4 +1,4 @@
-//! The place that a task wants touched, and the line that it wants cut.
+//! The target point and the line of a task.
 
 use palpate_files::Scene;
 use palpate_files::scene::Goal;
@@ -7,15 +7,15 @@ use palpate_geometry::{AabbTree, Surface, Vec3};
 use crate::polyline::Polyline;
 use crate::{Error, organ};
 
-/// A line is looked at in steps of this length, or of this part of it, whichever is longer [m], [-].
+/// A line is sampled in steps of this length, or of this part of it, whichever is longer [m], [-].
 const STEP: f64 = 1e-3;
 const OF_THE_LINE: f64 = 1e-3;
 
-/// Refuses a task of `scene` that no tool can do: whose target lies on no neighbour that collides, or whose line lies
-/// away from the organ.
+/// Rejects a task of `scene` that no tool can do: its target lies on no neighbour that collides, or its line lies away
+/// from the organ.
 ///
 /// # Errors
-/// When the target or the line is farther from these surfaces than counts, or one of them cannot be read.
+/// When the target or the line is farther from these surfaces than allowed, or one of them cannot be read.
 pub fn check_target(scene: &Scene) -> Result<(), Error> {
     let goal = &scene.task.goal;
     match goal {
@@ -33,7 +33,7 @@ pub fn check_target(scene: &Scene) -> Result<(), Error> {
     }
 }
 
-/// Refuses a target that lies on none of the `surfaces` of the neighbours that collide.
+/// Rejects a target that lies on none of the `surfaces` of the neighbours that collide.
 pub(crate) fn check_touch<'s>(
     goal: &Goal,
     surfaces: impl Iterator<Item = &'s Surface>,
@@ -56,8 +56,8 @@ pub(crate) fn check_touch<'s>(
     }
 }
 
-/// Refuses a line that is farther from the organ's `surface` than a cut along it may be: beside it by the tolerance, and
-/// below it by the depth of the layers, for a straight line over a curved organ lies inside.
+/// Rejects a line that is farther from the organ's `surface` than a cut along it may be: by the tolerance along the
+/// surface, and by the depth of the layers below it, since a straight line over a curved organ lies inside.
 pub(crate) fn check_line(scene: &Scene, surface: &Surface, tree: &AabbTree) -> Result<(), Error> {
     let Goal::Cut {
         line, tolerance_m, ..

@@ -1,4 +1,5 @@
-//! The force on a tip over inclusions: how far they move it depends on the area that touches, and so on the force.
+//! The force on a tip over inclusions: their effect on its displacement depends on the contact area, and so on the
+//! force.
 
 use nalgebra::Matrix3;
 use palpate_geometry::Vec3;
@@ -7,16 +8,17 @@ use palpate_mechanics::{Limit, LinearElastic, Reached, TipForce, TipLaw};
 use crate::regions::TipExchange;
 use crate::tool::Tool;
 
-/// Rounds, of which most are never needed: each leaves a third of the change at most, as far as an inclusion makes the tip no more
-/// than twice as stiff.
+/// Iterations, of which most are never needed: each leaves a third of the change at most, if an inclusion makes the tip
+/// no more than twice as stiff.
 const MOST_ROUNDS: usize = 40;
 
-/// Change of the force that ends the rounds, in parts of it [-].
+/// Relative change of the force that ends the iterations [-].
 const SETTLED: f64 = 1e-10;
 
 impl Tool {
-    /// The force of a tip with this `law` that is `displaced` [m] in series with the `compliance` [m/N] of an organ, both in the frame
-    /// of the contact, `over` inclusions in tissue of a law; and the compliance with what they add.
+    /// The force of a tip with this `law` that is `displaced` [m] in series with the `compliance` [m/N] of an organ,
+    /// both in the contact frame, `over` inclusions in tissue of a law; and the compliance including that of the
+    /// inclusions.
     pub(crate) fn force_in_series(
         &self,
         law: &TipLaw,

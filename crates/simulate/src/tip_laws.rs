@@ -9,8 +9,8 @@ use palpate_mechanics::{Material, TipLaw};
 use crate::Error;
 use crate::tool::Tool;
 
-/// Gives each tool the force over depth of the tissue that it meets, one for each; warnings about it. Tools with
-/// the same tip and tissue share the work.
+/// Gives each tool the force over depth of the tissue that it meets; returns warnings. Tools with the same tip and
+/// tissue share the work.
 pub(crate) fn stiffen(
     tools: &mut [Tool],
     touched: &[(Tissue, Material)],
@@ -48,7 +48,7 @@ pub(crate) fn stiffen(
     Ok(warnings)
 }
 
-/// That of neo-Hookean tissue is the same for every modulus, and known.
+/// The law of neo-Hookean tissue is the same for every modulus, and known.
 fn of(
     tissue: &Tissue,
     material: &Material,

@@ -21,15 +21,15 @@ use crate::trocar::Trocar;
 pub struct Tool {
     /// Its name in scene, motion and session.
     pub name: String,
-    /// What it can do.
+    /// Its kind.
     pub kind: ToolKind,
-    /// The end that touches.
+    /// Its tip.
     pub tip: Tip,
-    /// Whether the surface can run along the tip.
+    /// Whether the surface can slide along the tip.
     pub bond: Friction,
-    /// Coulomb's coefficient of a tip that sticks [-]; none where it never slides.
+    /// Coulomb friction coefficient of a tip that sticks [-]; none if it never slides.
     pub friction: Option<f64>,
-    /// What it looks like in its own frame [m], if not as its kind does.
+    /// Its display mesh in its own frame [m], if it differs from that of its kind.
     pub look: Option<Arc<TriangleMesh>>,
     /// The force of the tissue on it.
     pub(crate) law: TipLaw,
@@ -37,20 +37,20 @@ pub struct Tool {
     pub jaws: Option<scene::Jaws>,
     /// Where it passes through the abdominal wall [m].
     pub trocar: Option<Vec3>,
-    /// What its hand feels there, and how it moves the tip.
+    /// The forces of the abdominal wall on its hand, and the mapping from hand to tip.
     pub fulcrum: Option<Trocar>,
     pub(crate) model: FiniteSphereModel,
-    /// The organ's normals and curvatures as this tip feels them.
+    /// The organ's normals and curvatures, averaged over this tip.
     pub(crate) patches: PatchField,
     pub(crate) placement: Placement,
-    /// What the whole organ adds under this tip, if there is a model of it.
+    /// The compliance that the organ-scale model adds under this tip, if there is one.
     pub(crate) field: Option<TipField>,
-    /// What inclusions are to this tip, beside what they are to its load.
+    /// The effect of inclusions on this tip, relative to that on its load.
     pub(crate) inclusions: InclusionTable,
-    /// What the organ yields beyond a half-space under this tip at each vertex [1/m], for the local model; none where
-    /// that is not known.
+    /// The organ's compliance beyond a half-space under this tip at each vertex [1/m], for the local model; none if
+    /// unknown.
     pub(crate) further: Option<Arc<[Matrix3<f64>]>>,
-    /// Radius of the touching area that stands for all [m].
+    /// Typical radius of the contact area [m].
     pub(crate) typical_radius: f64,
 }
 
@@ -104,8 +104,8 @@ impl Tool {
         })
     }
 
-    /// The distance from the tool's reference point (the centre of a flat face, or of a sphere) down to
-    /// where it touches first [m].
+    /// Distance from the tool's reference point (the centre of a flat face, or of a sphere) down to its first point of
+    /// contact [m].
     pub(crate) fn overhang(&self) -> f64 {
         match self.tip {
             Tip::Flat { .. } => 0.0,
@@ -113,17 +113,17 @@ impl Tool {
         }
     }
 
-    /// Whether its tip can move along the surface.
+    /// Whether its tip can slide along the surface.
     pub(crate) fn slides(&self) -> bool {
         self.bond == Friction::Frictionless || self.friction.is_some()
     }
 
-    /// Radius of the area that touches [m] under so much force [N] on tissue of this law.
+    /// Radius of the contact area [m] under this force [N] on tissue of this law.
     pub(crate) fn touching_radius(&self, law: &LinearElastic, force: f64) -> f64 {
         match self.tip {
             Tip::Flat { radius } => radius,
             Tip::Sphere { radius } => {
-                // The inverse of Hertz's law. How deep it is in all says nothing: a thin wall bends away.
+                // The inverse of Hertz's law. The total depth does not determine it: a thin wall bends away.
                 let depth = (force / hertz_force(law, radius, 1.0)).powf(2.0 / 3.0);
                 self.tip.contact_radius(depth)
             }
@@ -138,16 +138,16 @@ impl Tool {
     }
 }
 
-/// Radius of the touching area that stands for all [m].
+/// Typical radius of the contact area [m].
 pub(crate) fn typical_radius(tip: &scene::Tip) -> f64 {
     match tip.shape {
         scene::TipShape::Flat => tip.radius_m,
-        // Half the radius touches at a quarter of the radius in depth.
+        // At a depth of a quarter of the radius the contact radius is half the radius.
         scene::TipShape::Sphere => 0.5 * tip.radius_m,
     }
 }
 
-/// What a tool looks like by its file, if it has one.
+/// The display mesh of a tool from its file, if it has one.
 fn look(tool: &scene::Tool) -> Result<Option<Arc<TriangleMesh>>, Error> {
     let Some(mesh) = &tool.mesh else {
         return Ok(None);
@@ -156,7 +156,7 @@ fn look(tool: &scene::Tool) -> Result<Option<Arc<TriangleMesh>>, Error> {
     Ok(Some(Arc::new(imported.mesh)))
 }
 
-/// The settings of the local model that a scene's words stand for.
+/// The settings of the local model for a scene's words.
 pub(crate) fn settings(local: &scene::LocalSettings) -> FiniteSphereSettings {
     FiniteSphereSettings {
         particles: local.particles,

@@ -1,30 +1,31 @@
 //! An expert's session that a trainee follows: how far the trainee has come along the expert's path, and where the
 //! expert's tools were a little later.
 //!
-//! The expert's way is followed forth, never back: of the expert's next seconds that moment counts at which
-//! all tools were nearest to the trainee's, a little dearer the later it is. So a trainee may take more time
-//! or less, and a pause is no progress.
+//! The tutor follows the expert's path forwards, never backwards: among the next seconds of the expert it selects the
+//! moment at which all tools were nearest to the trainee's, with a small penalty for later moments. So a trainee may
+//! take more time or less, and a pause is no progress.
 //!
 //! *How we know*: `tutor::…`.
 //!
-//! *Limits*: who takes another way than the expert stays where they left it; an organ that moves is not followed.
+//! *Limits*: a trainee who takes another path than the expert's keeps the moment at which they left it; the motion of
+//! the organ is ignored.
 
 use palpate_files::{Event, Session};
 use palpate_geometry::Vec3;
 
-/// Seconds of the expert's that are looked through from where the trainee is [s].
+/// Length of the search window from the trainee's moment [s].
 const AHEAD: f64 = 3.0;
 
 /// How far ahead the expert's tools are shown [s].
 const LEAD: f64 = 0.5;
 
-/// What a second further on costs, as if the tools were so far apart [m/s].
+/// Penalty of a later moment, as a distance of the tools per second [m/s].
 const DEARER: f64 = 2e-3;
 
-/// Between the expert's moments that are kept [s].
+/// Interval of the stored moments of the expert [s].
 const APART: f64 = 0.02;
 
-/// An expert's session that is followed.
+/// A followed session of an expert.
 #[derive(Debug, Clone)]
 pub struct Tutor {
     moments: Vec<Moment>,
@@ -38,7 +39,7 @@ struct Moment {
     tools: Vec<Option<Ghost>>,
 }
 
-/// Where an expert's tool was.
+/// The pose of an expert's tool.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ghost {
     /// Its tip [m].
@@ -50,7 +51,7 @@ pub struct Ghost {
 }
 
 impl Tutor {
-    /// An expert's `session` for a scene with tools of those names; none if it has no row of any of them.
+    /// From an expert's `session` for a scene with tools of those names; none if it has no row of any of them.
     pub fn new(expert: &Session, tools: &[String]) -> Option<Self> {
         let number = |name: &String| tools.iter().position(|tool| tool == name);
         let numbers: Vec<Option<usize>> = expert.tools.iter().map(number).collect();
@@ -74,7 +75,7 @@ impl Tutor {
                 grip: row.grip,
             });
             if let Some(moment) = moments.last_mut() {
-                // The first row of a moment counts.
+                // The first row of a time counts.
                 let own = &mut moment.tools[number];
                 *own = own.or(held);
             }
@@ -82,13 +83,13 @@ impl Tutor {
         (!moments.is_empty()).then_some(Self { moments, at: 0 })
     }
 
-    /// From the beginning again.
+    /// Restarts from the beginning.
     pub fn reset(&mut self) {
         self.at = 0;
     }
 
-    /// Where the expert's tools were a little after the moment to which the trainee's have come. `tips` [m] are in
-    /// the order of the scene's tools; none while nobody holds one.
+    /// The expert's tools a little after the moment that corresponds to the trainee's. `tips` [m] are in the order of
+    /// the scene's tools; none for a tool without a hand.
     pub fn follow(&mut self, tips: &[Option<[f64; 3]>]) -> Vec<Option<Ghost>> {
         let now = self.moments[self.at].time;
         let ahead = self.moments[self.at..].iter();
@@ -108,7 +109,7 @@ impl Tutor {
 }
 
 impl Moment {
-    /// How far the tools are from a trainee's [m]; a tool that only one of them holds does not count.
+    /// Distance of the tools from a trainee's [m]; a tool that only one of them holds does not count.
     fn distance(&self, tips: &[Option<[f64; 3]>]) -> f64 {
         let both = self.tools.iter().zip(tips).filter_map(|(own, tip)| {
             Some((Vec3::from(own.as_ref()?.position) - Vec3::from(*tip.as_ref()?)).norm_squared())

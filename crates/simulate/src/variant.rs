@@ -1,4 +1,4 @@
-//! Variants of a scene whose numbers are drawn.
+//! Variants of a scene with random numbers.
 //!
 //! *How we know*: `variants::…`.
 
@@ -8,12 +8,12 @@ use palpate_geometry::{NodeId, Surface, Vec3};
 
 use crate::{Error, organ};
 
-/// The variant of a scene that belongs to a seed: the same seed gives the same scene, to the last bit. A scene that
-/// draws nothing is its only variant.
+/// The variant of a scene for a seed: the same seed gives the same scene, to the last bit. A scene without random
+/// numbers is its only variant.
 ///
 /// # Errors
-/// When the organ or a neighbour cannot be read, a surface has no point where one is drawn, or a drawn value is outside
-/// the domain of its key.
+/// When the organ or a neighbour cannot be read, a surface has no point in the random region, or a random value is
+/// outside the domain of its key.
 pub fn draw_variant(scene: &Scene, seed: u64) -> Result<Scene, Error> {
     let Some(draws) = &scene.draws else {
         return Ok(scene.clone());

@@ -1,4 +1,4 @@
-//! How thick an organ is under its surface.
+//! Wall thickness of an organ under its surface.
 
 use palpate_geometry::{AabbTree, Hit, Surface, TriangleId, TriangleMesh, Vec3};
 
@@ -21,11 +21,11 @@ const FACES: f64 = -0.4;
 /// Longest edge of tetrahedra in parts of a wall [-] (`docs/theory/condensed_elements.md`).
 const OF_A_WALL: f64 = 0.5;
 
-/// What lies under the triangles that can be touched.
+/// The walls under the touchable triangles.
 pub(crate) struct Walls {
     /// Size of a triangle and thickness of the body under it [m], for each that can be touched.
     under: Vec<(f64, f64)>,
-    /// Those of triangles on two sides of a wall or a rim that are too large to bend it.
+    /// Those of triangles on two sides of a wall or a rim that are too large to resolve its bending.
     thin: Vec<(f64, f64)>,
     /// Triangles of the surface.
     triangles: usize,
@@ -51,7 +51,7 @@ impl Walls {
         }
     }
 
-    /// Whether they are too thin for boundary elements on these triangles.
+    /// Whether the walls are too thin for boundary elements on these triangles.
     pub(crate) fn are_thin(&self) -> bool {
         self.thin.len() as f64 > FEW * self.under.len() as f64
     }
@@ -67,7 +67,7 @@ impl Walls {
         }
     }
 
-    /// Warning when boundary elements are taken, with what the model is to have `instead`.
+    /// Warning for boundary elements on thin walls; `instead` names the recommended model.
     pub(crate) fn warning(&self, instead: &str) -> Option<String> {
         let coarse = self.thin.iter().filter(|wall| wall.0 > COARSE * wall.1);
         let few = WORTH_A_WARNING * self.under.len() as f64;
@@ -83,7 +83,7 @@ impl Walls {
         ))
     }
 
-    /// What a response by boundary elements is to have instead.
+    /// The recommended model instead of a response by boundary elements.
     pub(crate) fn instead(&self) -> String {
         let other = match self.are_thin() {
             true => "`model.response` to \"finite_elements\"",
@@ -94,7 +94,7 @@ impl Walls {
     }
 }
 
-/// How thick the organ is under each of `triangles` [m].
+/// Thickness of the organ under each of `triangles` [m].
 pub(crate) fn thicknesses(
     surface: &Surface,
     tree: &AabbTree,
@@ -128,7 +128,7 @@ fn are_two_sides(mesh: &TriangleMesh, one: TriangleId, other: TriangleId) -> boo
     here.dot(&there) < FACES
 }
 
-/// The other side of the wall under each triangle, if what lies behind is that.
+/// The other side of the wall under each triangle, if that is a wall.
 pub(crate) fn through_walls(surface: &Surface, tree: &AabbTree) -> Vec<Option<Hit>> {
     let mesh = surface.mesh();
     let mut through = vec![None; mesh.triangles().len()];
@@ -140,7 +140,7 @@ pub(crate) fn through_walls(surface: &Surface, tree: &AabbTree) -> Vec<Option<Hi
     through
 }
 
-/// How thick an organ is, at any place of it.
+/// Thickness of an organ, at any point of it.
 pub(crate) struct Thickness<'a> {
     surface: &'a Surface,
     tree: AabbTree,
@@ -168,7 +168,7 @@ impl<'a> Thickness<'a> {
         all[all.len() / 2]
     }
 
-    /// Under the surface that is nearest to a place [m].
+    /// Under the surface point closest to a point [m].
     pub(crate) fn at(&self, place: &Vec3) -> f64 {
         let nearest = self.tree.nearest(self.surface.mesh(), place);
         self.under[nearest.triangle.index()]
@@ -225,7 +225,7 @@ pub(crate) fn typical_wall(surface: &Surface) -> f64 {
     median(&Walls::new(surface, &asked).under, |wall| wall.1)
 }
 
-/// The upper one of two; none of nothing is zero.
+/// The upper median; zero of an empty list.
 fn median(walls: &[(f64, f64)], of: fn(&(f64, f64)) -> f64) -> f64 {
     let mut values: Vec<f64> = walls.iter().map(of).collect();
     values.sort_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! Where a picture is taken from, and what a pixel looks at.
+//! The camera of a picture, and the ray of a pixel.
 //!
 //! *How we know*: `analytic::a_pixel_and_its_ray_agree`, `analytic::the_whole_organ_is_framed`.
 
@@ -10,7 +10,7 @@ use palpate_geometry::Vec3;
 pub struct Camera {
     /// Where it is [m].
     pub eye: Vec3,
-    /// What it looks at [m].
+    /// Its target [m].
     pub target: Vec3,
     /// The direction that is up in the picture [-].
     pub up: Vec3,
@@ -20,7 +20,7 @@ pub struct Camera {
     pub lamp: Option<Lamp>,
 }
 
-/// The light of an endoscope, which comes out beside its lens.
+/// The light of an endoscope, next to its lens.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lamp {
     /// The distance that it is set for [m]: what is nearer is brighter.

@@ -23,7 +23,7 @@ pub const FRAME_SIZE: (u32, u32) = (1280, 800);
 
 /// A scene that pictures are taken of.
 pub struct Studio {
-    /// What draws.
+    /// The renderer.
     pub gpu: Gpu,
     /// How it is looked at.
     pub view: View,
@@ -36,7 +36,7 @@ pub struct Studio {
     labels: Option<LabelTarget>,
     surface: Surface,
     opened: OpenedSnapshot,
-    /// What is drawn beside the organ, such as its wire frame.
+    /// Bodies drawn with the organ, such as its wire frame.
     pub beside: Vec<Body>,
 }
 
@@ -220,7 +220,7 @@ pub struct FrameWriter {
 }
 
 impl FrameWriter {
-    /// Of `wanted` pictures into `folder`, which is there.
+    /// Writes `wanted` pictures into `folder`, which exists.
     ///
     /// # Errors
     /// When there is no adapter or a neighbour cannot be read.

@@ -1,12 +1,12 @@
 use crate::Error;
 use crate::render::DEPTH_AND_LABEL;
 
-/// What draws: an adapter with its device and queue. Clones are the same device.
+/// A graphics adapter with its device and queue. Clones share the device.
 #[derive(Debug, Clone)]
 pub struct Gpu {
     /// The device.
     pub(crate) device: wgpu::Device,
-    /// Where its work is handed in.
+    /// Its queue.
     pub(crate) queue: wgpu::Queue,
     adapter: String,
     software: bool,
@@ -40,7 +40,7 @@ impl Gpu {
 
     /// A device that somebody else has opened, such as a window.
     pub fn of(adapter: &wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Self {
-        let told = adapter.get_info();
+        let info = adapter.get_info();
         let features = adapter.get_texture_format_features(DEPTH_AND_LABEL);
         Self {
             has_labels: features
@@ -48,17 +48,17 @@ impl Gpu {
                 .contains(wgpu::TextureUsages::RENDER_ATTACHMENT),
             device,
             queue,
-            adapter: format!("{} ({})", told.name, told.backend),
-            software: told.device_type == wgpu::DeviceType::Cpu,
+            adapter: format!("{} ({})", info.name, info.backend),
+            software: info.device_type == wgpu::DeviceType::Cpu,
         }
     }
 
-    /// Hands in what was written.
+    /// Submits the written data.
     pub fn submit(&self) {
         self.queue.submit([]);
     }
 
-    /// Waits until everything that was handed in is done.
+    /// Waits until all submitted work is done.
     ///
     /// # Errors
     /// When the adapter was lost.
@@ -69,7 +69,7 @@ impl Gpu {
         })
     }
 
-    /// Name of the adapter and of the interface that it is spoken to by.
+    /// Name of the adapter and of its graphics interface.
     pub fn adapter(&self) -> &str {
         &self.adapter
     }
@@ -80,7 +80,7 @@ impl Gpu {
     }
 }
 
-/// What the environment asks for, else `backends`: OpenGL, which looks for a display and complains when
+/// Backends that the environment asks for, else `backends`: OpenGL, which looks for a display and complains when
 /// there is none, comes last.
 fn instance(backends: wgpu::Backends) -> wgpu::Instance {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();

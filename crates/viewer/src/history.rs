@@ -14,7 +14,7 @@ pub(crate) struct History {
 }
 
 impl History {
-    /// Takes what was felt at `time` [s]: force [N] and depth [m].
+    /// Adds the force [N] and the depth [m] at `time` [s].
     pub(crate) fn add(&mut self, time: f64, [force, depth]: [f64; 2]) {
         self.samples.push_back([time, force, depth]);
         let oldest = time - SPAN;

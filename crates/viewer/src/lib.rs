@@ -1,7 +1,7 @@
-//! An organ seen: pictures of a simulation, and the window in which it is touched; and the window of the rig.
+//! Pictures of a simulation, the simulator's window in which an organ is touched, and the window of the rig.
 //!
-//! A [`Renderer`] draws bodies and tools into a [`Target`]; a [`Studio`] is one with a scene in it, which
-//! needs no display. A [`FrameWriter`] takes pictures of a motion that is played.
+//! A [`Renderer`] draws bodies and tools into a [`Target`]; a [`Studio`] is a renderer with a scene, which
+//! needs no display. A [`FrameWriter`] takes pictures of a motion at a constant rate.
 
 mod animation;
 mod camera;

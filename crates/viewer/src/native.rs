@@ -32,16 +32,18 @@ pub(crate) fn open<App: eframe::App + 'static>(
         renderer: eframe::Renderer::Wgpu,
         ..eframe::NativeOptions::default()
     };
-    // What goes wrong while the window is made is told in our words, not in those of its library.
+    // An error while the window is made is reported in our words, not in those of its library.
     let failure: Arc<Mutex<Option<Error>>> = Arc::default();
-    let told = failure.clone();
+    let shared_failure = failure.clone();
     let make: eframe::AppCreator<'_> = Box::new(move |context| {
         style::dress(&context.egui_ctx);
         match make(context) {
             Ok(window) => Ok(Box::new(window) as Box<dyn eframe::App>),
             Err(error) => {
                 let words = error.to_string();
-                *told.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
+                *shared_failure
+                    .lock()
+                    .unwrap_or_else(PoisonError::into_inner) = Some(error);
                 Err(words.into())
             }
         }

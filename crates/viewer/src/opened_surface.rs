@@ -9,7 +9,7 @@ use crate::render::single_precision;
 /// No two surfaces have the same triangles, as far as a picture knows.
 static NEXT: AtomicU64 = AtomicU64::new(1);
 
-/// A cut surface that is held open for a picture, without mechanics.
+/// A cut surface that is opened for a picture, without mechanics.
 #[derive(Debug, Clone)]
 pub struct OpenedSurface {
     mesh: TriangleMesh,

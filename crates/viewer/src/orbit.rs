@@ -9,9 +9,9 @@ const FILLED: f64 = 0.86;
 /// Steepest look from above or below [rad]; beyond it up and sight would be one.
 const STEEPEST: f64 = 1.5;
 
-/// How far beside a place it is looked at [rad], and the flattest and steepest looks at it [rad]: not along
-/// a tool that stands there.
-const BESIDE: f64 = 0.5;
+/// Azimuth of a view of a place, from the direction outwards [rad], and its least and largest elevation [rad]: not
+/// along a tool that stands there.
+const AZIMUTH_OFFSET: f64 = 0.5;
 const LOWEST: f64 = 0.4;
 const HIGHEST: f64 = 0.9;
 
@@ -19,10 +19,10 @@ const HIGHEST: f64 = 0.9;
 const WIDE: f64 = 1.25;
 const NEARER: f64 = 0.66;
 
-/// A camera that goes around what it looks at.
+/// A camera that orbits its target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Orbit {
-    /// What it goes around [m].
+    /// Center of the orbit [m].
     pub target: Vec3,
     /// From there to the eye [m].
     pub distance: f64,
@@ -35,7 +35,7 @@ pub struct Orbit {
 }
 
 impl Orbit {
-    /// From in front and a little above and beside, so that `mesh` fills a picture of the given width
+    /// From in front, a little above and to the side, so that `mesh` fills a picture of the given width
     /// over height.
     pub fn framing(mesh: &TriangleMesh, field_of_view: f64, aspect: f64) -> Self {
         let (low, high) = mesh.bounds();
@@ -70,7 +70,7 @@ impl Orbit {
             return self;
         }
         let turned = Self {
-            azimuth: out.x.atan2(-out.y) + BESIDE,
+            azimuth: out.x.atan2(-out.y) + AZIMUTH_OFFSET,
             elevation: (out.z / out.norm()).asin().clamp(-LOWEST, HIGHEST),
             ..self
         };

@@ -11,7 +11,7 @@ pub struct Picked {
     pub normal: Vec3,
 }
 
-/// What is seen at a place of the picture: (0, 0) is its upper left corner and (1, 1) its lower right one.
+/// The surface point at a position of the picture: (0, 0) is its upper left corner and (1, 1) its lower right one.
 /// `tree` is that of the surface's mesh.
 pub fn pick(
     surface: &Surface,

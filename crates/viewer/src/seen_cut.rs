@@ -1,9 +1,9 @@
-//! A cut as it is seen: the surface with its openings, the walls of the slits, and the layers below.
+//! The display mesh of a cut: the surface with its openings, the walls of the slits, and the layers below.
 //!
 //! Openings are holes in the outer surface. Below them lie the inner layers: each is the uncut surface within
 //! [`AROUND`] of a slit, moved inward along its normals by the thickness of what lies above it. From each open
 //! edge a wall goes down to the first of them. Openings of an inner layer are left out by the shader, where the
-//! session's cuts go through that layer and nowhere else; below the innermost one lies the dark of the lumen.
+//! session's cuts go through that layer and nowhere else; below the innermost one lies the dark lumen.
 //! Muscle fibres run along the organ in the outermost layer and around it in the next (section 7.1). Triangles are
 //! made when the cut has changed, places with every picture.
 //!
@@ -44,7 +44,7 @@ const UNDER: f32 = 0.8;
 /// An opening of a layer is this part of that of the layer above wide, so that both are seen [-].
 const NARROWER: f32 = 0.72;
 
-/// What cuts go through.
+/// Layers that cuts go through.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CutLayers {
     /// Depths of the lower faces, from outside [m].
@@ -139,7 +139,7 @@ impl SeenCut {
         }
     }
 
-    /// What is drawn.
+    /// The bodies to draw.
     pub(crate) fn bodies(&self) -> impl Iterator<Item = &Body> {
         let inner = self.inner.iter().map(|layer| &layer.body);
         [&self.outer, &self.wall].into_iter().chain(inner)
@@ -340,7 +340,7 @@ impl SeenCut {
     }
 }
 
-/// What lies below the outermost layer: the other layers, the innermost one as mucosa, and the lumen below them.
+/// Layers below the outermost one: the other layers, the innermost one as mucosa, and the lumen below them.
 fn inner_layers(gpu: &Gpu, layers: &CutLayers, fibres: Fibres) -> Vec<InnerLayer> {
     let count = layers.depths.len();
     let depths = layers.depths.iter().enumerate();

@@ -18,7 +18,7 @@ pub(crate) struct SeenOrgan {
     body: Body,
     /// Once there was a cut.
     cut: Option<SeenCut>,
-    /// What cuts go through.
+    /// Layers that cuts go through.
     layers: CutLayers,
     /// Whether the last picture was of a cut organ.
     is_open: bool,
@@ -67,7 +67,7 @@ impl SeenOrgan {
         Ok(())
     }
 
-    /// What is drawn.
+    /// The bodies to draw.
     pub(crate) fn bodies(&self) -> impl Iterator<Item = &Body> {
         let cut = self.cut.as_ref().filter(|_| self.is_open);
         let whole = cut.is_none().then_some(&self.body);

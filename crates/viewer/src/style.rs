@@ -1,6 +1,6 @@
 use eframe::egui::{self, Color32, Visuals};
 
-/// What went wrong.
+/// Errors.
 pub(crate) const FAULT: Color32 = Color32::from_rgb(242, 122, 106);
 /// Warnings.
 pub(crate) const WARNING: Color32 = Color32::from_rgb(226, 182, 92);
@@ -8,9 +8,9 @@ pub(crate) const WARNING: Color32 = Color32::from_rgb(226, 182, 92);
 pub(crate) const FORCE: Color32 = Color32::from_rgb(236, 126, 92);
 /// The depth, and the mark on the organ.
 pub(crate) const DEPTH: Color32 = Color32::from_rgb(84, 196, 178);
-/// What is said in passing.
+/// Secondary text.
 pub(crate) const QUIET: Color32 = Color32::from_rgb(150, 158, 168);
-/// What is read first.
+/// Primary text.
 pub(crate) const WHITE: Color32 = Color32::from_rgb(232, 235, 240);
 /// Texts that need no color.
 pub(crate) const TEXT: Color32 = Color32::from_rgb(218, 222, 228);
@@ -29,18 +29,18 @@ pub(crate) const PLATE: Color32 = Color32::from_black_alpha(210);
 pub(crate) const ACTION: Color32 = Color32::from_rgb(38, 96, 92);
 /// The band of a gauge.
 pub(crate) const BAR: Color32 = Color32::from_rgb(50, 118, 107);
-/// One trainee beside the mean of all.
+/// One trainee versus the mean of all.
 pub(crate) const EACH: Color32 = Color32::from_rgb(104, 112, 124);
-/// What is left to do on an organ, and the truth: yellow is seen on red by everybody.
+/// Remaining work on an organ, and the solution: everybody sees yellow on red.
 pub(crate) const LEFT: Color32 = Color32::from_rgb(255, 224, 92);
-/// What somebody else did, or marked, on an organ.
+/// Actions or marks of somebody else on an organ.
 pub(crate) const BRIGHT: Color32 = Color32::from_rgb(120, 232, 214);
 /// The button of the emergency stop.
 pub(crate) const STOP: Color32 = Color32::from_rgb(196, 32, 28);
 /// What is written on it.
 pub(crate) const ON_STOP: Color32 = Color32::WHITE;
 
-/// What the emergency stop does.
+/// Effect of the emergency stop.
 pub(crate) const STOP_HINT: &str =
     "no force at once (space bar); it stays so until it is armed again";
 
@@ -57,7 +57,7 @@ pub(crate) fn dress(context: &egui::Context) {
     context.set_visuals(visuals);
 }
 
-/// What a window is cleared to before its elements are drawn.
+/// Background of a window before its elements are drawn.
 pub(crate) fn cleared() -> [f32; 4] {
     GROUND.to_normalized_gamma_f32()
 }

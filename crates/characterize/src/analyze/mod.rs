@@ -1,4 +1,4 @@
-//! What was measured, without a model: relaxation, static response, swings.
+//! Analysis without a model: relaxation, static response, swings.
 //!
 //! ```text
 //! CleanRecording ─▶ Analysis: holds, relaxation, sinusoids, sweeps

@@ -1,4 +1,4 @@
-//! How the force falls while the indenter stays.
+//! Decrease of the force during a hold.
 //!
 //! *Steady* is the mean of the last tenth of the hold, whatever its length; no curve is drawn beyond
 //! the end. When the hold is too short for that to be steady the force still falls, and a warning says
@@ -80,10 +80,10 @@ pub(super) fn longest(
     warnings: &mut Vec<String>,
 ) -> Option<Relaxation> {
     let segments = &recording.segments;
-    let held = |own: &usize| recording.duration(&segments[*own]);
+    let duration = |own: &usize| recording.duration(&segments[*own]);
     let Some(place) = (0..segments.len())
         .filter(|own| segments[*own].kind == SegmentKind::Hold)
-        .max_by(|a, b| held(a).total_cmp(&held(b)))
+        .max_by(|a, b| duration(a).total_cmp(&duration(b)))
     else {
         warnings.push("the indenter never stays, so there is no relaxation to tell".to_owned());
         return None;

@@ -1,4 +1,4 @@
-//! The answer to a sine, by harmonic regression over whole periods.
+//! The response to a sine, by harmonic regression over whole periods.
 //!
 //! Depth and force are fitted by a constant, a slope and three exponentials, which take up relaxation,
 //! and by Σ aₙ cos nωt + bₙ sin nωt, n = 1 to 3, over the whole periods at the end of the swing; the first is

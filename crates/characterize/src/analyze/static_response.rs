@@ -1,8 +1,8 @@
 //! The steady force over depth, over subjects: the source's table 5-1 and its figures 5-1 and 5-14.
 //!
-//! Holds are put together by organ, condition, whole hours after death and depth. *Mean*, *least* and
-//! *largest* are over all holds of a row. Where it is known which animal each comes from the spread is
-//! told twice: *within* one animal, the deviation about each animal's own mean, and *between* animals,
+//! Holds are grouped by organ, condition, whole hours after death and depth. *Mean*, *least* and
+//! *largest* are over all holds of a row. Where the animal of each hold is known, the spread is
+//! given twice: *within* one animal, the deviation about each animal's own mean, and *between* animals,
 //! the deviation of those means.
 //!
 //! *How we know*: `static_response::…`, with `published/table_5_1_static_force.csv`.

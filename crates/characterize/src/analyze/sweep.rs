@@ -1,4 +1,4 @@
-//! The answer to a chirp: a transfer function with its coherence.
+//! The response to a chirp: a transfer function with its coherence.
 //!
 //! Depth and force are freed of relaxation (a constant, a slope and three exponentials) and transformed
 //! whole, at the multiples of 1/T, T the length of the chirp. With the transforms X of the depth and Y of
@@ -11,7 +11,7 @@
 //! *How we know*: `sinusoid::chirps_give_the_same_stiffness`, `sinusoid::noise_is_marked`.
 //!
 //! *Limits*: no finer in frequency than 9/T. Where the chirp has little power, at its ends, the
-//! coherence tells how much of the answer is noise.
+//! coherence shows how much of the response is noise.
 
 use std::f64::consts::TAU;
 

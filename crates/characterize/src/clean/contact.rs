@@ -1,4 +1,4 @@
-//! The first contact, and what the sensor showed before it.
+//! The first contact, and the zero of the sensor before it.
 //!
 //! A recording of this project counts depth from first contact, so the contact is where the depth leaves zero. In others
 //! it is found: while the force first rises by 5 % of its range, or by twenty deviations of its noise if that is more, it
@@ -34,7 +34,7 @@ const ABOVE_NOISE: f64 = 20.0;
 const ON_THE_RISE: usize = 5;
 /// Samples looked at; of more, every second, third and so on.
 const MOST_SAMPLES: usize = 20_000;
-/// Standard errors from which a drift is told [-]: one in 16,000 by chance.
+/// Standard errors from which a drift is reported [-]: one in 16,000 by chance.
 const CERTAIN: f64 = 4.0;
 /// What a drift may leave, in deviations of the noise [-].
 const NOISE_ALONE: f64 = 1.5;
@@ -60,7 +60,7 @@ pub struct Contact {
     pub drift_n_per_s: Option<f64>,
 }
 
-/// That of a piece that is held from the first sample: it has no contact to be found.
+/// That of a piece that is clamped from the first sample: it has no contact to find.
 pub(super) fn at_first(samples: &Oriented) -> Contact {
     Contact {
         time_s: samples.time[0],
@@ -74,7 +74,7 @@ pub(super) fn by_depth(samples: &Oriented, is_piece: bool) -> Result<Contact, Er
     let (time, depth) = (&samples.time, &samples.depth);
     let deepest = depth.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if deepest <= 0.0 && is_piece {
-        // A piece that is pulled is held from the first.
+        // A pulled piece is clamped from the first sample.
         return Ok(Contact {
             time_s: time[0],
             ..Contact::default()
@@ -95,7 +95,7 @@ pub(super) fn by_depth(samples: &Oriented, is_piece: bool) -> Result<Contact, Er
     };
     let share = -depth[sample] / (depth[sample + 1] - depth[sample]);
     let time_s = time[sample] + share * (time[sample + 1] - time[sample]);
-    // Nobody knows the first contact exactly: what is well above the tissue tells the zero, if it is enough.
+    // The first contact is never exact: samples well above the tissue give the zero, if they are enough.
     let clear = depth[..=sample]
         .iter()
         .rposition(|&d| d <= -CLEAR * deepest);
@@ -186,7 +186,7 @@ pub(super) fn thinned(samples: &Oriented, range: Range<usize>) -> (Approach, usi
 fn at_sample(samples: &Oriented, sample: usize, depth_error_m: Option<f64>) -> Contact {
     let zero = Zero::before(samples, sample);
     let time_s = samples.time[sample];
-    // One sample tells the zero too, if not how well.
+    // One sample gives the zero too, but not its error.
     let only = || samples.force[..=sample].iter().sum::<f64>() / (sample + 1) as f64;
     Contact {
         sample,
@@ -284,7 +284,7 @@ pub(super) fn add_warnings(contact: &Contact, clean: &CleanRecording, warnings: 
         ));
     }
     if clean.is_piece() {
-        // Nothing touches: the piece is held.
+        // There is no contact: the piece is clamped.
     } else if contact.sample == 0 {
         warnings.push(
             "the recording begins in contact: nothing shows the sensor's zero, and the indenter may have touched before"

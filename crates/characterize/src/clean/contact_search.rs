@@ -238,7 +238,7 @@ impl Before {
     }
 }
 
-/// How many of these samples tell as much as one that knows nothing of the others [-]: the variance of means of blocks over
+/// Number of these samples that are worth one independent sample [-]: the variance of means of blocks over
 /// that of independent samples, for the length of a block at which it is largest.
 pub(super) fn correlation(values: &[f64]) -> f64 {
     let variance = |values: &[f64]| {

@@ -32,7 +32,7 @@ const ROUNDS: usize = 3;
 struct Line {
     fit: Regression,
     middle: f64,
-    /// How many samples tell as much as one of white noise [-].
+    /// Number of samples that are worth one of white noise [-].
     correlated: f64,
 }
 

@@ -1,7 +1,7 @@
-//! A low-pass filter that shifts nothing in time.
+//! A zero-phase low-pass filter.
 //!
 //! A filter of third order [Butterworth 1930], |H(f)|² = 1 / (1 + (f/f_c)⁶), made digital by the bilinear
-//! transform with its cut-off kept in place, f → tan(π f Δt), and run forward and then backward as in
+//! transform with its cut-off unchanged, f → tan(π f Δt), and run forward and then backward as in
 //! the source: the phases cancel and the gain is |H|², one half at the cut-off.
 //!
 //! *How we know*: `filter::gain_is_that_of_butterworth`, `filter::nothing_is_shifted`,
@@ -28,7 +28,7 @@ pub struct LowPass {
     end: usize,
 }
 
-/// y = b₀ x + b₁ x₁ + b₂ x₂ − a₁ y₁ − a₂ y₂, in the transposed form with two sums kept.
+/// y = b₀ x + b₁ x₁ + b₂ x₂ − a₁ y₁ − a₂ y₂, in the transposed form with two stored sums.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Section {
     b: [f64; 3],

@@ -1,11 +1,11 @@
-//! A recording made ready: first contact, offset, stimulus, disturbances.
+//! Preparation of a recording: first contact, offset, stimulus, disturbances.
 //!
 //! ```text
 //! Recording ─signs─▶ ─contact, offset─▶ ─segments─▶ ─ripple─▶ ─low-pass─▶ CleanRecording
 //! ```
 //!
-//! The force that is fitted is what was measured, less the sensor's zero and, of tissue that moves by itself, the swing of its
-//! force (`motion`); the filter touches only the force that is drawn. What was done and warnings stand in [`CleanRecording::warnings`].
+//! The fitted force is the measured one, less the sensor's zero and, of tissue that moves by itself, the swing of its
+//! force (`motion`); only plots use the filtered force. [`CleanRecording::warnings`] lists all changes and warnings.
 
 mod contact;
 mod contact_search;

@@ -30,10 +30,10 @@ impl Moving<'_> {
     pub(crate) fn force_at_rest(&self) -> Vec<f64> {
         let (mut force, ripple) = (self.force.to_vec(), self.ripple);
         ripple.take_out(self.time, &mut force);
-        let held = self.depth[ripple.first];
+        let hold_depth = self.depth[ripple.first];
         let ramp = self.segments.iter().find(|own| own.end == ripple.first);
         for sample in ramp.map_or(0..0, |ramp| ramp.first..ramp.end) {
-            let part = (self.depth[sample] / held).clamp(0.0, 1.0);
+            let part = (self.depth[sample] / hold_depth).clamp(0.0, 1.0);
             if part > 0.0 {
                 force[sample] -= part.powf(self.power() - 1.0) * ripple.force(self.time[sample]);
             }
@@ -42,7 +42,7 @@ impl Moving<'_> {
     }
 
     /// The amplitude of the motion [m]: that of the force over the stiffness of an elastic contact at the beginning of the hold,
-    /// where the error of the amplitude is added. A slow ramp leaves tissue that relaxes less force than its stiffness tells, and then
+    /// where the error of the amplitude is added. A slow ramp leaves tissue that relaxes less force than its stiffness suggests, and then
     /// the motion comes out too large. None where there is no force.
     pub(crate) fn amplitude(&self) -> Option<f64> {
         let ripple = self.ripple;

@@ -1,4 +1,4 @@
-//! How much a signal trembles from sample to sample.
+//! Noise of a signal from sample to sample.
 
 /// Samples that are enough for a mean with an error.
 pub(crate) const ENOUGH: usize = 5;

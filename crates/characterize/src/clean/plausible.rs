@@ -1,4 +1,4 @@
-//! Numbers that no touch of tissue gives: units gone wrong, a sensor at its end.
+//! Implausible numbers: wrong units, a sensor at the end of its range.
 
 use palpate_files::Recording;
 
@@ -6,7 +6,7 @@ use super::{CleanRecording, noise};
 
 /// Depth [m] beyond which nobody indents tissue.
 const TOO_DEEP: f64 = 0.2;
-/// Depth [m] below which only forces below [`NANOSCALE`] [N] are felt.
+/// Depth [m] below which only forces below [`NANOSCALE`] [N] occur.
 const TOO_SHALLOW: f64 = 2e-5;
 const NANOSCALE: f64 = 1e-3;
 /// Force [N] beyond which nobody presses tissue.
@@ -21,7 +21,7 @@ const STUCK: usize = 5;
 const TELLING: usize = 3;
 /// Half a step of the depth that is worth a word, over the deepest press [-].
 const COARSE: f64 = 0.01;
-/// Ways between samples from which steps can be told [-].
+/// Distances between samples from which steps can be recognized [-].
 const FEW: usize = 20;
 /// Least noise, over the largest force, that shows a sensor to be awake [-].
 const AWAKE: f64 = 1e-4;
@@ -36,8 +36,8 @@ pub(super) fn add_warnings(
     if let Some(wrong) = wrong_unit(clean, deepest, strongest) {
         warnings.push(format!("{wrong}; check the units"));
     }
-    let told = steps(recording.depth_m()).filter(|_| deepest > 0.0);
-    warnings.extend(told.and_then(|step| of_steps(step, deepest)));
+    let resolution = steps(recording.depth_m()).filter(|_| deepest > 0.0);
+    warnings.extend(resolution.and_then(|step| of_steps(step, deepest)));
     if let Some((from, to)) = stuck(recording) {
         warnings.push(format!(
             "the force stays at exactly {} N from {from} to {to} s, as a sensor does at its end; \
@@ -86,7 +86,7 @@ fn wrong_unit(clean: &CleanRecording, deepest: f64, strongest: f64) -> Option<St
         .then(|| format!("depth and force make a modulus of {modulus:.0e} Pa, which no tissue has"))
 }
 
-/// What is said of a depth that is told in `steps` [m] and goes to `deepest` [m], where that matters.
+/// The warning about a depth with the resolution `steps` [m] that goes to `deepest` [m], where that matters.
 fn of_steps(steps: f64, deepest: f64) -> Option<String> {
     let part = 0.5 * steps / deepest;
     (part > COARSE).then(|| {
@@ -99,7 +99,7 @@ fn of_steps(steps: f64, deepest: f64) -> Option<String> {
     })
 }
 
-/// The step [m] of a depth that is not told more finely; none where each sample has its own.
+/// The resolution [m] of a depth; none where each sample has its own value.
 fn steps(depth: &[f64]) -> Option<f64> {
     let ways = || depth.windows(2).map(|pair| (pair[1] - pair[0]).abs());
     let step = ways()

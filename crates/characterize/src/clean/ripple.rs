@@ -1,7 +1,7 @@
 //! The heart in the force of a hold: a line of its spectrum between 0.7 and 3 Hz.
 //!
 //! Relaxation is taken off as a constant, a slope and three exponentials with fixed times; the line is
-//! the frequency with the most power in what is left, told when that is 25 times the usual power of
+//! the frequency with the most power in the rest, detected when that is 25 times the usual power of
 //! the band (in white noise one hold in ten thousand). Its amplitude is that of a regression with
 //! two harmonics, together with the relaxation.
 //!

@@ -1,4 +1,4 @@
-//! How evenly a recording was sampled, and the even grid on which it is filtered.
+//! Uniformity of the sampling of a recording, and the uniform grid on which it is filtered.
 
 use super::LowPass;
 use crate::Error;

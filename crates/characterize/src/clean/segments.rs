@@ -1,12 +1,12 @@
-//! What the indenter did, read from its depth.
+//! Segments of the stimulus, found in the depth.
 //!
-//! A part that swings evenly is a sine or a chirp ([`swing`](super::swing)). Every other part is drawn
+//! A part that swings evenly is a sine or a chirp ([`swing`](super::swing)). Every other part is approximated
 //! by the fewest straight lines that stay within 1.5 % of the travel of it (the depth's noise allowed
 //! for); a line that goes nowhere is a hold.
 //!
 //! *How we know*: `segments::…`, on made-up stimuli with known corners.
 //!
-//! *Limits*: a stimulus that changes its frequency in steps and without a pause is told as ramps and
+//! *Limits*: a stimulus that changes its frequency in steps and without a pause is read as ramps and
 //! retreats.
 
 use std::ops::Range;

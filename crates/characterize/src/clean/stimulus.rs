@@ -1,4 +1,4 @@
-//! What the header says of the stimulus, held against what the depth shows.
+//! Comparison of the stimulus in the header with the recorded depth.
 
 use palpate_files::recording::StimulusKind;
 
@@ -12,7 +12,7 @@ const DEEPEST: f64 = 0.01;
 const FASTEST: f64 = 8.0;
 
 pub(super) fn add_warnings(clean: &CleanRecording, warnings: &mut Vec<String>) {
-    tell_kind(clean, warnings);
+    warn_of_kind(clean, warnings);
     let mut compare = |what: &str, said: Option<f64>, seen: Option<f64>, slack: f64| {
         let (Some(said), Some(seen)) = (said, seen) else {
             return;
@@ -62,10 +62,10 @@ pub(super) fn add_warnings(clean: &CleanRecording, warnings: &mut Vec<String>) {
         let mean = depths.iter().sum::<f64>() / depths.len() as f64;
         compare("amplitude_m", header.amplitude_m, Some(mean), 0.0);
     }
-    tell_beyond(clean, warnings);
+    warn_of_extent(clean, warnings);
 }
 
-fn tell_kind(clean: &CleanRecording, warnings: &mut Vec<String>) {
+fn warn_of_kind(clean: &CleanRecording, warnings: &mut Vec<String>) {
     let shows =
         |wanted: fn(&SegmentKind) -> bool| clean.segments.iter().any(|own| wanted(&own.kind));
     let swings = shows(|kind| matches!(kind, SegmentKind::Sine(_)));
@@ -89,7 +89,7 @@ fn tell_kind(clean: &CleanRecording, warnings: &mut Vec<String>) {
 }
 
 /// Depths and frequencies for which the source has nothing to compare with.
-fn tell_beyond(clean: &CleanRecording, warnings: &mut Vec<String>) {
+fn warn_of_extent(clean: &CleanRecording, warnings: &mut Vec<String>) {
     let deepest = clean.depth.iter().copied().fold(0.0, f64::max);
     if deepest > DEEPEST && !clean.is_piece() {
         warnings.push(format!(

@@ -1,6 +1,6 @@
 use super::{Guess, Instrument, Presses};
 use crate::Error;
-use crate::inverse::{Body, Correlations, Curves, Felt, Indentation, UnitCurve, expected_law};
+use crate::inverse::{Body, Correlations, Curves, Indentation, LawData, UnitCurve, expected_law};
 use crate::viscoelastic::{RelaxationRecord, expected_relaxation};
 
 /// A parameter as a characterization is expected to state it.
@@ -106,12 +106,12 @@ impl Expecting {
         let weights: Vec<f64> = depths.iter().flat_map(|_| &shares).copied().collect();
         let of_noise = |noise: f64| -> Vec<f64> { weights.iter().map(|w| w / noise).collect() };
         let curves = Curves::new(Body::under_punch(presses.radius), *law, deepest);
-        let felt = Felt {
+        let data = LawData {
             indentations: &indentations,
             series,
         };
         let (errors, correlations) =
-            expected_law(&curves, &curve, *modulus, felt, &of_noise(instrument.noise));
+            expected_law(&curves, &curve, *modulus, data, &of_noise(instrument.noise));
         let own = law.parameters(*modulus, shape);
         let mut all: Vec<ExpectedParameter> = own
             .iter()

@@ -1,4 +1,4 @@
-//! How to press: the ramps and holds from which the parameters of a guessed tissue are expected to be known best.
+//! Design of experiments: ramps and holds that determine the parameters of a guessed tissue best.
 //!
 //! The errors that a characterization would state follow from the derivatives of force with the parameters at a guess,
 //! before anything is pressed [Atkinson et al. 2007]: covariance (JᵀJ)⁻¹ of the noise, and to first order what the
@@ -8,10 +8,10 @@
 //!
 //! *How we know*: `design::…`: errors of fits that are made, and a protocol against the default one.
 //!
-//! What a step of the depth does to a press is noise to a fit, which knows it from as many degrees of freedom as there
-//! are presses: an interval of few is wide, and expected to be.
+//! The effect of a step of the depth on a press is noise to a fit, with as many degrees of freedom as there are presses:
+//! the interval of few presses is wide, and expected to be.
 //!
-//! *Limits*: to first order around the guesses; flat punches on specimens that are large beside them, as the rig presses.
+//! *Limits*: to first order around the guesses; flat punches on specimens that are large relative to them, as the rig presses.
 
 mod expected;
 mod search;
@@ -52,14 +52,14 @@ impl Guess {
     }
 }
 
-/// What is known of the errors of recordings.
+/// Errors of recordings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Instrument {
-    /// Standard deviation of independent noise of a sample that tells as little as the true one [N].
+    /// Standard deviation of independent noise of a sample that is equivalent to the true noise [N].
     pub noise: f64,
     /// Samples in a second [Hz].
     pub rate: f64,
-    /// Of the zeros of each recording; the depth's contains the steps in which a depth is told.
+    /// Of the zeros of each recording; that of the depth contains the resolution of the depth.
     pub zeros: ZeroErrors,
 }
 
@@ -88,7 +88,7 @@ impl Presses {
     }
 }
 
-/// Within what protocols are sought.
+/// Limits of the protocols.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Limits {
     /// [m]

@@ -2,7 +2,7 @@ use super::expected::{ExpectedParameter, Expecting};
 use super::{Instrument, Limits, Presses};
 use crate::Error;
 
-/// What is made best.
+/// The optimality criterion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Criterion {
     /// The interval of the worst parameter, at the worst guess.
@@ -14,9 +14,9 @@ pub enum Criterion {
 /// A protocol that was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Designed {
-    /// What to press.
+    /// The protocol.
     pub presses: Presses,
-    /// What is expected of it at the first guess.
+    /// Its expected parameters at the first guess.
     pub expected: Vec<ExpectedParameter>,
     /// The interval of the worst parameter wanted at the worst guess, half of it over the value [-].
     pub worst: f64,
@@ -34,7 +34,7 @@ const RAMP: f64 = 0.25;
 pub(super) const MOST_RADII: f64 = 5.5;
 
 /// The protocol within `limits` from which the parameters `wanted` are expected to be known best, of tissue as any of
-/// `guesses`; `at_part` hears the part that is done [-].
+/// `guesses`; `at_part` receives the part that is done [-].
 ///
 /// # Errors
 /// When a parameter is not one of the guesses, or no protocol keeps within the limits.

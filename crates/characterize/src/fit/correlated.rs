@@ -35,8 +35,8 @@ const DRAWS: u64 = 40;
 const LARGEST_ORDER: usize = 60;
 /// Autocovariances below this part of the first are none [-]: less than rounding leaves of their sums.
 const FORGOTTEN: f64 = 1e-12;
-/// Orders of a process after which it has forgotten how it began.
-const MEMORIES: usize = 10;
+/// Length, in orders of the process, after which its start has no influence.
+const CORRELATION_TIMES: usize = 10;
 /// Rounds in which the autocovariances are raised, at most.
 const ROUNDS: usize = 6;
 
@@ -323,7 +323,7 @@ impl Process {
     fn drawn(&self, count: usize, random: &mut Random) -> Vec<f64> {
         let (new, start) = (
             self.innovation.sqrt(),
-            MEMORIES * (self.coefficients.len() + 1),
+            CORRELATION_TIMES * (self.coefficients.len() + 1),
         );
         let mut all: Vec<f64> = Vec::with_capacity(start + count);
         for _ in 0..start + count {

@@ -1,10 +1,10 @@
-//! Where the derivatives of the residuals come from.
+//! Derivatives of the residuals: given, or by finite differences.
 
 use nalgebra::{DMatrix, DVectorView};
 
 use super::{Parameter, Settings};
 
-/// How derivatives are made from differences. A difference never leaves the bounds.
+/// Kind of finite differences. A difference never leaves the bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Differences {
     /// To one side: one evaluation for each parameter, half the digits of the residuals.
@@ -58,8 +58,8 @@ pub(super) struct Differenced<'a, F> {
     /// The step of a difference, relative to the size of a parameter.
     step: f64,
     central: bool,
-    shifted: Vec<f64>,
-    beside: Vec<f64>,
+    point_values: Vec<f64>,
+    other_residuals: Vec<f64>,
 }
 
 impl<'a, F> Differenced<'a, F> {
@@ -74,8 +74,8 @@ impl<'a, F> Differenced<'a, F> {
                 settings.precision.sqrt()
             },
             central,
-            shifted: Vec::new(),
-            beside: Vec::new(),
+            point_values: Vec::new(),
+            other_residuals: Vec::new(),
         }
     }
 }
@@ -91,16 +91,16 @@ impl<F: FnMut(&[f64], &mut [f64]) -> Option<()>> Problem for Differenced<'_, F> 
         residuals: &[f64],
         jacobian: &mut DMatrix<f64>,
     ) -> Option<usize> {
-        self.shifted.clear();
-        self.shifted.extend_from_slice(values);
-        self.beside.resize(residuals.len(), 0.0);
+        self.point_values.clear();
+        self.point_values.extend_from_slice(values);
+        self.other_residuals.resize(residuals.len(), 0.0);
         let mut evaluations = 0;
         let parameters = self.parameters;
         for (i, parameter) in parameters.iter().enumerate().filter(|(_, p)| !p.fixed) {
             let column = jacobian.column_mut(i);
             let column = column.data.into_slice_mut();
             evaluations += self.column(i, parameter, residuals, column)?;
-            self.shifted[i] = values[i];
+            self.point_values[i] = values[i];
         }
         Some(evaluations)
     }
@@ -115,7 +115,7 @@ impl<F: FnMut(&[f64], &mut [f64]) -> Option<()>> Differenced<'_, F> {
         residuals: &[f64],
         column: &mut [f64],
     ) -> Option<usize> {
-        let value = self.shifted[i];
+        let value = self.point_values[i];
         // Many parameters are wanted well below the size that they start with.
         let size = value.abs().max(1e-3 * parameter.scale);
         let room = (parameter.upper - value).max(value - parameter.lower);
@@ -123,14 +123,14 @@ impl<F: FnMut(&[f64], &mut [f64]) -> Option<()>> Differenced<'_, F> {
         let inside = |point: &f64| (parameter.lower..=parameter.upper).contains(point);
         let points = [value + step, value - step].into_iter().filter(inside);
         let (mut evaluations, mut first) = (0, None);
-        let mut beside = std::mem::take(&mut self.beside);
+        let mut other_residuals = std::mem::take(&mut self.other_residuals);
         for point in points {
             match first {
                 None => first = self.evaluate(i, point, column).map(|()| point),
                 Some(first) if self.central => {
-                    if self.evaluate(i, point, &mut beside).is_some() {
-                        subtract(column, &beside, first - point);
-                        self.beside = beside;
+                    if self.evaluate(i, point, &mut other_residuals).is_some() {
+                        subtract(column, &other_residuals, first - point);
+                        self.other_residuals = other_residuals;
                         return Some(evaluations + 1);
                     }
                 }
@@ -138,14 +138,14 @@ impl<F: FnMut(&[f64], &mut [f64]) -> Option<()>> Differenced<'_, F> {
             }
             evaluations += 1;
         }
-        self.beside = beside;
+        self.other_residuals = other_residuals;
         subtract(column, residuals, first? - value);
         Some(evaluations)
     }
 
     fn evaluate(&mut self, i: usize, value: f64, residuals: &mut [f64]) -> Option<()> {
-        self.shifted[i] = value;
-        (self.function)(&self.shifted, residuals)?;
+        self.point_values[i] = value;
+        (self.function)(&self.point_values, residuals)?;
         let sum = DVectorView::from_slice(residuals, residuals.len()).norm_squared();
         sum.is_finite().then_some(())
     }

@@ -3,7 +3,7 @@ use super::Fit;
 /// A misfit from which on a law is said to miss the curve [-].
 const MISSES: f64 = 0.05;
 
-/// The part of what was measured that a fit does not follow: its root mean square over the `largest` [-].
+/// The part of the measured values that a fit does not follow: its root mean square over the `largest` [-].
 pub(crate) fn misfit(fit: &Fit, largest: f64) -> f64 {
     (fit.sum_of_squares() / fit.residuals.len() as f64).sqrt() / largest
 }

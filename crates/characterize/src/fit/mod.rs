@@ -1,4 +1,4 @@
-//! Least squares between bounds, and how well what it finds is known.
+//! Least squares between bounds, and the uncertainty of the result.
 //!
 //! [`least_squares`] makes Σ r² least by a damped Gauss-Newton method [Levenberg 1944, Marquardt 1963]:
 //! with J scaled by the largest norms of its columns so far [Moré 1978], a step solves
@@ -7,7 +7,7 @@
 //! min |J s + r|² + μ |D s|²,   lower ≤ p + s ≤ upper
 //! ```
 //!
-//! by reflections, never by JᵀJ. What leaves its bounds is put on them [Kanzow, Yamashita and Fukushima
+//! by reflections, never by JᵀJ. Parameters beyond their bounds are put on them [Kanzow, Yamashita and Fukushima
 //! 2004]; μ follows the ratio of gained to promised reduction [Nielsen 1999]. Where the residuals cannot be
 //! found the step is shortened. [`uncertainty`] and [`correlated_uncertainty`] then say how well the
 //! parameters are known, [`warnings`] in words.
@@ -55,7 +55,7 @@ pub use uncertainty::{Uncertainty, correlated_uncertainty, uncertainty, with_sys
 pub use verdict::{CORRELATED, HARDLY_KNOWN, Verdict, correlated_pairs, verdicts};
 pub use warnings::warnings;
 
-/// What a fit came to.
+/// The result of a fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
     /// The parameters, with the values where the fit ended.
@@ -64,15 +64,15 @@ pub struct Fit {
     pub residuals: Vec<f64>,
     /// Their derivatives there, a column for each parameter; those of fixed ones mean nothing.
     pub jacobian: DMatrix<f64>,
-    /// The way there, beginning with the start.
+    /// The iterations, beginning with the start.
     pub iterations: Vec<Iteration>,
-    /// Why it went no further.
+    /// Why it ended.
     pub stop: Stop,
     /// How often residuals were evaluated, for derivatives too.
     pub evaluations: usize,
 }
 
-/// A place on the way of a fit.
+/// An iteration of a fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Iteration {
     /// The values of all parameters.
@@ -87,7 +87,7 @@ pub struct Iteration {
     pub evaluations: usize,
 }
 
-/// Why a fit went no further.
+/// Why a fit ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stop {
     /// It arrived: the residuals are orthogonal to what the parameters can change, or the last step was

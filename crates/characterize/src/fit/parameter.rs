@@ -1,19 +1,19 @@
 use crate::Error;
 
-/// Something that a fit may change. All its numbers are in the unit that its name ends with.
+/// A parameter of a fit. All its numbers are in the unit that its name ends with.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
-    /// What it is called, ending with its unit as the keys of files do: `c10_pa`.
+    /// Its name, ending with its unit as the keys of files do: `c10_pa`.
     pub name: String,
-    /// Where the fit starts, and after it where it ended.
+    /// Start value, and after the fit its result.
     pub value: f64,
     /// The least it may be.
     pub lower: f64,
     /// The most it may be.
     pub upper: f64,
-    /// The size of a change that means something, above zero.
+    /// The size of a significant change, above zero.
     pub scale: f64,
-    /// Whether the fit must leave it alone.
+    /// Whether the fit leaves it unchanged.
     pub fixed: bool,
 }
 
@@ -44,7 +44,7 @@ impl Parameter {
         Self { scale, ..self }
     }
 
-    /// The same, kept at its value.
+    /// The same, fixed at its value.
     pub fn fixed(self) -> Self {
         Self {
             fixed: true,

@@ -29,28 +29,28 @@ pub(super) fn triangularize(matrix: &mut DMatrix<f64>, columns: usize) {
 
 /// The `y` that makes |R y + q|² + μ |y|² least between the bounds of each entry, with `triangle` = [R q].
 ///
-/// Whatever leaves its bounds is put on them, the farthest first, and the others are found again.
+/// Entries beyond their bounds are fixed on them, the farthest first, and the others are solved again.
 pub(super) fn bounded_step(triangle: &DMatrix<f64>, damping: f64, bounds: &[[f64; 2]]) -> Vec<f64> {
     let mut step = vec![0.0; bounds.len()];
-    let mut held = vec![false; bounds.len()];
+    let mut fixed = vec![false; bounds.len()];
     loop {
-        damped_step(triangle, damping, &held, &mut step);
+        damped_step(triangle, damping, &fixed, &mut step);
         let beyond = |i: usize| (bounds[i][0] - step[i]).max(step[i] - bounds[i][1]);
         let farthest = (0..step.len())
-            .filter(|&i| !held[i] && beyond(i) > 0.0)
+            .filter(|&i| !fixed[i] && beyond(i) > 0.0)
             .max_by(|&i, &j| beyond(i).total_cmp(&beyond(j)));
         let Some(farthest) = farthest else {
             return step;
         };
-        held[farthest] = true;
+        fixed[farthest] = true;
         step[farthest] = step[farthest].clamp(bounds[farthest][0], bounds[farthest][1]);
     }
 }
 
-/// The entries that are not held, for those that are.
-fn damped_step(triangle: &DMatrix<f64>, damping: f64, held: &[bool], step: &mut [f64]) {
-    let count = held.len();
-    let free: Vec<usize> = (0..count).filter(|&i| !held[i]).collect();
+/// Solves for the free entries, given the fixed ones.
+fn damped_step(triangle: &DMatrix<f64>, damping: f64, fixed: &[bool], step: &mut [f64]) {
+    let count = fixed.len();
+    let free: Vec<usize> = (0..count).filter(|&i| !fixed[i]).collect();
     let mut system = DMatrix::zeros(count + free.len(), free.len() + 1);
     for (column, &i) in free.iter().enumerate() {
         system
@@ -60,7 +60,7 @@ fn damped_step(triangle: &DMatrix<f64>, damping: f64, held: &[bool], step: &mut 
     }
     for row in 0..count {
         let moved: f64 = (0..count)
-            .filter(|&i| held[i])
+            .filter(|&i| fixed[i])
             .map(|i| triangle[(row, i)] * step[i])
             .sum();
         system[(row, free.len())] = triangle[(row, count)] + moved;

@@ -1,4 +1,4 @@
-//! How well a fit knows its parameters: covariance, intervals, correlation.
+//! Uncertainty of fitted parameters: covariance, intervals, correlation.
 
 use nalgebra::{DMatrix, DVectorView};
 
@@ -7,18 +7,18 @@ use super::correlated::score_covariance;
 use super::student::student_quantile;
 use super::triangle::triangularize;
 
-/// How well a fit knows its parameters.
+/// Uncertainty of the parameters of a fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Uncertainty {
-    /// The places of the parameters it speaks of: those that the fit chose, neither fixed nor on a bound.
+    /// The indices of its parameters: those that the fit chose, neither fixed nor on a bound.
     pub chosen: Vec<usize>,
     /// Their covariance [products of their units].
     pub covariance: DMatrix<f64>,
     /// The part of it that is estimated from residuals, of noise; the rest is known of the influences behind it.
     pub of_noise: DMatrix<f64>,
-    /// What their covariance would be if each residual had the variance one and knew nothing of the others.
+    /// Their covariance for independent residuals of variance one.
     pub unit_covariance: DMatrix<f64>,
-    /// How many independent samples would tell as much [-].
+    /// Effective number of independent samples [-].
     pub effective_samples: f64,
     /// The degrees of freedom that the part of noise is known with [-].
     pub freedom: f64,
@@ -40,7 +40,7 @@ pub fn uncertainty(fit: &Fit) -> Uncertainty {
     }
 }
 
-/// The uncertainty when neighbouring residuals of a recording tell of one another: the beat of a heart, noise
+/// The uncertainty when neighbouring residuals of a recording are correlated: the beat of a heart, noise
 /// that is filtered, a sensor with steps. `recordings` are the lengths of the recordings, in the order of
 /// the residuals, each sampled evenly.
 ///
@@ -68,9 +68,9 @@ pub fn correlated_uncertainty(fit: &Fit, recordings: &[usize]) -> Uncertainty {
     }
 }
 
-/// The same with what changes the residuals and is no noise: each column of `systematic` is what one standard
-/// deviation of one influence does to them [unit of the residuals]. An influence moves the parameters by −J⁺
-/// times its column, to first order, and those ways add up as their squares [JCGM 100:2008].
+/// The same with systematic influences: each column of `systematic` is the change of the residuals by one standard
+/// deviation of one influence [unit of the residuals]. An influence moves the parameters by −J⁺
+/// times its column, to first order, and these changes add up as their squares [JCGM 100:2008].
 pub fn with_systematic(known: Uncertainty, fit: &Fit, systematic: &[Vec<f64>]) -> Uncertainty {
     let whitened = Whitened::new(fit);
     let mut all = known;
@@ -173,7 +173,7 @@ impl Uncertainty {
         Some(student_quantile(self.degrees_of_freedom(all, noise), level))
     }
 
-    /// The same of the parameters alone that `is_kept` keeps by their places; what the others leave open stays in their errors.
+    /// The same for the parameters alone whose index `is_kept` accepts; the uncertainty of the others stays in their errors.
     pub(crate) fn among(&self, is_kept: impl Fn(usize) -> bool) -> Self {
         let kept: Vec<usize> = (0..self.chosen.len())
             .filter(|&k| is_kept(self.chosen[k]))
@@ -188,7 +188,7 @@ impl Uncertainty {
         }
     }
 
-    /// Where a parameter stands among those that the fit chose.
+    /// Index of a parameter among those that the fit chose.
     fn place(&self, parameter: usize) -> Option<usize> {
         self.chosen.iter().position(|&i| i == parameter)
     }

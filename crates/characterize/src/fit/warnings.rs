@@ -1,9 +1,9 @@
-//! What a fit does not know, in plain sentences.
+//! Warnings of a fit about poorly known parameters, in plain sentences.
 //!
-//! Errors relative to the parameters' sizes have a covariance whose eigenvectors are the combinations that the
-//! recording tells of, each with its own error. Where that error is large, the parameters that take part
-//! cannot be told apart (or, if it is one alone, it is not known); of their simple combinations the best
-//! known is named with its value. What counts as hardly known is decided in `verdict.rs`.
+//! Errors relative to the parameters' sizes have a covariance whose eigenvectors are combinations of parameters,
+//! each with its own error. Where that error is large, the parameters that take part cannot be
+//! distinguished (or, if it is one alone, it is not known); of their simple combinations the best
+//! known is named with its value. `verdict.rs` decides which parameters are hardly known.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use palpate_files::quantity::{plain_quantity, without_unit};
@@ -15,7 +15,7 @@ const TAKES_PART: f64 = 0.3;
 /// Rounding of a model's values [-].
 const ROUNDING: f64 = 1e-12;
 
-/// Sentences on warnings in a fit; none when there is nothing. `duration` [s] is that of the
+/// Warnings of a fit; empty when there are none. `duration` [s] is that of the
 /// recording, to which time constants (parameters in seconds) are compared.
 pub fn warnings(fit: &Fit, uncertainty: &Uncertainty, duration: Option<f64>) -> Vec<String> {
     let mut sentences = Vec::new();
@@ -46,7 +46,7 @@ pub fn warnings(fit: &Fit, uncertainty: &Uncertainty, duration: Option<f64>) -> 
     sentences
 }
 
-/// Whether the residuals are nothing but rounding beside what the parameters give.
+/// Whether the residuals are mere rounding relative to the values of the model.
 fn is_exact(fit: &Fit) -> bool {
     let values = fit.parameters.iter().map(|p| p.value);
     let given = &fit.jacobian * DVector::from_iterator(fit.parameters.len(), values);
@@ -71,7 +71,7 @@ fn hardly_known(fit: &Fit, uncertainty: &Uncertainty) -> Vec<String> {
     });
     let errors: Vec<_> = (0..count).map(|i| Some(relative[(i, i)].sqrt())).collect();
     let verdicts = verdicts(&errors, &uncertainty.correlation());
-    let mut told = vec![false; count];
+    let mut reported = vec![false; count];
     let mut sentences = Vec::new();
     let eigen = SymmetricEigen::new(relative.clone());
     let mut order: Vec<usize> = (0..count).collect();
@@ -79,7 +79,7 @@ fn hardly_known(fit: &Fit, uncertainty: &Uncertainty) -> Vec<String> {
     for k in order {
         let vector = eigen.eigenvectors.column(k);
         let part: Vec<usize> = (0..count)
-            .filter(|&i| vector[i].abs() > TAKES_PART && !told[i])
+            .filter(|&i| vector[i].abs() > TAKES_PART && !reported[i])
             .filter(|&i| verdicts[i] != Verdict::Known)
             .collect();
         let worst = part
@@ -104,10 +104,10 @@ fn hardly_known(fit: &Fit, uncertainty: &Uncertainty) -> Vec<String> {
             ),
             None => alone(&members, &covariance),
         });
-        part.iter().for_each(|&i| told[i] = true);
+        part.iter().for_each(|&i| reported[i] = true);
     }
-    // What takes part in no such combination enough to be named there.
-    for i in (0..count).filter(|&i| !told[i] && verdicts[i] == Verdict::HardlyKnown) {
+    // Hardly known parameters that are named in no such combination.
+    for i in (0..count).filter(|&i| !reported[i] && verdicts[i] == Verdict::HardlyKnown) {
         let variance = uncertainty.covariance.view((i, i), (1, 1)).into_owned();
         sentences.push(alone(&[Member::new(fit, uncertainty, i)], &variance));
     }

@@ -8,7 +8,7 @@ use palpate_mechanics::finite_elements::tube::Tube;
 use super::law::SoughtLaw;
 use crate::Error;
 
-/// What was indented, and with what.
+/// The indented body and its indenter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Body {
     /// A piece of a solid organ, indented in its middle.
@@ -24,7 +24,7 @@ pub enum Body {
         block: Block,
         /// The indenter.
         indenter: Indenter,
-        /// What it is bonded on.
+        /// The base that it is bonded to.
         base: LayerBase,
     },
     /// A hollow organ between fixed ends, with a flat indenter on its side.
@@ -40,12 +40,12 @@ pub enum Body {
     },
 }
 
-/// What a layer is bonded on. It relaxes as the layer does, and is on a rigid plate.
+/// The elastic base of a bonded layer. It relaxes as the layer does, and lies on a rigid plate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LayerBase {
     /// Thickness [m].
     pub thickness: f64,
-    /// How stiff it is.
+    /// Stiffness.
     pub modulus: BaseModulus,
     /// Standard error of that, over it [-].
     pub error: f64,
@@ -75,7 +75,7 @@ impl LayerBase {
 /// Radius and thickness of a specimen that states neither, in radii of the contact [-]: as the source's cube of
 /// 100 mm under its punch of 1 mm, with the same cross-section (figure 6-8).
 pub const BLOCK: [f64; 2] = [56.42, 100.0];
-/// Radius of a specimen that states its thickness alone, over that [-]: at its rim nothing is felt of the indenter.
+/// Radius of a specimen that states its thickness alone, over that [-]: at its rim the strain by the indenter is negligible.
 const WIDE: f64 = 5.0;
 /// Least radius of a layer on a base that states its thickness alone, over that [-]: a layer that is a hundred times as
 /// stiff spreads a load over ∛100 of its thickness.
@@ -127,8 +127,8 @@ impl Body {
         Self::Block { block, indenter }
     }
 
-    /// What the header of a recording says, indented to `deepest` [m]. What it does not say of a solid specimen is
-    /// as in a large one.
+    /// The body that the header of a recording describes, indented to `deepest` [m]. A solid specimen of unstated
+    /// size is large.
     ///
     /// # Errors
     /// When the indenter, a tube or the base of a layer is not known, or the specimen is thinner than it was pressed or
@@ -231,7 +231,7 @@ impl Body {
     }
 }
 
-/// What a header says of the indenter's friction.
+/// Friction of the indenter, from a header.
 fn friction(header: &RecordingHeader) -> Option<Friction> {
     header.indenter_friction.map(|own| match own {
         IndenterFriction::Bonded => Friction::Bonded,
@@ -239,7 +239,7 @@ fn friction(header: &RecordingHeader) -> Option<Friction> {
     })
 }
 
-/// What the header of a layer says of its base.
+/// Base of a layer, from its header.
 fn base(header: &RecordingHeader, indenter: &Indenter) -> Result<LayerBase, Error> {
     let unknown = |key| Error::Unknown { key };
     let layer = header.thickness_m.ok_or(unknown("thickness_m"))?;

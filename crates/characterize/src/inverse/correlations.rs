@@ -4,7 +4,7 @@ use super::description::{LawDescription, in_its_parameters};
 use crate::fit::Fit;
 use crate::viscoelastic::{even, quasi_linear};
 
-/// How the errors of parameters go together.
+/// Correlations of the errors of parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Correlations {
     /// The parameters, by their names.

@@ -1,6 +1,6 @@
 //! A sphere or a cone on a curved surface.
 //!
-//! Near the contact the gap between indenter and organ counts: that of the indenter on a plane and κ r²/2 more, κ the mean
+//! Near the contact the gap between indenter and organ decides: that of the indenter on a plane and κ r²/2 more, κ the mean
 //! curvature of the organ, positive where it bulges out. At small strain depth and force follow from the gap and the radius
 //! a of the contact [Sneddon 1965]. So at each force the depth on the organ follows from that on a plane, of every law.
 //! Where the organ curves unequally, a pair of circular bodies with as much force stands for the pair [Hertz 1881].
@@ -31,7 +31,7 @@ enum Round {
     },
 }
 
-/// Least curvature of the gap beside that on a plane [-]: in a hollow that fits closer the contact is no small part of
+/// Least curvature of the gap relative to that on a plane [-]: in a hollow that fits closer the contact is no small part of
 /// the sphere.
 const LEAST_CURVATURE: f64 = 0.25;
 /// The same under a cone: at 0.55 the force that a plane gives at the deepest contact is reached at no depth, for the force
@@ -79,12 +79,12 @@ impl CurvedContact {
         Ok(Some(Self { shape, curvature }))
     }
 
-    /// Depth on the organ [m] at the force that is felt on a plane at `depth` [m].
+    /// Depth on the organ [m] at the force on a plane at `depth` [m].
     pub(super) fn depth(&self, depth: f64) -> f64 {
         self.depth_at_force_of(&self.on_plane(), depth)
     }
 
-    /// Depth on a plane [m] at the force that is felt on the organ at `depth` [m].
+    /// Depth on a plane [m] at the force on the organ at `depth` [m].
     pub(super) fn depth_on_plane(&self, depth: f64) -> f64 {
         self.on_plane().depth_at_force_of(self, depth)
     }

@@ -24,7 +24,7 @@ pub struct UnitCurve {
     pub force: IndentationCurve,
     /// Its change with each shape.
     pub by_shape: Vec<IndentationCurve>,
-    /// Part of the force that the elements may be off [-].
+    /// Relative error of the force by the elements [-].
     pub discretisation: f64,
     /// How it changes with the base of a layer, where it is on one.
     pub base: Option<OfBase>,
@@ -52,32 +52,32 @@ impl UnitCurve {
     }
 }
 
-/// What a run of finite elements presses.
+/// Problem of a run of finite elements.
 #[derive(Debug, Clone, Copy)]
 struct PressedPiece {
     /// The tissue.
     block: Block,
-    /// What presses it.
+    /// The indenter.
     indenter: Indenter,
-    /// What it lies on, where that gives way.
+    /// Its elastic base, if any.
     base: Option<ElasticBase>,
 }
 
-/// Where unit curves come from: what has been solved is kept, what has been tabulated is not solved.
+/// Source of unit curves: solved curves are cached, tabulated ones are not solved.
 #[derive(Debug, Clone)]
 pub struct Curves {
     body: Body,
     law: SoughtLaw,
-    /// Down to which they are known [m].
+    /// Deepest depth of the curves [m].
     deepest: f64,
     /// How much too stiff the coarsest mesh is, once it was found, for the logarithm of a base's stiffness.
     mesh_error: Option<(f64, MeshError)>,
-    /// What was solved, for each modulus that matters [Pa].
+    /// Solved curves, for each modulus that matters [Pa].
     solved: Vec<(f64, Family)>,
     solves: usize,
     /// What counts of the bounds on the product of an elastic force and G(t) [-].
     product_share: f64,
-    /// How much more the organ gives way than the body; none of a specimen that is the body.
+    /// Compliance of the organ in series with the body; none for a specimen that is the body.
     far: Option<FarField>,
 }
 
@@ -100,7 +100,7 @@ const STIFFNESS: ShapeRange = ShapeRange {
 const ALIKE_BASES: f64 = 0.2;
 /// Depths of a curve of a tube.
 const TUBE_DEPTHS: usize = 6;
-/// What is asked of a tube's force [-]: as much as meshes give that take seconds.
+/// Relative accuracy of a tube's force [-]: that of meshes that take seconds.
 const TUBE_ACCURACY: f64 = 0.1;
 
 impl Curves {
@@ -150,7 +150,7 @@ impl Curves {
         self.product_share
     }
 
-    /// What is indented.
+    /// The indented body.
     pub fn body(&self) -> &Body {
         &self.body
     }

@@ -14,12 +14,12 @@ use crate::fit::{
 /// A law that was found, in its own parameters, and how well they are known.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LawDescription {
-    /// How it was found.
+    /// The fit that found it.
     pub found: LawFit,
     /// Its parameters in the order of its keys, each with its name and its standard error: by noise, by the zeros
     /// of the recordings, by the elements and by the product of force and G(t).
     pub parameters: Vec<(&'static str, Estimate)>,
-    /// What the parameters may be off by the elements and by the product of force and G(t) [unit of each]: a part
+    /// Errors of the parameters by the elements and by the product of force and G(t) [unit of each]: a part
     /// of their errors.
     pub discretisation: Vec<f64>,
     /// Correlation of the first two parameters [-]; none of one alone.
@@ -32,7 +32,7 @@ pub struct LawDescription {
     pub uncertainty: Uncertainty,
     /// Warnings.
     pub warnings: Vec<String>,
-    /// What fits say that are made again, where they were asked for.
+    /// Uncertainty by repeated fits, where they were asked for.
     pub repeated: Option<Result<Repeated, Error>>,
 }
 
@@ -89,7 +89,7 @@ impl LawFit {
         place > 0 && !shape.fixed && shape.at_bound()
     }
 
-    /// The sentence on two moduli that are not told apart because the fit ended where one of them is none, or at the
+    /// The sentence on two moduli that cannot be distinguished because the fit ended where one of them is none, or at the
     /// end of the shapes that are sought; none elsewhere. `known` is of the law's own parameters.
     fn at_edge(&self, known: &Uncertainty) -> Option<String> {
         if self.law != SoughtLaw::MooneyRivlin || !self.at_bound(1) {

@@ -3,7 +3,7 @@ use nalgebra::DMatrix;
 use super::correlations::Correlations;
 use super::curves::{Curves, OfBase, UnitCurve};
 use super::description::in_its_parameters;
-use super::law_fit::{Felt, found, parameters};
+use super::law_fit::{LawData, found, parameters};
 use crate::fit::{Expected, Fit};
 
 impl UnitCurve {
@@ -24,30 +24,30 @@ impl UnitCurve {
 }
 
 /// How well the parameters of the law of `curves` are expected to be known, standard errors and the t of their intervals
-/// of 95 %, from what is `felt`, whose forces are
-/// taken for those of `curve` times `modulus` [Pa], and how their errors go together with those of the relaxation.
+/// of 95 %, from `data`, whose forces are taken for those of `curve` times `modulus` [Pa], and the correlations of their
+/// errors with those of the relaxation.
 /// `weights` are the roots of how many samples of unit noise [1 N] each row stands for.
 pub(crate) fn expected_law(
     curves: &Curves,
     curve: &UnitCurve,
     modulus: f64,
-    felt: Felt<'_>,
+    data: LawData<'_>,
     weights: &[f64],
 ) -> (Vec<(f64, f64)>, Correlations) {
-    let mut start = parameters(curves.law(), felt.series, modulus);
+    let mut start = parameters(curves.law(), data.series, modulus);
     for (parameter, shape) in start[1..].iter_mut().zip(&curve.shape) {
         parameter.value = *shape;
     }
     let samples = weights.len();
     let fit = Fit::at(start, samples);
-    let mut law = found(fit, curves, curve, felt);
+    let mut law = found(fit, curves, curve, data);
     let expected = Expected::of(law.fit.clone(), &law.systematic, weights);
     law.fit = expected.fit.clone();
     let own = in_its_parameters(&law);
     let free = own.unbounded();
     // The last three are of the model.
     let zeros = law.systematic.len() - 3;
-    let known = expected.known(&free, zeros, felt.indentations.len());
+    let known = expected.known(&free, zeros, data.indentations.len());
     let count = law.law.count();
     let error = |place| {
         let error = known.standard_error(place).unwrap_or(f64::INFINITY);

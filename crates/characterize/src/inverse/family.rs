@@ -1,4 +1,4 @@
-//! Curves between the shapes that were solved: a fit needs a dozen, finite elements give one in seconds.
+//! Interpolation between solved curves: a fit needs a dozen curves, finite elements give one in seconds.
 //!
 //! Of a law with one shape w, the logarithm of the force goes between two of them as the cubic that has its values and
 //! slopes at both; beyond the last as the line there. The force of every law here grows steadily with the shape, that of
@@ -67,7 +67,7 @@ impl Family {
             [shape] => self.between(shape),
             _ => self.blended(shape),
         };
-        let depths: Vec<f64> = used[0].felt().map(|(depth, _)| depth).collect();
+        let depths: Vec<f64> = used[0].positive_points().map(|(depth, _)| depth).collect();
         let through = |of: &dyn Fn(&Logarithm) -> f64| {
             IndentationCurve::through(&depths, &logarithms.iter().map(of).collect::<Vec<_>>())
         };
@@ -151,14 +151,14 @@ impl Family {
 }
 
 impl UnitCurve {
-    /// Depths [m] at which a force was found, and the force.
-    fn felt(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+    /// Depths [m] with a positive force, and that force.
+    fn positive_points(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.force.points().filter(|(_, force)| *force > 0.0)
     }
 
     /// The logarithm of each force that was found, with its change with each shape.
     fn logarithms(&self) -> impl Iterator<Item = Logarithm> + '_ {
-        self.felt().map(|(depth, force)| {
+        self.positive_points().map(|(depth, force)| {
             let by = self.by_shape.iter();
             (force.ln(), by.map(|by| by.force(depth) / force).collect())
         })

@@ -1,11 +1,11 @@
-//! The force of a law that was found, over any course of depth, with its standard error.
+//! The force of a fitted law for any depth over time, with its standard error.
 //!
 //! F(t) = Fₑ(t) − Σ gᵢ hᵢ(t), τᵢ ḣᵢ = Fₑ − hᵢ, with the elastic force over depth of the fit. The variance of F is
 //! j C jᵀ, C the covariance of the law's parameters, gᵢ and τᵢ, j the derivatives with these.
 //!
 //! *How we know*: `fitted::forces_of_a_found_law_and_their_errors_are_those_of_its_parameters`.
 //!
-//! *Limits*: the product of elastic force and G(t); beyond the deepest depth that was fitted, the curve goes on along its
+//! *Limits*: the product of elastic force and G(t); beyond the deepest fitted depth, the curve continues along its
 //! tangent.
 
 use std::ops::Range;

@@ -6,7 +6,7 @@ use palpate_mechanics::{IndentationCurve, PronySeries, branch};
 use super::curves::UnitCurve;
 use crate::CleanRecording;
 
-/// What was done to the tissue and felt in one recording.
+/// Depth and force over time of one recording.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Indentation<'a> {
     /// Times [s], ascending.
@@ -82,7 +82,7 @@ pub(super) fn forces(
     let unit: Vec<f64> = elastic.iter().zip(&lost).map(|(e, l)| e - l).collect();
     let mut of_modulus = unit.clone();
     if let Some(base) = curve.base.as_ref().filter(|base| base.is_absolute) {
-        // Under a layer that is stiffer the same base is softer beside it.
+        // Under a stiffer layer the same base is relatively softer.
         let depth = depth.iter().copied();
         let softer = relaxed(time, depth, &base.by_stiffness, 1.0, series);
         of_modulus
@@ -151,8 +151,8 @@ pub(super) struct Bounds {
     pub(super) earlier: f64,
 }
 
-/// What changes the residuals of all `indentations` and is no noise [N], each column by one standard deviation: the zeros
-/// of each recording, and, of all alike, the modulus of a base and what the model may be off by its `bounds`.
+/// Systematic influences on the residuals of all `indentations` [N], each column for one standard deviation: the zeros
+/// of each recording, and, of all alike, the modulus of a base and the error of the model within its `bounds`.
 pub(super) fn systematic(
     indentations: &[Indentation<'_>],
     curve: &UnitCurve,
@@ -204,7 +204,7 @@ pub(super) fn systematic(
             let by = relaxed(each.time, depth, &base.by_stiffness, modulus, series);
             of_base.extend(by.into_iter().map(|by| base.error * by));
         }
-        let more = kept_of_earlier(each, curve, modulus, series);
+        let more = excess_by_memory(each, curve, modulus, series);
         history.extend(more.iter().map(|more| even * bounds.earlier * more));
     }
     let is_there = |column: &Vec<f64>| column.iter().any(|change| *change != 0.0);
@@ -213,9 +213,9 @@ pub(super) fn systematic(
     columns
 }
 
-/// By what the force is larger [N m] when stress of an earlier depth counts less by the length between the two:
+/// Excess of the force [N m] when stress of an earlier depth counts less by the length between the two:
 /// Σ gᵢ ∫ (d(t) − d(s)) Fₑ(d(s)) exp(−(t − s)/τᵢ) ds/τᵢ.
-fn kept_of_earlier(
+fn excess_by_memory(
     each: &Indentation<'_>,
     curve: &UnitCurve,
     modulus: f64,
@@ -225,12 +225,12 @@ fn kept_of_earlier(
     let elastic: Vec<f64> = elastic.collect();
     let moment = elastic.iter().zip(each.depth).map(|(force, d)| force * d);
     let moment: Vec<f64> = moment.collect();
-    let mut kept = vec![0.0; elastic.len()];
+    let mut excess = vec![0.0; elastic.len()];
     for &(g, tau) in series.terms() {
         let [lost, of_moment] = [&elastic, &moment].map(|own| branch(tau, each.time, own).0);
-        for (place, kept) in kept.iter_mut().enumerate() {
-            *kept += g * (each.depth[place] * lost[place] - of_moment[place]);
+        for (place, excess) in excess.iter_mut().enumerate() {
+            *excess += g * (each.depth[place] * lost[place] - of_moment[place]);
         }
     }
-    kept
+    excess
 }

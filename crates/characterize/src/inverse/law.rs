@@ -5,8 +5,8 @@ use palpate_files::Estimate;
 use palpate_files::tissue::{Elasticity, LawName};
 use palpate_mechanics::{Law, law_named};
 
-/// A law that can be sought: a modulus, which all force grows with, and numbers for the shape of the force, none or
-/// more. Seen so, the modulus hardly disturbs the others.
+/// A law that can be fitted: a modulus, to which all force is proportional, and shape parameters of the force, none or
+/// more. In these parameters, the modulus hardly affects the others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SoughtLaw {
     /// The modulus is C₁₀.
@@ -351,7 +351,7 @@ pub struct LawParameter {
 }
 
 /// Change of the modulus and of each shape, a row for each, with each of the law's `own` parameters; zero where that
-/// cannot be told.
+/// cannot be determined.
 pub(super) fn to_shape(own: &[LawParameter]) -> DMatrix<f64> {
     let count = own.len();
     let by = DMatrix::from_fn(count, count, |row, column| own[row].by[column]);

@@ -14,7 +14,7 @@ use crate::viscoelastic::QUASI_LINEAR;
 /// A law that was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LawFit {
-    /// Which.
+    /// The law that was sought.
     pub law: SoughtLaw,
     /// The modulus [Pa] and the shapes [-], and after them the relaxation that was given, as ratios and
     /// logarithms of times: free, so that its uncertainty is part of theirs.
@@ -25,11 +25,11 @@ pub struct LawFit {
     pub solves: usize,
     /// Elastic force per unit of the modulus at the shapes that were found.
     pub curve: UnitCurve,
-    /// Part of the force that the elements may be off [-].
+    /// Relative error of the force by the elements [-].
     pub discretisation: f64,
-    /// Part of the force that is off because it is taken for an elastic one times G(t), at any depth [-].
+    /// Relative error of the force as an elastic force times G(t), at any depth [-].
     pub product_error: f64,
-    /// What changes the residuals and is no noise [N], each column by one standard deviation: the zeros of the
+    /// Systematic influences on the residuals [N], each column for one standard deviation: the zeros of the
     /// recordings, the motion of the tissue, the elements, and that force is taken for an elastic one times G(t), at any depth
     /// and at finite strain.
     pub systematic: Vec<Vec<f64>>,
@@ -77,12 +77,12 @@ impl LawFit {
     }
 }
 
-/// What was felt of a tissue whose relaxation is known.
+/// Indentations of a tissue whose relaxation is known.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Felt<'a> {
-    /// What was done to it, and its forces.
+pub(crate) struct LawData<'a> {
+    /// Its indentations, with their forces.
     pub(crate) indentations: &'a [Indentation<'a>],
-    /// How it relaxes.
+    /// Its relaxation.
     pub(crate) series: &'a PronySeries,
 }
 
@@ -93,8 +93,8 @@ pub(super) const SETTINGS: Settings = Settings {
     differences: Differences::Forward,
     precision: f64::EPSILON,
 };
-/// How well a solved curve has to be predicted for a fit to end [-]: far less than the elements are off.
-const FORESEEN: f64 = 3e-4;
+/// Largest error of the predicted curve at which a fit ends [-]: far less than the elements are off.
+const PREDICTION_TOLERANCE: f64 = 3e-4;
 /// Rounds in which the modulus under pressure is found, and the change at which they end [-].
 const ROUNDS: usize = 6;
 const SETTLED: f64 = 1e-3;
@@ -102,18 +102,18 @@ const SETTLED: f64 = 1e-3;
 /// The law of `curves` that comes nearest to `indentations` of a tissue that relaxes by `series`.
 ///
 /// # Errors
-/// When the body cannot be indented like that, or nothing is felt.
+/// When the body cannot be indented like that, or there is no force.
 pub fn law_fit(
     curves: &mut Curves,
     indentations: &[Indentation<'_>],
     series: &PronySeries,
 ) -> Result<LawFit, Error> {
-    let felt = Felt {
+    let data = LawData {
         indentations,
         series,
     };
-    let mut modulus = start(curves, felt)?;
-    let mut found = from(curves, felt, modulus)?;
+    let mut modulus = start(curves, data)?;
+    let mut found = from(curves, data, modulus)?;
     // Under pressure the curve is that of one modulus.
     for _ in 0..ROUNDS {
         let change = (found.modulus() / modulus - 1.0).abs();
@@ -121,17 +121,17 @@ pub fn law_fit(
             break;
         }
         modulus = found.modulus();
-        found = from(curves, felt, modulus)?;
+        found = from(curves, data, modulus)?;
     }
     Ok(found)
 }
 
 /// The modulus [Pa] with which the force of the first shapes is nearest: force is linear in it.
-fn start(curves: &mut Curves, felt: Felt<'_>) -> Result<f64, Error> {
+fn start(curves: &mut Curves, data: LawData<'_>) -> Result<f64, Error> {
     let curve = curves.of(f64::INFINITY, &curves.law().start())?;
     let (mut products, mut squares) = (0.0, 0.0);
-    for each in felt.indentations {
-        let (unit, _) = forces::forces(each.time, each.depth, &curve, 1.0, felt.series);
+    for each in data.indentations {
+        let (unit, _) = forces::forces(each.time, each.depth, &curve, 1.0, data.series);
         for (unit, force) in unit.iter().zip(each.force) {
             products += unit * force;
             squares += unit * unit;
@@ -149,15 +149,15 @@ fn start(curves: &mut Curves, felt: Felt<'_>) -> Result<f64, Error> {
 const ROUNDS_OF_SHAPE: usize = 12;
 const HALVINGS: usize = 4;
 
-/// With curves between those that were solved, until one that is solved at the fit's own shape is as it was predicted.
-fn from(curves: &mut Curves, felt: Felt<'_>, modulus: f64) -> Result<LawFit, Error> {
+/// Fits with interpolated curves, until the curve solved at the shape of the fit agrees with its prediction.
+fn from(curves: &mut Curves, data: LawData<'_>, modulus: f64) -> Result<LawFit, Error> {
     let count = curves.law().count();
     let rounds = ROUNDS_OF_SHAPE * count.max(2).saturating_sub(1);
-    let mut start = parameters(curves.law(), felt.series, modulus);
+    let mut start = parameters(curves.law(), data.series, modulus);
     let mut iterations = Vec::new();
     curves.of(modulus, &curves.law().start())?;
     for _ in 0..rounds {
-        let (mut fit, others) = least_minimum(curves, modulus, &start, felt)?;
+        let (mut fit, others) = least_minimum(curves, modulus, &start, data)?;
         // A later round begins where the one before it ended.
         let again = usize::from(!iterations.is_empty());
         iterations.extend(fit.iterations.drain(again..));
@@ -168,13 +168,13 @@ fn from(curves: &mut Curves, felt: Felt<'_>, modulus: f64) -> Result<LawFit, Err
         };
         let predicted = curves.predicted(modulus, &shape);
         let solved = solved_toward(curves, modulus, &shape)?;
-        let is_like = |own: UnitCurve| own.force.is_like(&solved.force, FORESEEN);
+        let is_like = |own: UnitCurve| own.force.is_like(&solved.force, PREDICTION_TOLERANCE);
         if solved.shape == shape && predicted.is_some_and(is_like) {
             curves.check_base(modulus)?;
             fit.iterations = iterations;
             return Ok(LawFit {
                 others,
-                ..found(fit, curves, &solved, felt)
+                ..found(fit, curves, &solved, data)
             });
         }
         start = fit.parameters;
@@ -200,12 +200,12 @@ fn least_minimum(
     curves: &Curves,
     modulus: f64,
     start: &[Parameter],
-    felt: Felt<'_>,
+    data: LawData<'_>,
 ) -> Result<(Fit, Vec<OtherMinimum>), Error> {
     let count = curves.law().count();
     let is_of_one = curves.depend_on_modulus();
     let one = |start: &[Parameter]| {
-        fitted(start, count, felt, |own, shape| {
+        fitted(start, count, data, |own, shape| {
             curves.predicted(if is_of_one { modulus } else { own }, shape)
         })
     };
@@ -223,14 +223,14 @@ fn least_minimum(
 }
 
 /// A fit with the forces of the curve that was solved at its shape.
-pub(super) fn found(mut fit: Fit, curves: &Curves, curve: &UnitCurve, felt: Felt<'_>) -> LawFit {
+pub(super) fn found(mut fit: Fit, curves: &Curves, curve: &UnitCurve, data: LawData<'_>) -> LawFit {
     let modulus = fit.parameters[0].value;
-    let forces = write(curve, felt, modulus, &mut fit.residuals, &mut fit.jacobian);
+    let forces = write(curve, data, modulus, &mut fit.residuals, &mut fit.jacobian);
     // The columns of what was fixed were not asked for.
     for parameter in fit.parameters.iter_mut().skip(curves.law().count()) {
         parameter.fixed = false;
     }
-    let left = 1.0 - felt.series.terms().iter().map(|(g, _)| g).sum::<f64>();
+    let left = 1.0 - data.series.terms().iter().map(|(g, _)| g).sum::<f64>();
     let product_error = curves.product_share() * QUASI_LINEAR * (1.0 - left);
     let bounds = Bounds {
         model: curve.discretisation + product_error,
@@ -239,7 +239,7 @@ pub(super) fn found(mut fit: Fit, curves: &Curves, curve: &UnitCurve, felt: Felt
     };
     LawFit {
         law: curves.law(),
-        systematic: forces::systematic(felt.indentations, curve, modulus, felt.series, bounds),
+        systematic: forces::systematic(data.indentations, curve, modulus, data.series, bounds),
         product_error,
         fit,
         forces,
@@ -272,13 +272,13 @@ fn solved_toward(curves: &mut Curves, modulus: f64, shape: &[f64]) -> Result<Uni
 fn fitted(
     start: &[Parameter],
     count: usize,
-    felt: Felt<'_>,
+    data: LawData<'_>,
     of: impl Fn(f64, &[f64]) -> Option<UnitCurve>,
 ) -> Result<Fit, Error> {
-    let samples = felt.indentations.iter().map(|each| each.time.len()).sum();
+    let samples = data.indentations.iter().map(|each| each.time.len()).sum();
     let evaluate = |values: &[f64], residuals: &mut [f64], jacobian: &mut DMatrix<f64>| {
         let curve = of(values[0], &values[1..count])?;
-        write(&curve, felt, values[0], residuals, jacobian);
+        write(&curve, data, values[0], residuals, jacobian);
         residuals.iter().all(|r| r.is_finite()).then_some(())
     };
     least_squares_with_jacobian(start, samples, &SETTINGS, evaluate)
@@ -287,14 +287,14 @@ fn fitted(
 /// Forces [N] of a curve in each indentation; writes residuals and derivatives.
 fn write(
     curve: &UnitCurve,
-    felt: Felt<'_>,
+    data: LawData<'_>,
     modulus: f64,
     residuals: &mut [f64],
     jacobian: &mut DMatrix<f64>,
 ) -> Vec<Vec<f64>> {
     let mut start = 0;
-    let each = felt.indentations.iter().map(|each| {
-        let (forces, columns) = forces::forces(each.time, each.depth, curve, modulus, felt.series);
+    let each = data.indentations.iter().map(|each| {
+        let (forces, columns) = forces::forces(each.time, each.depth, curve, modulus, data.series);
         forces::write(&columns, start, jacobian);
         for (row, force) in forces.iter().enumerate() {
             residuals[start + row] = force - each.force[row];

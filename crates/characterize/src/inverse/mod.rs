@@ -3,9 +3,9 @@
 //! All force grows with the modulus M, so with a punch of radius a the elastic force is
 //!   Fₑ(d) = M f(d; w),
 //! f from finite elements, once for each set of shapes w of the law ([`Curves`]); the relaxed force is its
-//! convolution with a relaxation that is known already ([`crate::viscoelastic`]). [`law_fit`] looks for M and
-//! w. ∂f/∂w comes from the factors that the run has made, so that no run is made to find a slope. The
-//! source's own iteration (6.16), with runs of perturbed parameters, is beside it.
+//! convolution with a known relaxation ([`crate::viscoelastic`]). [`law_fit`] fits M and
+//! w. ∂f/∂w comes from the factorization of the run, so that a derivative needs no further run. The
+//! crate `reproduce` has the source's own iteration (6.16), with runs of perturbed parameters.
 //!
 //! *How we know*: `inverse::…`: forces of full viscoelastic runs, at other meshes and Poisson's ratios.
 //!
@@ -38,7 +38,7 @@ pub(crate) use expected::expected_law;
 pub use fitted_force::{ElasticForce, standard_errors};
 pub use forces::{Indentation, ZeroErrors};
 pub use law::{LawParameter, ShapeRange, SoughtLaw, Terms};
-pub(crate) use law_fit::Felt;
+pub(crate) use law_fit::LawData;
 pub use law_fit::{LawFit, OtherMinimum, law_fit};
 pub use organ::{FarField, Organ};
 pub use repeated::{LEAST_DRAWS, NoiseEffect, Repeated, repeated};

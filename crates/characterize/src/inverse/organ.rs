@@ -1,6 +1,6 @@
-//! An organ of any shape under an indenter: how much more it gives way than a large piece.
+//! An organ of any shape under an indenter: its compliance in excess of a large piece.
 //!
-//! Far from an indenter strain is small, whatever it is beneath it. So an organ differs from a large piece of the same
+//! Far from an indenter strain is small, however large it is beneath it. So an organ differs from a large piece of the same
 //! tissue by a compliance in series,
 //!   d = d_piece + γ F/G,
 //! and the curve of the piece becomes that of the organ when its depths are moved, of every law and every shape. γ [1/m] is
@@ -34,7 +34,7 @@ use super::body::Body;
 use super::curved_contact::CurvedContact;
 use crate::Error;
 
-/// An organ, and where an indenter meets it.
+/// An organ and the location of the indenter.
 #[derive(Debug, Clone)]
 pub struct Organ {
     /// Its surface.
@@ -45,16 +45,16 @@ pub struct Organ {
     pub location: Vec3,
 }
 
-/// How much more an organ gives way than a large piece.
+/// Compliance of an organ in excess of a large piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FarField {
-    /// γ: its further compliance times the shear modulus [1/m]; below zero where it is stiffer.
+    /// γ: its compliance in series times the shear modulus [1/m]; below zero where it is stiffer.
     pub compliance: f64,
     /// Part of the depth that it takes at small strain [-].
     pub share: f64,
     /// Part of the force that the elements may be off, and that what is far is strained by more than a little [-].
     pub error: f64,
-    /// What the organ's curvature does to the depth under a sphere or a cone.
+    /// Effect of the organ's curvature on the depth under a sphere or a cone.
     pub(super) contact: Option<CurvedContact>,
 }
 
@@ -66,14 +66,14 @@ const DEPTH: f64 = 0.01;
 /// Half the edge of the cube that corrects the tetrahedra, over the radius of the patch [-], and its cells along an edge.
 const HALF: f64 = 10.0;
 const CELLS: usize = 8;
-/// What is asked of axisymmetric elements [-].
+/// Relative accuracy of axisymmetric elements [-].
 const ACCURACY: f64 = 0.003;
 /// Halvings of the two meshes.
 const MESHES: [i32; 2] = [-1, 0];
 /// Of the first power of the size of the elements the cube takes away the error; with the second, a third of the difference
 /// between both meshes is left beyond the finer one [-].
 const BEYOND: f64 = 1.0 / 3.0;
-/// Part of that difference that stays in doubt [-], and the least error [-].
+/// Part of that difference that remains as error [-], and the least error [-].
 const LEFT: f64 = 0.5;
 const LEAST: f64 = 0.005;
 /// Error of the force over the share of the depth, because what is far is taken for linear [-]: on a hemisphere, under
@@ -83,7 +83,7 @@ const FINITE: f64 = 0.25;
 const PATCHES: [f64; 2] = [1.5, 2.5];
 
 impl Organ {
-    /// How much more it gives way than the large piece `body` where that is pressed to `deepest` [m].
+    /// Its compliance in excess of the large piece `body`, which is pressed to `deepest` [m].
     ///
     /// # Errors
     /// When the body is a layer or a tube; when the place is not on the surface, or is fixed; when the organ is too hollow for the indenter; or see [`solve_at`].
@@ -161,7 +161,7 @@ impl Organ {
         })
     }
 
-    /// What the curvature does under a round indenter, and the part of the force that this may be off [-].
+    /// Effect of the curvature under a round indenter, and its relative error of the force [-].
     fn contact(
         &self,
         indenter: &Indenter,
@@ -228,7 +228,7 @@ struct Place {
     inward: Vec3,
 }
 
-/// What lies below a height [m].
+/// The region below a height [m].
 fn below(height: f64) -> Region {
     Region {
         planes: vec![palpate_files::scene::RegionPlane {

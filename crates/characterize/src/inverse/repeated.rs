@@ -13,11 +13,11 @@ use crate::fit::{
 };
 use crate::viscoelastic::terms;
 
-/// What fits say that are made again, beside what the covariance says.
+/// Uncertainty by repeated fits, in addition to the covariance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Repeated {
     /// For each parameter the values [its unit] between which Σ ε² stays below what a probability of 95 %
-    /// allows, with the relaxation held; a side is `None` where it never rises so far.
+    /// allows, with the relaxation fixed; a side is `None` where it never rises so far.
     pub profiles: Vec<Option<[Option<f64>; 2]>>,
     /// The spread of each parameter [its unit] when the residuals are drawn anew in blocks, relaxation and
     /// all; none where no recording is longer than a block, for then there is nothing to draw.
@@ -28,7 +28,7 @@ pub struct Repeated {
     pub noise: Vec<NoiseEffect>,
 }
 
-/// How far noise spreads the parameters.
+/// Spread of the parameters by noise.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NoiseEffect {
     /// Standard deviation of independent noise, over the largest force [-].
@@ -125,17 +125,17 @@ fn profiles(
     lengths: &[usize],
     model: &mut OwnModel<'_>,
 ) -> Result<Vec<Option<[Option<f64>; 2]>>, Error> {
-    let mut held = own.clone();
-    for parameter in held.parameters.iter_mut().skip(count) {
+    let mut restricted = own.clone();
+    for parameter in restricted.parameters.iter_mut().skip(count) {
         parameter.fixed = true;
     }
-    let uncertainty = correlated_uncertainty(&held, lengths);
+    let uncertainty = correlated_uncertainty(&restricted, lengths);
     let mut one = |place: usize| {
-        if !held.chosen().contains(&place) {
+        if !restricted.chosen().contains(&place) {
             return Ok(None);
         }
-        let found = profile(&held, place, &uncertainty, LEVEL, |parameters| {
-            let samples = held.residuals.len();
+        let found = profile(&restricted, place, &uncertainty, LEVEL, |parameters| {
+            let samples = restricted.residuals.len();
             let evaluate = |p: &[f64], r: &mut [f64], j: &mut DMatrix<f64>| model.evaluate(p, r, j);
             least_squares_with_jacobian(parameters, samples, &SETTINGS, evaluate)
         })?;

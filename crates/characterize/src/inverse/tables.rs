@@ -98,13 +98,13 @@ pub const PUNCH: [(f64, f64, [f64; 6]); 19] = [
     ),
 ];
 
-/// How much too stiff the coarsest mesh is per radius of depth [-], at the shapes of the columns: the trend beside meshes
+/// How much too stiff the coarsest mesh is per radius of depth [-], at the shapes of the columns: the trend relative to meshes
 /// with every element halved, extrapolated (`tables::the_columns_are_too_stiff_by_their_trends`; the last is that of
 /// the one before).
 const TOO_STIFF: [f64; SHAPES.len()] = [0.0022, 0.0014, 0.0015, 0.0012, 0.0012, 0.0012];
 /// The same for other laws: the middle of the columns.
 const TOO_STIFF_OTHERS: f64 = 0.0017;
-/// What is left of that [-], taken as a bound: about the trends 0.2 % in the mean, 0.4 % in the second column.
+/// Remaining error of that [-], taken as a bound: about the trends 0.2 % in the mean, 0.4 % in the second column.
 const LEFT: f64 = 0.005;
 
 /// Whether the first curve of `law` on `body`, down to `deepest` [m], needs no run of finite elements.
@@ -153,7 +153,7 @@ pub(super) fn correction(body: &Body, depth: f64) -> f64 {
     1.0 - TOO_STIFF_OTHERS * depth / body.radius()
 }
 
-/// What is left wrong on the coarsest mesh after that [-].
+/// Remaining error on the coarsest mesh after that [-].
 pub(super) const fn discretisation() -> f64 {
     LEFT
 }

@@ -1,4 +1,4 @@
-//! What a specimen's thickness does to its force, for recordings that do not state it.
+//! Effect of a specimen's thickness on its force, for recordings that do not state it.
 //!
 //! A bonded layer pushes back more than a half-space, at small strain by a factor of the thickness over the radius
 //! of the contact alone, for ν = ½ (two radii thick: 1.94 without friction [Hayes et al. 1972]). A modulus that was found as if the specimen were large is too high by it.
@@ -12,7 +12,7 @@ use palpate_mechanics::finite_elements::indentation::IndenterShape;
 
 use super::body::{Body, LayerBase};
 
-/// Thicknesses that an answer speaks of, in radii [-].
+/// Thicknesses that a result mentions, in radii [-].
 pub const THICKNESSES: [f64; 3] = [2.0, 5.0, 10.0];
 /// Force on a bonded layer of each of [`THICKNESSES`] over that on a layer of [`BLOCK`](super::BLOCK) [-], under a
 /// punch that sticks, and under a cone (radii of its contact), at small strain.
@@ -81,7 +81,7 @@ pub fn assumption(header: &RecordingHeader, body: &Body, deepest: f64) -> Option
     ))
 }
 
-/// What is assumed of the base of a layer.
+/// Assumption on the base of a layer.
 fn on_base(header: &RecordingHeader, base: &LayerBase) -> String {
     let mut assumed = vec!["neo-Hookean, bonded to the layer and relaxing as it does".to_owned()];
     if header.base_thickness_m.is_none() {

@@ -52,7 +52,7 @@ pub fn column_force(column: &EffectiveColumn, depth: f64) -> Result<f64, Error> 
 /// its own.
 ///
 /// # Errors
-/// When nothing is pressed or felt, or there are fewer than two observations.
+/// When a depth or a force is missing, or there are fewer than two observations.
 pub fn fit_column(contact: Contact, depths: &[f64], forces: &[f64]) -> Result<ColumnFit, Error> {
     let most = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
     let (deepest, largest) = (most(depths), most(forces));

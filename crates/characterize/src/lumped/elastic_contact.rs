@@ -61,7 +61,7 @@ const APART: f64 = 0.1;
 const FREE: f64 = 0.02;
 
 impl ElasticContact {
-    /// What is said where contact begins much deeper than the first contact of the recording.
+    /// Warning where contact begins much deeper than the first contact of the recording.
     pub fn warning(&self) -> Option<String> {
         let off = self.contact_m.value;
         (off > APART * self.depth_m && self.before.abs() < FREE).then(|| {
@@ -91,7 +91,7 @@ pub struct Adhesion {
     pub pull_off_n: f64,
 }
 
-/// What a branch gives: the work of adhesion [J/m²] where it is sought, and half the width of its interval.
+/// Result of a branch: the work of adhesion [J/m²] where it is sought, and half the width of its interval.
 struct Fitted {
     elastic: ElasticContact,
     work: Estimate,

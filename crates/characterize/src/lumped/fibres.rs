@@ -141,14 +141,14 @@ fn thinned(pieces: &[Measured], most: usize) -> Vec<Measured> {
     let each = pieces.iter().map(|own| {
         let last = own.stresses.len().saturating_sub(1);
         let count = most.min(own.stresses.len());
-        let kept = |values: &[f64]| {
+        let sampled = |values: &[f64]| {
             let places = (0..count).map(|place| (place * last) / count.saturating_sub(1).max(1));
             places.map(|place| values[place]).collect()
         };
         Measured {
             loading: own.loading,
-            stretches: kept(&own.stretches),
-            stresses: kept(&own.stresses),
+            stretches: sampled(&own.stretches),
+            stresses: sampled(&own.stresses),
         }
     });
     each.collect()
@@ -254,7 +254,7 @@ fn bounded(values: &[f64], least: f64, known: KnownFibres) -> Vec<Parameter> {
     let names = SoughtLaw::HolzapfelGasserOgden.names();
     let each = names.into_iter().zip(values).map(|(name, &value)| {
         let free = Parameter::new(name, value);
-        let held = |known: Option<f64>, own: Parameter| match known {
+        let fix_known = |known: Option<f64>, own: Parameter| match known {
             Some(_) => own.fixed(),
             None => own,
         };
@@ -263,10 +263,10 @@ fn bounded(values: &[f64], least: f64, known: KnownFibres) -> Vec<Parameter> {
                 let value = value.max(2.0 * least);
                 Parameter::new(name, value).within(least, f64::INFINITY)
             }
-            "dispersion" => held(known.dispersion, free.within(0.0, 1.0 / 3.0).scaled(0.1)),
+            "dispersion" => fix_known(known.dispersion, free.within(0.0, 1.0 / 3.0).scaled(0.1)),
             "fibre_angle_deg" => {
                 let own = Parameter::new(name, squared_sine(value)).within(0.0, 1.0);
-                held(known.angle_deg, own.scaled(0.3))
+                fix_known(known.angle_deg, own.scaled(0.3))
             }
             _ => free.within(0.0, f64::INFINITY),
         }

@@ -4,10 +4,10 @@ use palpate_files::tissue::Kelvin;
 use crate::Error;
 use crate::fit::{Fit, Parameter, Settings, correlated_uncertainty, least_squares};
 
-/// What a fit of a relaxing law takes for the history of the depth.
+/// History of the depth in a fit of a relaxing law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DepthHistory {
-    /// What was recorded.
+    /// The recorded history.
     Recorded,
     /// A step to the largest depth at the first sample that reaches it; samples before are left out.
     Step,
@@ -80,21 +80,21 @@ pub fn fit_kelvin(
 /// Forces [N] of the law with k₁ [N/m], k₂ [N/m] and τ [s], exact for depths that are linear between samples.
 fn respond(p: &[f64], times: &[f64], depths: &[f64], forces: &mut [f64]) {
     let (k1, k2, tau) = (p[0], p[1], p[2]);
-    // The part of the depth that the damper has not yet taken.
-    let mut held = depths[0];
+    // Extension of the spring in series with the damper.
+    let mut extension = depths[0];
     for i in 0..times.len() {
         if i > 0 {
             let step = times[i] - times[i - 1];
-            let kept = (-step / tau).exp();
+            let decay = (-step / tau).exp();
             let moved = depths[i] - depths[i - 1];
             let share = if step > 0.0 {
-                (1.0 - kept) * tau / step
+                (1.0 - decay) * tau / step
             } else {
                 1.0
             };
-            held = kept * held + share * moved;
+            extension = decay * extension + share * moved;
         }
-        forces[i] = k2 * depths[i] + (k1 - k2) * held;
+        forces[i] = k2 * depths[i] + (k1 - k2) * extension;
     }
 }
 

@@ -90,7 +90,7 @@ const ALIKE: f64 = 0.05;
 /// force, the mean of the last tenth of a hold, over all holds at the largest depth.
 ///
 /// # Errors
-/// When the specimen is hollow, nothing is held, or a header does not say what indenter it was.
+/// When the specimen is hollow, there is no hold, or a header does not say what indenter it was.
 pub fn mean_elastic_modulus(recordings: &[CleanRecording]) -> Result<MeanModulus, Error> {
     let mut all: Vec<(Contact, Hold)> = Vec::new();
     for recording in recordings {
@@ -102,8 +102,8 @@ pub fn mean_elastic_modulus(recordings: &[CleanRecording]) -> Result<MeanModulus
             continue;
         }
         let contact = Contact::of(header)?;
-        let held = holds(recording, &mut Vec::new());
-        all.extend(held.into_iter().map(|hold| (contact, hold)));
+        let found = holds(recording, &mut Vec::new());
+        all.extend(found.into_iter().map(|hold| (contact, hold)));
     }
     let deepest = all.iter().map(|(_, hold)| hold.depth_m).fold(0.0, f64::max);
     all.retain(|(_, hold)| hold.depth_m > 0.0 && hold.depth_m >= (1.0 - ALIKE) * deepest);

@@ -8,7 +8,7 @@
 //! *Column*: the exponential law (6.2) on a column with the indenter's face, pressed to λ = 1 − d/L of its
 //! length L ([`column_size`]); the source gives neither face nor length, and inverts λ.
 //!
-//! *Nonlinear springs*: a spring, and beside it one or two that relax since each holds a unit mass and a unit
+//! *Nonlinear springs*: a spring, and in parallel one or two that relax, each in series with a unit mass and a unit
 //! damper, (6.4) with its signs corrected (`docs/errata.md`):
 //!   F = k₀₁ [x]^k₀₂ + Σ kᵢ₃ [eᵢ]^kᵢ₂,  eᵢ = x − yᵢ,  ÿᵢ = kᵢ₁ [eᵢ]^kᵢ₂ − ẏᵢ,  [e]^k = sign(e) |e|^k,
 //! with x in mm, by the method of Runge and Kutta in steps of a twentieth of the fastest time; the changes

@@ -18,7 +18,7 @@ pub enum PieceTest {
     /// Along one axis, its sides free.
     #[default]
     Uniaxial,
-    /// Along one axis, one of its sides free and the other held as wide as it is: pure shear.
+    /// Along one axis, one of its sides free and the other of fixed width: pure shear.
     PlanarTension,
     /// One face moves along itself, parallel to the opposite one.
     SimpleShear,
@@ -33,7 +33,7 @@ pub struct PieceLoading {
     pub fibre_axis_angle_deg: Option<f64>,
 }
 
-/// What was measured of a piece.
+/// Measured stretches and stresses of a piece.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Measured {
     pub(super) loading: PieceLoading,
@@ -64,7 +64,7 @@ impl Measured {
     }
 }
 
-/// What of a recording of a piece is fitted: from first contact to its largest strain.
+/// The fitted part of a recording of a piece: from first contact to its largest strain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pulled {
     /// The samples.
@@ -113,7 +113,7 @@ impl Pulled {
 }
 
 impl PieceLoading {
-    /// What the header of a recording of a piece says.
+    /// The loading in the header of a recording of a piece.
     pub fn of(header: &RecordingHeader) -> Self {
         Self {
             test: match header.stimulus {

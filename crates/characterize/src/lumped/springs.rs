@@ -27,7 +27,7 @@ pub fn springs_force(
     Some(forces)
 }
 
-/// What one spring adds to the force of a sample.
+/// Contribution of one spring to the force of a sample.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Share {
     /// Its force [N].
@@ -207,14 +207,14 @@ mod tests {
         respond(&values, &times, &depths, &mut add).unwrap();
         for place in 0..values.len() {
             let step = 1e-5 * values[place];
-            let beside = [step, -step].map(|by| {
-                let mut beside = values;
-                beside[place] += by;
-                forces(&beside)
+            let shifted = [step, -step].map(|by| {
+                let mut shifted = values;
+                shifted[place] += by;
+                forces(&shifted)
             });
             let largest = changes.iter().fold(0.0, |m: f64, c| m.max(c[place].abs()));
             for row in 0..times.len() {
-                let slope = (beside[0][row] - beside[1][row]) / (2.0 * step);
+                let slope = (shifted[0][row] - shifted[1][row]) / (2.0 * step);
                 // The square of the step, and rounding over it.
                 let off = (changes[row][place] - slope).abs();
                 assert!(off < 1e-7 * largest, "{place} at {row}: {off} of {largest}");

@@ -45,11 +45,11 @@ const TOLERANCE: f64 = 1e-8;
 /// The springs of (6.4) that come nearest to all `indentations` at once.
 ///
 /// # Errors
-/// When nothing is pressed or felt, or the samples are fewer than the parameters.
+/// When there is no depth or no force, or the samples are fewer than the parameters.
 pub fn fit_springs(indentations: &[Indentation<'_>]) -> Result<SpringsFit, Error> {
-    let felt = StartingSizes::of(indentations)?;
-    let one = best(indentations, &felt.starts(None))?;
-    let two = best(indentations, &felt.starts(Some(&one)))?;
+    let sizes = StartingSizes::of(indentations)?;
+    let one = best(indentations, &sizes.starts(None))?;
+    let two = best(indentations, &sizes.starts(Some(&one)))?;
     let lengths: Vec<usize> = indentations.iter().map(|each| each.time.len()).collect();
     // What the richer leaves is noise, so both are compared as if that noise had been seen.
     let samples = correlated_uncertainty(&two, &lengths).effective_samples;
@@ -60,9 +60,9 @@ pub fn fit_springs(indentations: &[Indentation<'_>]) -> Result<SpringsFit, Error
     ];
     let branches = chosen + 1;
     let mut fit = if branches == 2 { two } else { one };
-    stronger_first(&mut fit, felt.depth);
+    stronger_first(&mut fit, sizes.depth);
     let uncertainty = correlated_uncertainty(&fit, &lengths);
-    let misfit = misfit(&fit, felt.peak);
+    let misfit = misfit(&fit, sizes.peak);
     let mut said = warnings(&fit, &uncertainty, None);
     said.extend(missed("the system of nonlinear springs", "force", misfit));
     Ok(SpringsFit {
@@ -99,20 +99,20 @@ impl StartingSizes {
             [first, .., last] => last - first,
             _ => 0.0,
         };
-        let felt = Self {
+        let sizes = Self {
             depth: 1e3 * most(deepest.depth),
             peak: most(deepest.force),
             left: deepest.force.last().copied().unwrap_or(0.0),
             duration: indentations.iter().map(duration).fold(0.0, f64::max),
         };
-        if felt.depth > 0.0 && felt.peak > 0.0 && felt.duration > 0.0 {
-            Ok(felt)
+        if sizes.depth > 0.0 && sizes.peak > 0.0 && sizes.duration > 0.0 {
+            Ok(sizes)
         } else {
             Err(Error::NothingFelt)
         }
     }
 
-    /// Where fits start: with one relaxing spring, or with a second beside what `one` came to.
+    /// Starting values: with one relaxing spring, or with a second in addition to the result `one`.
     fn starts(&self, one: Option<&Fit>) -> Vec<Vec<Parameter>> {
         let start = |time: &f64| match one {
             None => [self.at_rest(), self.branch(0, *time)].concat(),

@@ -14,7 +14,7 @@ use crate::{CleanRecording, Error};
 /// A law that was found from a piece that is pressed or pulled.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UniaxialFit {
-    /// Which.
+    /// The law that was sought.
     pub law: SoughtLaw,
     /// How each piece was loaded.
     pub loadings: Vec<PieceLoading>,

@@ -18,7 +18,7 @@ const ENOUGH: usize = 8;
 const SEEN: f64 = 5.0;
 /// Blocks of the record of the approach, at most.
 const APPROACH: usize = 4096;
-/// Blocks of the zero, at most, and the fewest from whose means its error is told.
+/// Blocks of the zero, at most, and the fewest whose means give its error.
 const ZERO: usize = 256;
 const FEWEST: usize = 8;
 

@@ -209,7 +209,7 @@ impl Fitted {
                 interval_95: value.zip(half).map(interval),
             }
         });
-        // Terms are told apart, or none of their numbers means what its name says.
+        // The terms are distinguished; otherwise none of their numbers would mean what its name says.
         if !found.iter().skip(1).all(OnlineParameter::is_known) {
             for own in &mut found[1..] {
                 own.interval_95 = None;

@@ -1,4 +1,4 @@
-//! The tissue while it is pressed: modulus and two relaxation terms with their 95 % intervals, after any sample.
+//! Online estimation during a press: modulus and two relaxation terms with their 95 % intervals, after any sample.
 //!
 //! ```text
 //! sample ──contact──▶ record of bounded length ──▶ relaxation of two terms ──▶ neo-Hookean law ──▶ OnlineEstimate

@@ -6,7 +6,7 @@ use crate::fit::{Fit, correlated_uncertainty, with_systematic};
 use crate::inverse::{LawFit, SoughtLaw};
 use crate::lumped::Pulled;
 
-/// A recording beside what was found from it, sample by sample.
+/// A recording versus its fits, sample by sample.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FittedRecording {
     /// Its place among the recordings of the specimen.
@@ -43,7 +43,7 @@ pub struct FittedLaw {
 }
 
 impl Characterization {
-    /// The `recordings` that this was found from beside what was found; the reach of a law holds with the
+    /// The `recordings` of this characterization versus its fits; the reach of a law holds with the
     /// probability `level` [-]. Recordings of which nothing is fitted are left out.
     pub fn fitted(&self, recordings: &[CleanRecording], level: f64) -> Vec<FittedRecording> {
         let samples = |recording: &CleanRecording| match self.uniaxial.is_empty() {
@@ -88,15 +88,17 @@ impl Characterization {
         let Ok(relaxation) = &self.relaxation else {
             return;
         };
-        let felt = all.iter_mut().filter_map(|own| {
+        let with_force = all.iter_mut().filter_map(|own| {
             let pressed = Pressed::of(&recordings[own.place])?;
-            pressed.is_felt().then_some((own, pressed))
+            pressed.has_force().then_some((own, pressed))
         });
-        let felt: Vec<_> = felt.collect();
-        let largest = felt.iter().map(|(_, pressed)| pressed.largest);
+        let with_force: Vec<_> = with_force.collect();
+        let largest = with_force.iter().map(|(_, pressed)| pressed.largest);
         let largest = largest.fold(0.0, f64::max);
         let found = relaxation.forces.iter().zip(&relaxation.sizes);
-        for (course, ((own, pressed), (forces, &size))) in felt.into_iter().zip(found).enumerate() {
+        for (course, ((own, pressed), (forces, &size))) in
+            with_force.into_iter().zip(found).enumerate()
+        {
             let steps = self.relaxation_of_steps.as_ref().ok();
             let of_step = steps.and_then(|steps| steps.forces.get(course));
             let over = |values: &[f64], whole: f64| values.iter().map(|v| v / whole).collect();

@@ -30,13 +30,13 @@ const PART: f64 = 0.15;
 const RESTS: f64 = 1e-3;
 /// Samples of a run at most: some minutes.
 const MOST_SAMPLES: usize = 400;
-/// Depth from which a factor is taken, over the largest [-]: before it there is hardly a force.
-const FELT: f64 = 0.05;
+/// Least depth of a factor, over the largest [-]: before it there is hardly a force.
+const LEAST_DEPTH: f64 = 0.05;
 /// Halvings of the way to a shape whose run finds no equilibrium, at most.
 const HALVINGS: usize = 4;
 
-/// Finds the law again, with full runs in the loop; `at_step` hears what is being done. Where that fails, the law's
-/// place holds the reason.
+/// Fits the law again, with full runs in the loop; `at_step` receives the current step. Where that fails, the law's
+/// entry holds the reason.
 pub(super) fn refine(
     found: &mut Characterization,
     pressed: &[Pressed],
@@ -110,7 +110,11 @@ impl Specimen<'_> {
         let mut tissue = Tissue::of(relaxing, first);
         let mut curves = Curves::new(self.body, self.law, self.deepest).in_loop();
         let mut solves = 0;
-        let places: Vec<Vec<usize>> = self.pressed.iter().map(kept).collect::<Result<_, _>>()?;
+        let places: Vec<Vec<usize>> = self
+            .pressed
+            .iter()
+            .map(run_samples)
+            .collect::<Result<_, _>>()?;
         for _ in 0..ROUNDS {
             at_step("finite elements");
             let mut divided = self.pressed.to_vec();
@@ -134,10 +138,11 @@ impl Specimen<'_> {
                 let law = &mut description.found;
                 law.solves = solves + curves.solves();
                 multiply(&mut law.forces, &factors);
-                let felt = self.pressed.iter().zip(&factors);
-                let felt = felt.filter(|(pressed, _)| pressed.is_felt());
-                let of_felt: Vec<_> = felt.map(|(_, factor)| factor.clone()).collect();
-                multiply(&mut relaxing.forces, &of_felt);
+                let with_force = self.pressed.iter().zip(&factors);
+                let with_force = with_force.filter(|(pressed, _)| pressed.has_force());
+                let with_force_factors: Vec<_> =
+                    with_force.map(|(_, factor)| factor.clone()).collect();
+                multiply(&mut relaxing.forces, &with_force_factors);
                 return Ok((relaxing, description));
             }
             tissue = next;
@@ -192,8 +197,8 @@ impl Specimen<'_> {
         let factor = depths.iter().zip(full.iter().zip(product));
         let factor: Vec<f64> = factor
             .map(|(depth, (full, product))| {
-                let is_felt = *depth >= FELT * self.deepest && product > 0.0;
-                if is_felt { full / product } else { 1.0 }
+                let has_force = *depth >= LEAST_DEPTH * self.deepest && product > 0.0;
+                if has_force { full / product } else { 1.0 }
             })
             .collect();
         Ok(at_samples(pressed, places, &factor))
@@ -227,9 +232,9 @@ impl Specimen<'_> {
     }
 }
 
-/// The samples that a run goes through: where the depth has gone on by a step, where it begins or ceases to move, and
+/// The samples of a run: where the depth has moved by a step, where it begins or ceases to move, and
 /// at ever longer times of a hold.
-fn kept(pressed: &Pressed) -> Result<Vec<usize>, Error> {
+fn run_samples(pressed: &Pressed) -> Result<Vec<usize>, Error> {
     let (time, depth) = (&pressed.time, &pressed.depth);
     let deepest = pressed.deepest();
     let moves = |place: usize| {

@@ -1,11 +1,11 @@
-//! How a tissue relaxes, found without knowing what it is made of (section 6.4.2).
+//! Relaxation of a tissue, without knowledge of its elastic law (section 6.4.2).
 //!
 //! One relaxation function for the whole body: with the elastic force Fₑ of the depth,
 //!   F(t) = Fₑ − Σ gᵢ hᵢ(t),  τᵢ ḣᵢ = Fₑ − hᵢ,
-//! and the indenter's real course in d(t), not a step. Only the shape of Fₑ matters, and only while the
+//! and the real depth d(t) of the indenter, not a step. Only the shape of Fₑ matters, and only while the
 //! depth changes: Fₑ = A s(d/D) (d/D)^μ with a given s, the size A of each recording and one exponent μ
-//! for all of them. A step cannot be told from its relaxed modulus, a ramp can: [`relaxation_of_steps`] is
-//! beside it, since the source finds no difference.
+//! for all of them. A step cannot be distinguished from its relaxed modulus, a ramp can: [`relaxation_of_steps`] is
+//! provided too, since the source finds no difference.
 //!
 //! *How we know*: `viscoelastic::…`: true series of made recordings in their intervals, the product form
 //! there and back, a ramp against its closed form.

@@ -28,8 +28,8 @@ const THINNED: usize = 200;
 const SCALE: f64 = 50.0;
 
 impl RelaxationRecord {
-    /// Of `force` [N] at `depth` [m], where an elastic force of `shape` [any unit] is felt; none when
-    /// nothing is pressed or felt. `largest_force` [N] is one for all courses of a fit: a sensor's noise is
+    /// Of `force` [N] at `depth` [m], where the elastic force is `shape` [any unit]; none without
+    /// depth or force. `largest_force` [N] is one for all courses of a fit: a sensor's noise is
     /// as many newtons in each.
     pub fn new(
         time: &[f64],

@@ -55,7 +55,7 @@ pub struct Relaxation {
 pub(crate) const QUASI_LINEAR: f64 = 0.02;
 /// Most terms that are tried.
 const MOST_TERMS: usize = 4;
-/// A root mean square of ε below which there is nothing left to tell [-]: elastic force is known no better.
+/// A root mean square of ε below which there is nothing left to fit [-]: elastic force is known no better.
 const NEGLIGIBLE: f64 = 3e-4;
 /// Part of Σ ε² that one more term must gain for yet another to be tried [-].
 const NOTHING_GAINED: f64 = 1e-3;

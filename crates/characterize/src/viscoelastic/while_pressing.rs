@@ -5,7 +5,7 @@ use super::relaxation::{Relaxation, described, fitted, starts, terms_of, values_
 use crate::Error;
 use crate::fit::{Fit, Parameter, correlated_uncertainty, simplest, with_systematic};
 
-/// The relaxation of a press that goes on: of two terms where it tells them apart, else of one.
+/// The relaxation of a running press: of two terms where it can distinguish them, else of one.
 #[derive(Debug, Clone)]
 pub(crate) struct PressedRelaxation {
     /// The one that the information criterion prefers.

@@ -7,18 +7,18 @@ use super::functions::{Functions, Opened, Status};
 use crate::rotation::rotation;
 use crate::{Found, OpenError, Origin};
 
-/// The largest force [N], and the largest for as long as one likes: below what any of them can; the library does not
-/// say.
+/// The largest force [N], and the largest continuous force [N]: below those of all models, since the library does not
+/// report them.
 const PEAK: f64 = 8.0;
 const CONTINUOUS: f64 = 4.0;
 
-/// How long a force is displayed without a new one, by a device with a watchdog [s].
+/// Timeout of a displayed force without a new one, for a device with a watchdog [s].
 const FRESH: f64 = 0.020;
 
 /// Every button but the first, which shuts jaws and cuts.
 const OTHER_BUTTONS: u32 = !1;
 
-/// A device of Force Dimension. It is called on the thread of its loop.
+/// A device of Force Dimension. The thread of its loop calls it.
 pub struct ForceDimensionDevice {
     capabilities: Capabilities,
     device: Opened,
@@ -27,7 +27,7 @@ pub struct ForceDimensionDevice {
     broken: Option<Fault>,
 }
 
-/// The devices of the library, `named` or where it usually is.
+/// The devices of the library, `named` or at its usual place.
 ///
 /// # Errors
 /// When there is no library.
@@ -65,7 +65,7 @@ fn is_ready(status: &Status) -> bool {
     status.powered && status.connected && status.started
 }
 
-/// Why the device took its forces off.
+/// The reason why the device took its forces off.
 fn cause(cause: i32) -> Option<Fault> {
     let what = match cause {
         0 => return None,
@@ -88,7 +88,7 @@ fn library_error(code: i32) -> Fault {
 }
 
 impl ForceDimensionDevice {
-    /// Opens device `number`, from zero on, of the library, `named` or where it usually is.
+    /// Opens device `number`, counted from zero, of the library, `named` or at its usual place.
     ///
     /// # Errors
     /// When there is no library, or no such device.
@@ -107,7 +107,7 @@ impl ForceDimensionDevice {
         }
     }
 
-    /// The same with a dead-man's switch: one of the buttons but the first, which then is no stop button.
+    /// The same with a dead-man's switch: one of the buttons but the first. That button is then no stop button.
     #[must_use]
     pub fn with_dead_man(mut self) -> Self {
         self.capabilities.dead_man = Some(DeadMan::Buttons(OTHER_BUTTONS));
@@ -135,12 +135,12 @@ impl ForceDimensionDevice {
         let ready = is_ready(status);
         let lost = (self.was_ready && !ready).then(|| lost(status));
         self.was_ready = ready;
-        // Until a person arms, it is we who keep them off.
-        let took_off = cause(status.force_off_cause).filter(|_| self.enabled);
+        // Until a person arms, the driver itself keeps them off.
+        let safety_fault = cause(status.force_off_cause).filter(|_| self.enabled);
         let error = status.error.then_some(Fault::Safety {
             what: "it reports an error of its own",
         });
-        lost.or(took_off).or(error)
+        lost.or(safety_fault).or(error)
     }
 }
 
@@ -164,7 +164,7 @@ fn theirs(vector: &Vec3) -> Vec3 {
     Vec3::new(vector.z, vector.x, vector.y)
 }
 
-/// The same turn about an axis in our axes.
+/// The same rotation in our axes.
 fn orientation(frame: &[[f64; 3]; 3]) -> Option<UnitQuaternion<f64>> {
     let column = |at: usize| ours(&Vec3::from_fn(|row, _| frame[row][at]));
     // Right, up and toward the user are y, z and x of the library.
@@ -178,7 +178,7 @@ impl Device for ForceDimensionDevice {
 
     /// A device that took its forces off keeps them off until then.
     fn enable(&mut self) -> Result<(), Fault> {
-        // Not the force that was set before it was disabled.
+        // Without the force from before it was disabled.
         let cleared = self.device.set_force(&Vec3::zeros());
         let enabled = cleared.and_then(|()| self.device.enable_forces(PEAK, FRESH));
         self.enabled = enabled.is_ok();
@@ -197,7 +197,7 @@ impl Device for ForceDimensionDevice {
 
     fn disable(&mut self) -> Disabled {
         self.enabled = false;
-        // The second also of a library that takes no zero.
+        // The second call also for a library that does not accept zero.
         let zero = self.device.set_force(&Vec3::zeros());
         let disabled = self.device.disable_forces();
         match zero.and(disabled) {

@@ -1,8 +1,7 @@
-//! The functions of `libdhd` that are used, as its interface has them.
+//! The required functions of `libdhd`, as declared in its interface.
 //!
-//! All of them are `unsafe` to call, for their types are known from documents alone: the header dhdc.h of the Force
-//! Dimension SDK, version 3, and its reference. What holds for each call is at the wrapper that makes it, and nobody
-//! else calls them.
+//! All of them are `unsafe` to call, since their types are known from documents alone: the header dhdc.h of the Force
+//! Dimension SDK, version 3, and its reference. Each wrapper states why its call is safe; only the wrappers call them.
 
 #![allow(
     unsafe_code,
@@ -17,7 +16,7 @@ use palpate_servo::Vec3;
 use crate::library::{Library, text};
 use crate::{Kind, OpenError};
 
-/// Room for the states of a device: DHD_MAX_STATUS, which versions have as 15 to 17.
+/// Capacity for the states of a device: DHD_MAX_STATUS, which is 15 to 17, depending on the version.
 const STATES: usize = 32;
 
 const POWER: usize = 0;
@@ -26,7 +25,7 @@ const STARTED: usize = 2;
 const ERROR: usize = 9;
 const FORCE_OFF_CAUSE: usize = 14;
 
-/// What a device says of itself.
+/// The status of a device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Status {
     pub(super) powered: bool,
@@ -57,8 +56,8 @@ pub(super) struct Functions {
     pub(super) last_error_text: unsafe extern "C" fn() -> *const c_char,
 }
 
-/// A device of the library, which is closed when this is dropped. Not to be copied: what closes it is the last that
-/// calls with its number.
+/// A device of the library; dropping it closes the device. It must not be copied: closing must be the last call with
+/// its number.
 pub(super) struct Opened {
     functions: Functions,
     id: c_char,
@@ -102,7 +101,7 @@ impl Functions {
         usize::try_from(unsafe { (self.count)() }).unwrap_or(0)
     }
 
-    /// Opens device `number`, from zero on.
+    /// Opens device `number`, counted from zero.
     pub(super) fn open(&self, number: usize) -> Result<Opened, OpenError> {
         let there = self.count();
         let wanted = c_char::try_from(number).ok().filter(|_| number < there);
@@ -119,18 +118,18 @@ impl Functions {
             }),
             _ => Err(OpenError::NotOpened {
                 kind: Kind::ForceDimension,
-                what: self.said(),
+                what: self.error_text(),
             }),
         }
     }
 
-    fn said(&self) -> String {
+    fn error_text(&self) -> String {
         // SAFETY: dhdErrorGetLastStr takes nothing and returns a text that ends with a zero and belongs to the library,
         // which is never unloaded; it is copied before any other call.
-        let said = unsafe { text((self.last_error_text)()) };
-        match said.is_empty() {
+        let error_text = unsafe { text((self.last_error_text)()) };
+        match error_text.is_empty() {
             true => format!("error {}", self.last_error()),
-            false => said,
+            false => error_text,
         }
     }
 
@@ -147,13 +146,13 @@ impl Opened {
         unsafe { text((self.functions.name)(self.id)) }
     }
 
-    /// Its forces are on from now on, but never above `most` [N], and off when no force comes for `fresh` [s], where the
-    /// device can do that.
+    /// Enables its forces, but never above `most` [N], and off if no force comes for `fresh` [s], if the device
+    /// supports that.
     pub(super) fn enable_forces(&self, most: f64, fresh: f64) -> Result<(), i32> {
         // SAFETY: dhdSetMaxForce takes a number of newtons and an open device.
         self.checked(unsafe { (self.functions.set_max_force)(most, self.id) })?;
         if let Some(set) = self.functions.set_watchdog {
-            // In multiples of 125 µs; a device without one answers an error, and has none.
+            // In multiples of 125 µs; a device without a watchdog returns an error.
             let multiples = (fresh / 125e-6).clamp(1.0, 255.0) as u8;
             // SAFETY: dhdSetWatchdog takes an unsigned char and an open device.
             unsafe { set(multiples, self.id) };
@@ -167,7 +166,7 @@ impl Opened {
         self.checked(unsafe { (self.functions.enable_force)(0, self.id) })
     }
 
-    /// Hands `force` [N] over, in the library's axes. That motors are at their end is no error.
+    /// Sets `force` [N], in the library's axes. Saturated motors are no error.
     pub(super) fn set_force(&self, force: &Vec3) -> Result<(), i32> {
         // SAFETY: dhdSetForce takes three numbers of newtons and an open device.
         self.checked(unsafe { (self.functions.set_force)(force.x, force.y, force.z, self.id) })
@@ -210,7 +209,7 @@ impl Opened {
         })
     }
 
-    /// An answer below zero is an error, whose number the library keeps.
+    /// A negative result is an error; the library keeps its number.
     fn checked(&self, answer: c_int) -> Result<(), i32> {
         match answer {
             0.. => Ok(()),

@@ -1,17 +1,17 @@
 //! Devices of Force Dimension (omega, delta, sigma, lambda), by `libdhd`.
 //!
-//! Its functions are called on the thread of the loop, one after another: zero time is spent on waiting for another
-//! thread of ordinary priority. A call that does not return holds up that thread; then the device's own watchdog, which
-//! is set where there is one, takes its forces off after 20 ms. The library is told the largest force that it may ever
-//! display. Arming enables forces again, after whatever took them off.
+//! The thread of the loop calls its functions, one after another: it never waits for another thread of ordinary
+//! priority. A call that does not return blocks that thread; then the device's own watchdog, which is set if it has
+//! one, takes its forces off after 20 ms. The driver sets the library's limit of the force. Arming enables forces
+//! again, whatever took them off.
 //!
 //! The axes of the library are x toward the user, y right, z up; ours are (y, z, x) of it.
 //!
-//! *How we know*: `libraries::…`, `library_faults::…`, `campaign::…` in the tests, against a library that stands for it;
-//! `tests` here, under Miri.
+//! *How we know*: `libraries::…`, `library_faults::…`, `campaign::…` in the tests, against a stand-in library; `tests`
+//! here, under Miri.
 //!
-//! *Limits*: a gripper is shut by its button, not by its angle, whose range is not known. Which way its handle points
-//! was not seen. Not tried on hardware.
+//! *Limits*: the button of a gripper shuts it, not its angle, whose range is not known. The direction of its handle was
+//! not verified. Not tried on hardware.
 
 mod device;
 mod functions;

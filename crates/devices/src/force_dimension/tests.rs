@@ -1,4 +1,4 @@
-//! The driver over functions of ours, so that Miri can look at every pointer: `cargo +nightly miri test -p
+//! Tests of the driver with functions in Rust, so that Miri can check every pointer: `cargo +nightly miri test -p
 //! palpate-devices --lib`.
 
 #![allow(unsafe_code, reason = "functions that stand for those of a library")]
@@ -11,22 +11,22 @@ use palpate_servo::{DeviceState, Limits, ServoLoop, ServoSettings, Vec3};
 use super::ForceDimensionDevice;
 use super::functions::Functions;
 
-/// The force that is displayed [N], whether forces are enabled, and how many devices are open.
-static TOLD: Mutex<([f64; 3], bool, i32)> = Mutex::new(([0.0; 3], false, 0));
+/// The displayed force [N], whether forces are enabled, and the number of open devices.
+static LIBRARY: Mutex<([f64; 3], bool, i32)> = Mutex::new(([0.0; 3], false, 0));
 
 unsafe extern "C" fn count() -> c_int {
     1
 }
 unsafe extern "C" fn open(_: c_char) -> c_int {
-    TOLD.lock().unwrap().2 += 1;
+    LIBRARY.lock().unwrap().2 += 1;
     0
 }
 unsafe extern "C" fn close(_: c_char) -> c_int {
-    TOLD.lock().unwrap().2 -= 1;
+    LIBRARY.lock().unwrap().2 -= 1;
     0
 }
 unsafe extern "C" fn enable_force(on: u8, _: c_char) -> c_int {
-    TOLD.lock().unwrap().1 = on != 0;
+    LIBRARY.lock().unwrap().1 = on != 0;
     0
 }
 unsafe extern "C" fn position(x: *mut f64, y: *mut f64, z: *mut f64, _: c_char) -> c_int {
@@ -42,7 +42,7 @@ unsafe extern "C" fn frame(out: *mut [[f64; 3]; 3], _: c_char) -> c_int {
     0
 }
 unsafe extern "C" fn set_force(x: f64, y: f64, z: f64, _: c_char) -> c_int {
-    TOLD.lock().unwrap().0 = [x, y, z];
+    LIBRARY.lock().unwrap().0 = [x, y, z];
     0
 }
 unsafe extern "C" fn set_max_force(_: f64, _: c_char) -> c_int {
@@ -106,7 +106,7 @@ fn a_loop_ends_with_zero_and_a_closed_device() {
         servo.tick(f64::from(tick) * 1e-3, 0.0).unwrap();
     }
     // Up is z of the library.
-    assert_eq!(*TOLD.lock().unwrap(), ([0.0, 0.0, 0.2], true, 1));
+    assert_eq!(*LIBRARY.lock().unwrap(), ([0.0, 0.0, 0.2], true, 1));
     drop(servo);
-    assert_eq!(*TOLD.lock().unwrap(), ([0.0; 3], false, 0));
+    assert_eq!(*LIBRARY.lock().unwrap(), ([0.0; 3], false, 0));
 }

@@ -2,7 +2,7 @@ use std::time::{Duration, Instant};
 
 use palpate_servo::SensorFault;
 
-/// How old the last reading is.
+/// The age of the last reading.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Freshness {
     last: Instant,
@@ -10,7 +10,7 @@ pub(super) struct Freshness {
 }
 
 impl Freshness {
-    /// Fresh now, and for so long [s].
+    /// Fresh now, and for this long [s].
     pub(super) fn new(limit: f64) -> Self {
         Self {
             last: Instant::now(),
@@ -36,21 +36,21 @@ impl Freshness {
     }
 }
 
-/// The numbers of readings, which grow by one from each to the next.
+/// The sequence numbers of readings, which grow by one from each to the next.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Sequence {
     last: Option<u32>,
-    /// Readings that were lost, less one for each hundred that came [-].
+    /// Lost readings, less one for each hundred that arrived [-].
     missing: f64,
 }
 
 /// More lost readings than that are a fault: ten at once, or one in a hundred for long.
 const MOST_MISSING: f64 = 10.0;
-/// What a reading that came takes off.
+/// Decrease for each reading that arrived.
 const FORGIVEN: f64 = 0.01;
 
 impl Sequence {
-    /// Whether the reading of this number is newer than all before it.
+    /// Whether the reading with this number is newer than all before it.
     ///
     /// # Errors
     /// When too many before it were lost.
@@ -60,7 +60,7 @@ impl Sequence {
             return Ok(true);
         };
         let gap = number.wrapping_sub(last);
-        // One that comes again, or was overtaken.
+        // A repeated or overtaken reading.
         if gap == 0 || gap > u32::MAX / 2 {
             return Ok(false);
         }
@@ -74,7 +74,7 @@ impl Sequence {
         Ok(true)
     }
 
-    /// A sensor that was silent may count from anywhere.
+    /// A sensor that was silent may count from any number.
     pub(super) fn forget(&mut self) {
         self.last = None;
     }
@@ -98,12 +98,12 @@ mod tests {
     fn ten_lost_readings_are_forgiven_and_eleven_are_not() {
         assert_eq!(lost([1, 12, 13]), None);
         assert_eq!(lost([1, 13]), Some(11));
-        // Around the end of the numbers.
+        // Across the wrap-around of the numbers.
         assert_eq!(lost([u32::MAX - 1, u32::MAX, 0, 1]), None);
         assert_eq!(lost([u32::MAX - 1, 20]), Some(21));
     }
 
-    /// One in two hundred for ever is forgiven, one in fifty is not.
+    /// One lost in two hundred is tolerated without end, one in fifty is not.
     #[test]
     fn a_rate_of_loss_is_a_fault() {
         let without = |every: u32| (1..100_000).filter(move |number| number % every != 0);

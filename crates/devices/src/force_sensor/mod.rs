@@ -6,11 +6,11 @@
 //!             NiDaq ────── a thread that reads ───────▶ libnidaqmx
 //! ```
 //!
-//! A driver never waits: it takes what has come, says how old it may be, and turns whatever goes wrong into a
-//! [`SensorFault`](palpate_servo::SensorFault) with a name. What a reading means is said by a [`SensorFormat`], where
-//! the sensor is found by [`SensorPlaces`], and nowhere else.
+//! A driver never waits: it takes the readings that have arrived, limits their age, and converts every error to a named
+//! [`SensorFault`](palpate_servo::SensorFault). Only a [`SensorFormat`] says what a reading means, and only
+//! [`SensorPlaces`] says where the sensor is.
 //!
-//! *How we know*: `force_sensors::…` against a server on the loopback, a pseudo-terminal and a library of our own.
+//! *How we know*: `force_sensors::…` with a server on the loopback, a pseudo-terminal and a stand-in library.
 //!
 //! *Limits*: written from documents. **Nothing here was tried on hardware.**
 
@@ -31,7 +31,7 @@ pub use places::{NetFtAddress, SensorPlaces};
 pub use serial::SerialLine;
 pub use serial::{Field, LineFormat, Separator};
 
-/// What the readings of a sensor mean.
+/// The meaning of the readings of a sensor.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SensorFormat {
     /// Voltages of strain gauges at NI-DAQmx.
@@ -49,13 +49,13 @@ pub struct Gauges {
     pub channels: String,
     /// How often they are sampled [Hz].
     pub rate: f64,
-    /// The largest voltage that is measured [V].
+    /// The largest voltage in the measuring range [V].
     pub range: f64,
     /// fx, fy, fz [N] and tx, ty, tz [N m] per volt of each channel; row by row.
     pub matrix: [[f64; 6]; 6],
 }
 
-/// What a count is.
+/// The scale of counts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Counts {
     /// [1/N]
@@ -64,12 +64,12 @@ pub struct Counts {
     pub per_newton_metre: f64,
 }
 
-/// What is asked of a sensor.
+/// The requirements on a sensor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorLimits {
     /// The largest force and torque on each of its axes.
     pub range: ForceTorque,
-    /// How long a reading may be missing [s].
+    /// Timeout for a reading [s].
     pub timeout: f64,
 }
 
@@ -86,7 +86,7 @@ impl Default for SensorLimits {
 /// Opens the sensor that sends readings of `format`.
 ///
 /// # Errors
-/// When it is not there, or nobody said where it is.
+/// When it is missing, or its address is not stated.
 pub fn open_force_sensor(
     format: &SensorFormat,
     limits: SensorLimits,

@@ -31,11 +31,12 @@ const STREAM: u16 = 2;
 const ERROR: u32 = 1 << 31;
 const OUT_OF_RANGE: u32 = 1 << 30 | 1 << 27;
 
-/// How long the first packet is waited for, and how often it is asked for.
+/// Timeout for the first packet, and interval of requests for it.
 const FIRST: Duration = Duration::from_millis(300);
 const REQUESTS: usize = 3;
 
-/// Packets that are taken at once, at most: more than 7 kHz send in a tick, and what waits after a stall is old.
+/// Largest number of packets per call: more than a rate of 7 kHz sends in a tick; packets that wait after a stall are
+/// old.
 const AT_ONCE: usize = 512;
 
 /// An ATI Net F/T.
@@ -49,7 +50,7 @@ pub struct NetFt {
     last: ForceTorque,
 }
 
-/// What a packet says.
+/// The content of a packet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Packet {
     number: u32,
@@ -58,7 +59,7 @@ struct Packet {
 }
 
 impl NetFt {
-    /// Asks the sensor at `address` for its stream.
+    /// Requests the stream of the sensor at `address`.
     ///
     /// # Errors
     /// When nothing answers there.
@@ -112,7 +113,7 @@ impl NetFt {
     }
 }
 
-/// A socket that hears this address alone. It is bound to the loopback where the sensor is.
+/// A socket that receives from this address alone. It is bound to the loopback if the sensor is there.
 fn connected(address: &NetFtAddress) -> std::io::Result<UdpSocket> {
     let found = (address.host.as_str(), address.port)
         .to_socket_addrs()?
@@ -136,7 +137,7 @@ fn request(command: u16) -> [u8; 8] {
     bytes
 }
 
-/// Asks until something comes; a datagram may be lost.
+/// Requests until a packet arrives; a datagram may be lost.
 fn first_packet(socket: &UdpSocket) -> std::io::Result<()> {
     socket.set_read_timeout(Some(FIRST))?;
     let mut last = ErrorKind::TimedOut.into();
@@ -157,7 +158,7 @@ impl ForceSensor for NetFt {
     }
 
     fn read(&mut self) -> Result<ForceTorque, SensorFault> {
-        // Longer than a packet, so that a longer one is not taken for one.
+        // Longer than a packet, to detect longer ones.
         let mut bytes = [0; 2 * PACKET];
         for _ in 0..AT_ONCE {
             match self.socket.recv(&mut bytes) {
@@ -175,7 +176,7 @@ impl ForceSensor for NetFt {
 
 impl Drop for NetFt {
     fn drop(&mut self) {
-        // A sensor that is gone streams no more.
+        // An error is harmless: a disconnected sensor no longer streams.
         let _ = self.socket.send(&request(STOP));
     }
 }

@@ -1,5 +1,5 @@
-//! Strain gauges at a data acquisition device of National Instruments, through the C library of NI-DAQmx. A thread of
-//! its own reads, so that a call that does not come back holds up nobody; what it reads in a millisecond is averaged.
+//! Strain gauges at a data acquisition device of National Instruments, through the C library of NI-DAQmx. A separate
+//! thread reads, so that a call that does not return blocks nothing else; it averages the readings of a millisecond.
 
 mod functions;
 
@@ -21,11 +21,11 @@ use functions::{Functions, Task, Volts};
 const MEANS: f64 = 1000.0;
 /// A voltage this near to the end of its range is at it [-].
 const NEAR_END: f64 = 0.995;
-/// How long the thread is waited for, when it begins and at the end.
+/// Timeout for the thread, at its start and its end.
 const BEGINS: Duration = Duration::from_secs(10);
 const FAREWELL: Duration = Duration::from_millis(200);
 
-/// What the thread read last.
+/// The thread's last reading.
 type Read = Result<ForceTorque, SensorFault>;
 
 /// Six strain gauges.
@@ -39,10 +39,10 @@ pub struct NiDaq {
 }
 
 impl NiDaq {
-    /// Loads the library, `named` or of the usual name, and begins to read.
+    /// Loads the library, `named` or of the usual name, and starts to read.
     ///
     /// # Errors
-    /// When the library is not there, or refuses the channels.
+    /// When the library is missing, or refuses the channels.
     pub fn open(
         gauges: &Gauges,
         limits: SensorLimits,
@@ -105,7 +105,7 @@ fn serve(
             Ok(read) => send.send(reading(volts.scans(read), gauges)),
             Err(code) => {
                 send.send(Err(SensorFault::Library { code }));
-                // What a library refuses once it refuses for ever.
+                // An error of the library is permanent.
                 return;
             }
         }
@@ -156,12 +156,12 @@ impl Drop for NiDaq {
         let naps = 100;
         for _ in 0..naps {
             if thread.is_finished() {
-                // One that panicked has ended too.
+                // A thread that panicked has ended too.
                 let _ = thread.join();
                 return;
             }
             std::thread::sleep(FAREWELL / naps);
         }
-        // A call that does not come back; when it does, the thread clears its task.
+        // A call that does not return; if it ever does, the thread clears its task.
     }
 }

@@ -5,14 +5,14 @@ use std::str::FromStr;
 use super::NET_FT_PORT;
 use crate::OpenError;
 
-/// Where force sensors are found.
+/// Where to look for force sensors.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct SensorPlaces {
-    /// The ATI Net F/T; none unless somebody said it.
+    /// The ATI Net F/T; none unless stated.
     pub net_ft: Option<NetFtAddress>,
     /// The library of NI-DAQmx; none for the usual names.
     pub nidaqmx: Option<PathBuf>,
-    /// The serial line; none unless somebody said it.
+    /// The serial line; none unless stated.
     pub serial: Option<PathBuf>,
 }
 
@@ -33,10 +33,10 @@ impl SensorPlaces {
     /// The variable for the serial line.
     pub const SERIAL: &str = "PALPATE_FORCE_SERIAL";
 
-    /// What the variables of the environment say.
+    /// The places from the environment variables.
     ///
     /// # Errors
-    /// When the address is none.
+    /// When the address is invalid.
     pub fn from_environment() -> Result<Self, OpenError> {
         let path = |name| std::env::var_os(name).map(PathBuf::from);
         let net_ft = std::env::var_os(Self::NET_FT);

@@ -11,7 +11,7 @@ use palpate_servo::{ForceSensor, ForceTorque, SensorFault};
 use super::SensorLimits;
 use crate::OpenError;
 
-/// What a field of a line is.
+/// The meaning of a field of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Field {
     /// An axis, by its place in fx, fy, fz, tx, ty, tz.
@@ -22,7 +22,7 @@ pub enum Field {
     Skipped,
 }
 
-/// What stands between two fields.
+/// The separator of two fields.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Separator {
     /// One character.
@@ -31,14 +31,14 @@ pub enum Separator {
     Space,
 }
 
-/// What a line is.
+/// The format of a line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LineFormat {
     /// Bits per second.
     pub baud: u32,
     /// Its fields, in their order.
     pub fields: Vec<Field>,
-    /// What stands between them.
+    /// Their separator.
     pub separator: Separator,
     /// Counts per newton [1/N].
     pub per_newton: f64,
@@ -46,7 +46,7 @@ pub struct LineFormat {
     pub per_newton_metre: Option<f64>,
 }
 
-/// What a line says.
+/// The content of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Line {
     reading: ForceTorque,
@@ -82,7 +82,7 @@ impl LineFormat {
                     let number: u64 = text
                         .parse()
                         .map_err(|_| bad("a sequence that is no number"))?;
-                    // Its lowest bits tell what is lost.
+                    // Its lowest bits determine the number of lost lines.
                     sequence = Some((number & u64::from(u32::MAX)) as u32);
                 }
                 Field::Skipped => {}
@@ -139,7 +139,7 @@ mod unix {
 
     /// The longest line [byte].
     const LONGEST: usize = 256;
-    /// Bytes that are taken at once, at most: a millisecond of the fastest line has 400.
+    /// Largest number of bytes per call: a millisecond of the fastest line has 400.
     const AT_ONCE: usize = 16 * LONGEST;
 
     /// A sensor on a serial line.
@@ -153,7 +153,7 @@ mod unix {
         last: ForceTorque,
         begun: [u8; LONGEST],
         length: usize,
-        /// Whether the line that is read began before it was listened to.
+        /// Whether the current line may be incomplete at its start.
         is_first: bool,
     }
 
@@ -161,7 +161,7 @@ mod unix {
         /// Opens the line at `path`.
         ///
         /// # Errors
-        /// When it is no serial line, or does not take the speed.
+        /// When it is no serial line, or does not support the speed.
         pub fn open(
             path: &Path,
             format: &LineFormat,
@@ -181,7 +181,7 @@ mod unix {
                     has_six_axes: format.per_newton_metre.is_some(),
                 },
                 sequence: Sequence::default(),
-                // The first line may be a half, and a sensor that wakes up has its time.
+                // The first line may be incomplete, and a sensor needs time to start.
                 freshness: Freshness::new(limits.timeout),
                 last: ForceTorque::zero(),
                 begun: [0; LONGEST],
@@ -191,7 +191,7 @@ mod unix {
         }
 
         fn take(&mut self, bytes: &[u8]) -> Result<(), SensorFault> {
-            // What is wrong with one line is told after all that came, so that none is read twice.
+            // An error in one line is reported after all available lines, so that none is read twice.
             let mut taken = Ok(());
             for &byte in bytes {
                 match byte {
@@ -247,7 +247,7 @@ mod unix {
         fn read(&mut self) -> Result<ForceTorque, SensorFault> {
             let mut bytes = [0; AT_ONCE];
             match rustix::io::read(&self.line, &mut bytes) {
-                // Nothing waits: some systems say so with none, as they say that a line was unplugged.
+                // No data: some systems return none, also when the line was unplugged.
                 Ok(0) | Err(Errno::AGAIN) => {}
                 Ok(length) => self.take(&bytes[..length])?,
                 Err(_) => return Err(SensorFault::Disconnected),

@@ -1,4 +1,4 @@
-//! A WebSocket to the service: messages within a time, whatever the other side does.
+//! A WebSocket to the service: messages with a timeout, whatever the other side does.
 
 use std::io;
 use std::net::{TcpStream, ToSocketAddrs};
@@ -13,16 +13,16 @@ use tungstenite::{Error, Message, Utf8Bytes, WebSocket};
 use super::timed_stream::TimedStream;
 use crate::OpenError;
 
-/// How long a service may take to be there.
+/// Timeout for the connection.
 const CONNECT_WITHIN: Duration = Duration::from_secs(1);
 
 /// The largest message [B]: a full one of a device is 2 kB.
 const LARGEST: usize = 1 << 20;
 
-/// A connection that speaks in messages.
+/// A connection that exchanges messages.
 pub(super) struct Channel {
     socket: WebSocket<TimedStream>,
-    /// Why nothing is read any more: after a frame that it refuses, the socket is not in a state to read the next.
+    /// Why reading ended: after an invalid frame the socket cannot read the next one.
     unreadable: Option<Fault>,
 }
 
@@ -84,10 +84,10 @@ impl Channel {
         }
     }
 
-    /// A message, if one is there.
+    /// The next message, if one has arrived.
     pub(super) fn receive_waiting(&mut self) -> Result<Option<Utf8Bytes>, Fault> {
         self.socket.get_mut().wait_until(None);
-        // A bound, for pings of which there is no end.
+        // A bound against endless pings.
         for _ in 0..8 {
             match self.read()? {
                 Some(Message::Text(text)) => return Ok(Some(text)),
@@ -115,7 +115,7 @@ impl Channel {
         }
     }
 
-    /// Says good-bye, and does not wait for the answer.
+    /// Sends the closing message and does not wait for the answer.
     pub(super) fn close(&mut self) {
         self.socket.get_mut().wait_until(None);
         let _ = self.socket.close(None);
@@ -142,7 +142,7 @@ fn is_waiting(error: &Error) -> bool {
 
 fn fault_of(error: &Error) -> Fault {
     match error {
-        // What is written has no room: nobody takes it.
+        // The send buffer is full: the other side does not read.
         _ if is_waiting(error) => Fault::Silent,
         Error::Io(_) | Error::ConnectionClosed | Error::AlreadyClosed => Fault::Disconnected,
         Error::Protocol(tungstenite::error::ProtocolError::ResetWithoutClosingHandshake) => {

@@ -9,20 +9,20 @@ use crate::OpenError;
 use crate::found::{Found, Origin};
 use crate::places::TIMEOUT;
 
-/// How long the service may take for its first message.
+/// Timeout for the first message of the service.
 const FIRST_WITHIN: Duration = Duration::from_secs(1);
 
-/// Messages that nobody asked for and that are taken at a tick.
+/// Unrequested messages that are accepted at a tick.
 const UNASKED: usize = 8;
 
-/// Messages with zero until one has to show.
+/// Messages with zero force until a device has to display zero.
 const ZEROS: u32 = 3;
 
-/// A force that has to show [N], and ticks until it does.
+/// A force that the device has to display [N], and the ticks until it does.
 const SHOWS: f64 = 0.1;
 const SHOWS_WITHIN: u32 = 20;
 
-/// The largest force [N], and the largest for as long as one likes: ours, for the documents do not say.
+/// The largest force [N], and the largest continuous force [N]: our assumptions, since the documents state none.
 const PEAK: f64 = 3.0;
 const CONTINUOUS: f64 = 1.5;
 
@@ -37,20 +37,20 @@ pub struct HaplyDevice {
     generation: Generation,
     message: String,
     timeout: Duration,
-    /// The buttons of its grip but the first.
+    /// A bit mask of its grip's buttons but the first.
     other_buttons: u32,
-    /// Answers that are still to come.
-    owed: u32,
-    known: Known,
+    /// Answers that are still due.
+    pending_answers: u32,
+    status: Status,
     /// Ticks in which a force was sent and none was displayed.
-    hidden: u32,
+    undisplayed: u32,
     /// Why it cannot be used any more.
     broken: Option<Fault>,
 }
 
-/// What the device last said of itself, where it did.
+/// The last reported status of the device, where it reported one.
 #[derive(Debug, Clone, Copy, Default)]
-struct Known {
+struct Status {
     calibrated: Option<bool>,
     ready: Option<bool>,
     powered: Option<bool>,
@@ -141,21 +141,22 @@ impl HaplyDevice {
             message: String::with_capacity(256),
             timeout: TIMEOUT,
             other_buttons,
-            owed: 0,
-            known: Known::default(),
-            hidden: 0,
+            pending_answers: 0,
+            status: Status::default(),
+            undisplayed: 0,
             broken: None,
         })
     }
 
-    /// The same with another time that an answer may take.
+    /// The same with another timeout for an answer.
     #[must_use]
     pub fn with_timeout(mut self, timeout: Duration) -> Self {
         self.timeout = timeout;
         self
     }
 
-    /// The same with a dead-man's switch: one of the buttons of its grip but the first, which then is no stop button.
+    /// The same with a dead-man's switch: one of the buttons of its grip but the first. That button is then no stop
+    /// button.
     ///
     /// # Errors
     /// When it has no grip with such a button.
@@ -170,12 +171,12 @@ impl HaplyDevice {
         Ok(self)
     }
 
-    /// Whether the service tells events.
+    /// Whether the service sends events.
     pub fn hears_events(&self) -> bool {
         self.events.is_some()
     }
 
-    /// How forces are written.
+    /// The form of forces in messages.
     pub fn generation(&self) -> Generation {
         self.generation
     }
@@ -183,7 +184,7 @@ impl HaplyDevice {
     fn send(&mut self, force: &Vec3) -> Result<(), Fault> {
         force_command(&mut self.message, &self.quoted_id, self.generation, force);
         self.channel.send(&self.message)?;
-        self.owed += 1;
+        self.pending_answers += 1;
         Ok(())
     }
 
@@ -191,11 +192,11 @@ impl HaplyDevice {
     fn receive(&mut self) -> Result<State, Fault> {
         let until = Instant::now() + self.timeout;
         let mut newest = None;
-        while self.owed > 0 {
+        while self.pending_answers > 0 {
             newest = Some(self.channel.receive(until)?);
-            self.owed -= 1;
+            self.pending_answers -= 1;
         }
-        // What nobody asked for would be answered late from then on.
+        // An answer to an unrequested message would be late from then on.
         let mut unasked = 0;
         while let Some(text) = self.channel.receive_waiting()? {
             newest = Some(text);
@@ -214,45 +215,45 @@ impl HaplyDevice {
         let force = command.force();
         self.send(&force)?;
         let state = self.receive()?;
-        let reported = self.known.update(&state);
-        let hidden = self.is_hidden(&force, &state);
-        let told = self.told();
+        let reported = self.status.update(&state);
+        let undisplayed = self.is_undisplayed(&force, &state);
+        let event_fault = self.event_fault();
         let first = state.buttons & 1 != 0;
         Ok(DeviceState {
             orientation: state.orientation,
             grip: if first { 1.0 } else { 0.0 },
             buttons: state.buttons,
-            ready: self.known.is_ready(),
+            ready: self.status.is_ready(),
             displayed: state.displayed,
-            fault: reported.or(told).or(hidden),
+            fault: reported.or(event_fault).or(undisplayed),
             ..DeviceState::at(command.time, state.position)
         })
     }
 
-    /// A fault once a force was sent and not displayed for a while.
-    fn is_hidden(&mut self, sent: &Vec3, state: &State) -> Option<Fault> {
+    /// A fault if the device displays no force for a while although one is sent.
+    fn is_undisplayed(&mut self, sent: &Vec3, state: &State) -> Option<Fault> {
         let displayed = state.displayed?;
         let is_shown = sent.norm() < SHOWS || displayed.norm() > 0.0;
-        self.hidden = if is_shown { 0 } else { self.hidden + 1 };
-        if self.hidden < SHOWS_WITHIN {
+        self.undisplayed = if is_shown { 0 } else { self.undisplayed + 1 };
+        if self.undisplayed < SHOWS_WITHIN {
             return None;
         }
-        self.hidden = 0;
+        self.undisplayed = 0;
         Some(Fault::Ignored)
     }
 
-    /// What the events say.
-    fn told(&mut self) -> Option<Fault> {
+    /// The fault that the events report, if any.
+    fn event_fault(&mut self) -> Option<Fault> {
         let mut fault = None;
         for _ in 0..UNASKED {
             let events = self.events.as_mut()?;
             match events.receive_waiting() {
                 Ok(None) => break,
                 Ok(Some(text)) => {
-                    let said = Event::parse(&text).map(|event| event.fault(&self.id));
-                    fault = fault.or(said.unwrap_or_else(Some));
+                    let reported_fault = Event::parse(&text).map(|event| event.fault(&self.id));
+                    fault = fault.or(reported_fault.unwrap_or_else(Some));
                 }
-                // Without it its safeties would not be heard of.
+                // Without events its safety faults would go unnoticed.
                 Err(lost) => {
                     self.events = None;
                     fault = fault.or(Some(lost));
@@ -263,8 +264,8 @@ impl HaplyDevice {
     }
 }
 
-impl Known {
-    /// Takes over what `state` says; the fault of a device that was ready and is not any more.
+impl Status {
+    /// Takes over `state`; returns the fault of a device that was ready and no longer is.
     fn update(&mut self, state: &State) -> Option<Fault> {
         self.calibrated = state.calibrated.or(self.calibrated);
         self.ready = state.ready.or(self.ready);
@@ -285,7 +286,7 @@ impl Known {
         })
     }
 
-    /// What it never said is not taken for granted, but for its power.
+    /// A status that was never reported counts as not given, except for power.
     fn is_ready(&self) -> bool {
         self.calibrated == Some(true) && self.ready == Some(true) && self.powered != Some(false)
     }
@@ -296,7 +297,7 @@ impl Device for HaplyDevice {
         &self.capabilities
     }
 
-    /// A service has nothing to enable: it displays what it is sent.
+    /// A service has nothing to enable: it displays the force that it receives.
     fn enable(&mut self) -> Result<(), Fault> {
         Ok(())
     }
@@ -310,8 +311,8 @@ impl Device for HaplyDevice {
         })
     }
 
-    /// Sends zero until the service says that it displays it. One that hears nothing any more takes its force off by
-    /// itself, as its documents say.
+    /// Sends zero until the service reports zero force. According to its documents, a service that receives nothing any
+    /// more takes its force off by itself.
     fn disable(&mut self) -> Disabled {
         for _ in 0..ZEROS {
             if self.broken == Some(Fault::Disconnected) {
@@ -321,12 +322,12 @@ impl Device for HaplyDevice {
                 self.broken = self.broken.or(Some(Fault::Disconnected));
                 return Disabled::Unknown;
             }
-            // One that is silent is not waited for once more.
+            // No second wait for a service that is silent.
             let waits = self.broken != Some(Fault::Silent);
             let Some(Ok(state)) = waits.then(|| self.receive()) else {
                 return Disabled::Unknown;
             };
-            self.known.update(&state);
+            self.status.update(&state);
             if state.displayed == Some(Vec3::zeros()) {
                 return Disabled::NoForce;
             }

@@ -4,7 +4,7 @@ use palpate_servo::Fault;
 use serde::Deserialize;
 use serde_json::Value;
 
-/// What the service tells by itself.
+/// An event that the service sends unasked.
 #[derive(Debug, Deserialize)]
 pub struct Event<'a> {
     #[serde(borrow)]
@@ -19,14 +19,14 @@ impl<'a> Event<'a> {
     /// Reads one.
     ///
     /// # Errors
-    /// When it is none.
+    /// When it is not an event.
     pub fn parse(text: &'a str) -> Result<Self, Fault> {
         serde_json::from_str(text).map_err(|_| Fault::BadMessage {
             what: "an event that is not as its documents have it",
         })
     }
 
-    /// Why forces have to be off, if it says so about the device `id` or about none.
+    /// Why forces have to be off, if it says so about the device `id` or about no device.
     pub fn fault(&self, id: &str) -> Option<Fault> {
         let about = self.data.get("device_id").and_then(Value::as_str);
         if about.is_some_and(|about| about != id) {

@@ -17,12 +17,12 @@ pub(crate) fn theirs(vector: &Vec3) -> Vec3 {
     Vec3::new(vector.x, -vector.z, vector.y)
 }
 
-/// A place of the device [m] in our axes, from our zero.
+/// A position of the device [m] in our axes, from our zero.
 pub(crate) fn our_place(place: &Vec3) -> Vec3 {
     ours(&(place - MIDDLE))
 }
 
-/// The same turn, about an axis in our axes; none of what is no turn.
+/// The same rotation in our axes; none if it is not a rotation.
 pub(crate) fn our_turn([w, x, y, z]: [f64; 4]) -> Option<UnitQuaternion<f64>> {
     let axis = ours(&Vec3::new(x, y, z));
     let turn = Quaternion::from_parts(w, axis);

@@ -1,7 +1,7 @@
-//! What the service says, and what is said to it.
+//! Messages from and to the service.
 //!
-//! Unknown keys are left alone, for every version adds some. What a state cannot do without (its place, as three
-//! finite numbers) makes a message bad when it is missing; nothing is ever taken from a bad message.
+//! Unknown keys are ignored, since every version adds some. A message is invalid if a state lacks a required value (its
+//! position, as three finite numbers); nothing of an invalid message is used.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
@@ -12,7 +12,7 @@ use serde::Deserialize;
 
 use super::frame::{our_place, our_turn, ours, theirs};
 
-/// How forces are written.
+/// The JSON form of forces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Generation {
     /// `values`, versions 3.0 and 3.1.
@@ -131,16 +131,16 @@ pub struct Listed {
     pub handedness: Option<String>,
 }
 
-/// The first message: everything that the service has.
+/// The first message: all devices of the service.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ServiceInventory {
     /// Devices with forces.
     pub robots: Vec<Listed>,
-    /// Grips, those without a cable first.
+    /// Grips, wireless ones first.
     pub grips: Vec<String>,
-    /// Of each grip, bit by bit, its buttons but the first.
+    /// For each grip, a bit mask of its buttons but the first.
     pub other_buttons: Vec<u32>,
-    /// How forces are to be written.
+    /// The form in which to write forces.
     pub generation: Generation,
 }
 
@@ -182,27 +182,27 @@ impl ServiceInventory {
     }
 }
 
-/// What a message says of one device and its grip, in our axes.
+/// A state of one device and its grip, in our axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct State {
-    /// Where the handle is [m].
+    /// Position of the handle [m].
     pub position: Vec3,
     /// The force that it displays [N].
     pub displayed: Option<Vec3>,
-    /// Whether it is calibrated; none when the message does not say.
+    /// Whether it is calibrated; none if the message does not say.
     pub calibrated: Option<bool>,
     /// Whether it is ready.
     pub ready: Option<bool>,
     /// Whether it has power.
     pub powered: Option<bool>,
-    /// How the grip is turned.
+    /// Orientation of the grip.
     pub orientation: Option<UnitQuaternion<f64>>,
     /// Its buttons, bit by bit: a (or the only one), b, c.
     pub buttons: u32,
 }
 
 impl State {
-    /// Reads what `text` says of the device `id` and of the grip `grip`.
+    /// Reads the state of the device `id` and of the grip `grip` from `text`.
     ///
     /// # Errors
     /// [`Fault::BadMessage`] when it is no message of the service, [`Fault::Vanished`] when the device is not in it.
@@ -234,12 +234,12 @@ impl State {
     }
 }
 
-/// Writes into `message` that the device `id`, quoted as JSON has it, shall display `force` [N], given in our axes; to
+/// Writes the command to `message` that the device `id`, quoted as in JSON, displays `force` [N], given in our axes; to
 /// a millionth of a newton.
 pub fn force_command(message: &mut String, quoted_id: &str, generation: Generation, force: &Vec3) {
     let force = theirs(force);
     message.clear();
-    // A string takes whatever is written.
+    // Writing to a string cannot fail.
     let _ = write!(
         message,
         "{{\"inverse3\":[{{\"device_id\":{quoted_id},\"commands\":{{\"set_cursor_force\":{{\"{}\":\

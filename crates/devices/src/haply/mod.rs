@@ -1,13 +1,13 @@
 //! The devices of Haply, by their Inverse Service: one message with a force out, one with a state back.
 //!
-//! Both generations of messages are spoken: forces are `vector` from version 3.5 on and `values` before. A grip that
-//! is there turns the tool, shuts it and cuts. Events of the service become faults.
+//! The driver supports both generations of messages: forces are `vector` from version 3.5 on and `values` before. A
+//! connected grip turns the tool, shuts it and cuts. Events of the service become faults.
 //!
-//! *How we know*: `haply::…`, `haply_faults::…`, `haply_messages::…` in the tests, against a service that stands for it.
+//! *How we know*: `haply::…`, `haply_faults::…`, `haply_messages::…` in the tests, against a stand-in for the service.
 //!
 //! *Limits*: that `cursor_position` is (x right, y away from the user, z up) follows from the middle of its workspace
-//! and was not seen; so do the axes of a grip. A message is allocated at every tick by the WebSocket. The largest
-//! forces of the devices are ours. Not tried on hardware.
+//! and was not verified; neither were the axes of a grip. The WebSocket allocates a message at every tick. The largest
+//! forces of the devices are our assumptions. Not tried on hardware.
 
 mod address;
 mod channel;

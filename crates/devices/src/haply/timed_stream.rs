@@ -1,18 +1,18 @@
-//! A connection whose reading ends at a time, however slowly the bytes come.
+//! A connection whose reads end at a deadline, however slowly the bytes arrive.
 
 use std::io::{self, Read, Write};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
-/// How long the system may keep what is written.
+/// Timeout of a write.
 const WRITE_WITHIN: Duration = Duration::from_millis(20);
 
-/// A connection with a time until which is read.
+/// A connection with a deadline for reads.
 pub(super) struct TimedStream {
     stream: TcpStream,
-    /// None: what is there, without waiting.
+    /// None: reads return only what has already arrived.
     until: Option<Instant>,
-    waits: bool,
+    is_blocking: bool,
 }
 
 impl TimedStream {
@@ -22,19 +22,19 @@ impl TimedStream {
         Ok(Self {
             stream,
             until: None,
-            waits: true,
+            is_blocking: true,
         })
     }
 
-    /// From now on reading waits until `until`; with none it does not wait.
+    /// From now on reads wait until `until`; with none they do not wait.
     pub(super) fn wait_until(&mut self, until: Option<Instant>) {
         self.until = until;
     }
 
-    fn block(&mut self, waits: bool) -> io::Result<()> {
-        if self.waits != waits {
-            self.stream.set_nonblocking(!waits)?;
-            self.waits = waits;
+    fn block(&mut self, is_blocking: bool) -> io::Result<()> {
+        if self.is_blocking != is_blocking {
+            self.stream.set_nonblocking(!is_blocking)?;
+            self.is_blocking = is_blocking;
         }
         Ok(())
     }

@@ -12,13 +12,13 @@ use super::scheduler::OpenHapticsScheduler;
 use crate::rotation::rotation;
 use crate::{Found, Kind, OpenError, Origin};
 
-/// A Touch, where the library does not say: 3.3 N, and 0.88 N for as long as one likes.
+/// A Touch, if the library does not report its forces: 3.3 N peak and 0.88 N continuous force.
 const TOUCH: [f64; 2] = [3.3, 0.88];
 
 /// Every button but the first, which shuts jaws and cuts.
 const OTHER_BUTTONS: u32 = 0b1110;
 
-/// The default device of OpenHaptics. It is called from its scheduler alone.
+/// The default device of OpenHaptics. Only its scheduler calls it.
 pub struct OpenHapticsDevice {
     capabilities: Capabilities,
     functions: Functions,
@@ -31,7 +31,7 @@ pub struct OpenHapticsDevice {
     broken: Option<Fault>,
 }
 
-/// The default device of the library, `named` or where it usually is.
+/// The default device of the library, `named` or at its usual place.
 ///
 /// # Errors
 /// When there is no library, or it opens no device.
@@ -67,10 +67,12 @@ fn open(functions: &Functions) -> Result<u32, OpenError> {
 
 fn capabilities(functions: &Functions) -> (Capabilities, Origin) {
     let [model, serial] = functions.names();
-    let said = functions.largest_forces();
-    let is_said = said.iter().all(|force| force.is_finite() && *force > 0.0);
-    let ([peak, continuous], origin) = match is_said {
-        true => (said, Origin::Device),
+    let reported = functions.largest_forces();
+    let is_reported = reported
+        .iter()
+        .all(|force| force.is_finite() && *force > 0.0);
+    let ([peak, continuous], origin) = match is_reported {
+        true => (reported, Origin::Device),
         false => (TOUCH, Origin::Ours),
     };
     let [a, b, c, d, e, f] = functions.workspace().map(|length| 1e-3 * length);
@@ -103,7 +105,7 @@ impl OpenHapticsDevice {
         let handle = open(&functions)?;
         let (capabilities, _) = capabilities(&functions);
         let has_inkwell = functions.has_inkwell();
-        // What came up until now belongs to nobody's force.
+        // Clears errors from before the first force.
         functions.last_error();
         Ok(Self {
             capabilities,

@@ -4,7 +4,7 @@ use palpate_servo::Fault;
 
 pub(super) const NONE: u32 = 0;
 
-/// What a number means.
+/// The meaning of an error code.
 pub(super) fn meaning(code: u32) -> &'static str {
     match code {
         0x0100..=0x01FF => "a call that it does not take",
@@ -25,12 +25,12 @@ pub(super) fn meaning(code: u32) -> &'static str {
     }
 }
 
-/// A device that reports one of these goes on answering.
+/// A device that reports one of these still answers.
 fn is_lived_through(code: u32) -> bool {
     (0x0200..=0x02FF).contains(&code)
 }
 
-/// The one that says more.
+/// The one with further information.
 pub(super) fn worse(one: u32, other: u32) -> u32 {
     match one {
         NONE => other,
@@ -39,7 +39,7 @@ pub(super) fn worse(one: u32, other: u32) -> u32 {
     }
 }
 
-/// The fault of a number: it takes forces off (ok), or ends the loop (error).
+/// The fault of an error code: it takes forces off (ok), or ends the loop (error).
 pub(super) fn fault(code: u32) -> Result<Option<Fault>, Fault> {
     let what = meaning(code);
     let fault = Fault::Library { code, what };

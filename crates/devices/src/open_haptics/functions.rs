@@ -1,8 +1,8 @@
-//! The functions of `libHD` that are used, as its interface has them.
+//! The required functions of `libHD`, as declared in its interface.
 //!
-//! All of them are `unsafe` to call, for their types are known from documents alone: the headers of version 3.00.66 and
-//! the *OpenHaptics Toolkit API Reference Guide*. What holds for each call is at the wrapper that makes it, and nobody
-//! else calls them.
+//! All of them are `unsafe` to call, since their types are known from documents alone: the headers of version 3.00.66
+//! and the *OpenHaptics Toolkit API Reference Guide*. Each wrapper states why its call is safe; only the wrappers call
+//! them.
 
 #![allow(
     unsafe_code,
@@ -18,11 +18,11 @@ use super::errors;
 use crate::library::{Library, text};
 use crate::{Kind, OpenError};
 
-/// A handle that is none.
+/// The invalid handle.
 const INVALID: u32 = 0xFFFF_FFFF;
 
-/// A quantity of the library that is `N` numbers. Its size belongs to its constant, so that nothing is read into less
-/// room than the library fills.
+/// A quantity of the library with `N` numbers. The size belongs to the constant, so that a buffer is never smaller than
+/// what the library writes.
 #[derive(Clone, Copy)]
 struct Quantity<const N: usize>(u32);
 
@@ -41,13 +41,13 @@ const FORCE_OUTPUT: u32 = 0x4000;
 const FORCE_RAMPING: u32 = 0x4002;
 const CALIBRATION_OK: u32 = 0x5000;
 const CALIBRATION_NEEDS_UPDATE: u32 = 0x5001;
-/// The bit of the calibration styles of a stylus that is put into an inkwell.
+/// The bit of the calibration style of a stylus with an inkwell.
 const STYLE_INKWELL: u32 = 4;
 
-/// Of all calls the one that may come at any time.
+/// The only call that is permitted at any time.
 const HIGHEST_PRIORITY: u16 = 65_535;
 
-/// What a callback answers to be called again, or not.
+/// The results of a callback: call again, or not.
 pub(super) const DONE: u32 = 0;
 pub(super) const CONTINUE: u32 = 1;
 
@@ -59,10 +59,10 @@ pub(super) struct ErrorInfo {
     pub(super) device: u32,
 }
 
-/// What the scheduler calls.
+/// A callback of the scheduler.
 pub(super) type Callback = unsafe extern "system" fn(*mut c_void) -> u32;
 
-/// A C long, of whatever size it is here.
+/// A C long, of the size on this system.
 type ULong = std::ffi::c_ulong;
 
 /// `libHD`, loaded.
@@ -90,13 +90,13 @@ pub(super) struct Functions {
     pub(super) unschedule: unsafe extern "system" fn(ULong),
 }
 
-/// Whether a device knows where its handle is.
+/// The calibration of a device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Calibration {
     Known,
-    /// It will, once it is told to look: its stylus is in the inkwell.
+    /// It calibrates on request: its stylus is in the inkwell.
     NeedsUpdate,
-    /// Somebody has to do something.
+    /// A person has to calibrate it.
     NeedsHand,
 }
 
@@ -139,10 +139,10 @@ impl Functions {
         })
     }
 
-    /// The worst error since the last time; zero for none.
+    /// The worst error since the last call; zero if there is none.
     pub(super) fn last_error(&self) -> u32 {
         let mut last = errors::NONE;
-        // It keeps a stack; a bound, for a library that never empties it.
+        // The library keeps a stack of errors; a bound, in case it never empties.
         for _ in 0..64 {
             // SAFETY: hdGetError takes nothing, may be called at any time, and returns three words by value.
             let found = unsafe { (self.error)() }.code;
@@ -171,7 +171,7 @@ impl Functions {
         Ok(handle)
     }
 
-    /// Closes a device whose scheduler does not run, for good.
+    /// Closes a device for good, after its scheduler has stopped.
     pub(super) fn close(&self, handle: u32) {
         // SAFETY: hdDisableDevice takes a handle of hdInitDevice; one that it does not know is an error on its stack
         // and no more. The handle is not used again: every caller drops what holds it.
@@ -185,7 +185,7 @@ impl Functions {
         [MODEL, SERIAL].map(|which| unsafe { text((self.string)(which)) })
     }
 
-    /// The largest force, and the largest for as long as one likes [N].
+    /// The largest force, and the largest continuous force [N].
     pub(super) fn largest_forces(&self) -> [f64; 2] {
         [NOMINAL_MAX_FORCE, NOMINAL_MAX_CONTINUOUS_FORCE].map(|which| self.read(which)[0])
     }
@@ -216,13 +216,13 @@ impl Functions {
         }
     }
 
-    /// Has the device find out where its handle is; what needs an update does so by itself.
+    /// Calibrates the device; a calibration that needs an update does so by itself.
     pub(super) fn update_calibration(&self) {
         // SAFETY: hdUpdateCalibration takes one of the styles that hdCheckCalibrationStyle answers, which takes nothing.
         unsafe { (self.update_calibration)((self.calibration_style)()) };
     }
 
-    /// Whether its stylus has an inkwell, by which it is calibrated.
+    /// Whether an inkwell calibrates its stylus.
     pub(super) fn has_inkwell(&self) -> bool {
         // SAFETY: hdCheckCalibrationStyle takes nothing and asks the current device.
         unsafe { (self.calibration_style)() & STYLE_INKWELL != 0 }
@@ -239,7 +239,7 @@ impl Functions {
         }
     }
 
-    /// Has `callback` called with `data` from now on, until it is unscheduled or answers [`DONE`].
+    /// Has the scheduler call `callback` with `data` from now on, until it is unscheduled or returns [`DONE`].
     ///
     /// # Safety
     /// `callback` has to take `data` from any thread, for as long as the program runs: the interface does not say when
@@ -265,7 +265,7 @@ impl Functions {
     }
 
     fn read<const N: usize>(&self, which: Quantity<N>) -> [f64; N] {
-        // Of what a library does not know it writes nothing.
+        // The library writes nothing for an unknown quantity.
         let mut found = [f64::NAN; N];
         // SAFETY: hdGetDoublev writes as many doubles as the API Reference lists for the quantity, which its constant
         // has as N; there is room for as many.
@@ -274,8 +274,7 @@ impl Functions {
     }
 }
 
-/// A frame that has begun. When it is dropped it ends, and its forces are written to the device: none, unless one was
-/// set.
+/// An open frame. Dropping it ends it and writes its force to the device: zero, unless one was set.
 pub(super) struct Frame<'f> {
     functions: &'f Functions,
     handle: u32,
@@ -299,7 +298,7 @@ impl Frame<'_> {
         buttons
     }
 
-    /// Whether the stylus is in its inkwell: public drivers read 0 then. What is not known is taken for held.
+    /// Whether the stylus is in its inkwell: public drivers read 0 then. An unknown state counts as held.
     pub(super) fn is_in_inkwell(&self) -> bool {
         let mut switch = 1;
         // SAFETY: hdGetBooleanv writes one byte for HD_CURRENT_INKWELL_SWITCH, for which there is room.
@@ -307,7 +306,7 @@ impl Frame<'_> {
         switch == 0
     }
 
-    /// The force [N] that is written when the frame ends.
+    /// Sets the force [N] that is written when the frame ends.
     pub(super) fn set_force(&self, force: &Vec3) {
         let force: [f64; 3] = (*force).into();
         let Quantity(which) = CURRENT_FORCE;

@@ -1,9 +1,9 @@
 //! The loop in the library's scheduler.
 //!
-//! What the scheduler calls with is never freed: the interface says neither that `hdStopScheduler` waits for a call
-//! that is under way, nor that none comes after `hdUnschedule`. It is small, and there is one per device that is opened.
-//! What it holds, the tick and its device, is dropped once the tick has said that it was the last. Calls that come
-//! twice at the same time, or after that, do nothing.
+//! The argument of the callback is never freed: the interface says neither that `hdStopScheduler` waits for a running
+//! call, nor that none comes after `hdUnschedule`. It is small, and there is one per opened device. Its content, the
+//! tick and its device, is dropped once the tick has returned that it was the last. Calls that overlap, or come after
+//! that, do nothing.
 
 #![allow(unsafe_code, reason = "a callback gets its own data as a pointer")]
 
@@ -19,7 +19,7 @@ use palpate_servo::{Disabled, Fault, Next, Scheduler, Tick};
 use super::errors;
 use super::functions::{CONTINUE, DONE, Functions};
 
-/// How long a library may take to switch forces off.
+/// Timeout for the library to switch forces off.
 const DISABLE: Duration = Duration::from_millis(20);
 
 /// How long a waiting thread sleeps.
@@ -37,12 +37,12 @@ struct Started {
     number: c_ulong,
 }
 
-/// What the scheduler calls with.
+/// The argument of the callback.
 struct Called {
     tick: Mutex<Option<Tick>>,
-    /// Whether a call is in the tick.
+    /// Whether a call is inside the tick.
     inside: Arc<AtomicBool>,
-    /// Whether the tick said that it was the last.
+    /// Whether the tick has returned that it was the last.
     ended: AtomicBool,
 }
 
@@ -56,7 +56,7 @@ impl OpenHapticsScheduler {
     }
 }
 
-/// What the scheduler calls.
+/// The callback of the scheduler.
 ///
 /// # Safety
 /// `data` has to be a [`Called`] that is never freed.
@@ -64,7 +64,7 @@ unsafe extern "system" fn call(data: *mut c_void) -> u32 {
     // SAFETY: the caller passes what it was scheduled with, which is a leaked `Called`; only shared references to it are
     // ever made, and it may be used from any thread.
     let called = unsafe { &*data.cast::<Called>() };
-    // Nothing may unwind into the library.
+    // No panic may unwind into the library.
     match catch_unwind(AssertUnwindSafe(|| called.tick())) {
         Ok(Next::Again) => CONTINUE,
         Ok(Next::End) => DONE,
@@ -80,7 +80,7 @@ impl Called {
         if self.ended.load(Ordering::Acquire) {
             return Next::End;
         }
-        // A second call at the same time finds it locked, and the scheduler never waits.
+        // An overlapping call finds it locked, and the scheduler never waits.
         let Ok(mut tick) = self.tick.try_lock() else {
             return Next::Again;
         };
@@ -96,7 +96,7 @@ impl Called {
 }
 
 impl Started {
-    /// Whether the tick said within `timeout` that it was the last.
+    /// Whether the tick returned within `timeout` that it was the last.
     fn ends_within(&self, timeout: Duration) -> bool {
         let until = Instant::now() + timeout;
         while !self.called.ended.load(Ordering::Acquire) {
@@ -124,7 +124,7 @@ impl Scheduler for OpenHapticsScheduler {
         Ok(())
     }
 
-    /// No frame comes that could say zero, but hdDisable is no call that belongs to a frame.
+    /// No further frame can send zero, but hdDisable needs no frame.
     fn disable(&mut self) -> Disabled {
         disable_within(self.functions, DISABLE);
         Disabled::Unknown
@@ -141,7 +141,7 @@ impl Scheduler for OpenHapticsScheduler {
         if !ended {
             disable_within(self.functions, DISABLE);
         }
-        // A library that hangs holds up a thread that nobody waits for.
+        // A library that hangs blocks only this detached thread.
         let (functions, number) = (self.functions, started.number);
         let (stopped, wait) = channel();
         let thread = std::thread::Builder::new().name("openhaptics stop".to_owned());
@@ -153,7 +153,7 @@ impl Scheduler for OpenHapticsScheduler {
         if wait.recv_timeout(timeout).is_err() || !ended {
             return Err(hung);
         }
-        // Nobody takes it out but this, and a call that still comes finds none.
+        // Only this takes it out, and a late call finds none.
         let tick = started
             .called
             .tick
@@ -165,7 +165,7 @@ impl Scheduler for OpenHapticsScheduler {
     }
 }
 
-/// Has the library take forces off; one that hangs in that holds up a thread that nobody waits for.
+/// Switches forces off through the library; if that hangs it blocks only a detached thread.
 fn disable_within(functions: Functions, timeout: Duration) {
     let (disabled, wait) = channel();
     let thread = std::thread::Builder::new().name("openhaptics disable".to_owned());
@@ -175,14 +175,14 @@ fn disable_within(functions: Functions, timeout: Duration) {
     });
     match spawned {
         Ok(_) => drop(wait.recv_timeout(timeout)),
-        // The only way that is left.
+        // The only remaining way.
         Err(_) => functions.disable_forces(),
     }
 }
 
 impl Drop for OpenHapticsScheduler {
     fn drop(&mut self) {
-        // Who wants to know calls `stop`. The device of a tick that did not end stays open.
+        // `stop` returns the result. The device of a tick that did not end stays open.
         let _ = self.stop(Duration::ZERO);
     }
 }

@@ -1,4 +1,4 @@
-//! The driver over functions of ours, so that Miri can look at every pointer: `cargo +nightly miri test -p
+//! Tests of the driver with functions in Rust, so that Miri can check every pointer: `cargo +nightly miri test -p
 //! palpate-devices --lib`.
 
 #![allow(unsafe_code, reason = "functions that stand for those of a library")]
@@ -11,9 +11,9 @@ use palpate_servo::{Clock, DeviceState, Fault, ServoLoop, ServoSettings, ServoTh
 use super::OpenHapticsDevice;
 use super::functions::{CONTINUE, Callback, ErrorInfo, Functions};
 
-/// What the library was told.
+/// The state of the library.
 #[derive(Default)]
-struct Told {
+struct LibraryState {
     frame: Option<[f64; 3]>,
     displayed: [f64; 3],
     enabled: bool,
@@ -22,7 +22,7 @@ struct Told {
     called: Option<(Callback, Data)>,
 }
 
-/// What a callback is called with.
+/// The argument of a callback.
 #[derive(Clone, Copy)]
 struct Data(*mut c_void);
 
@@ -35,31 +35,34 @@ impl Data {
     }
 }
 
-static TOLD: Mutex<Option<Told>> = Mutex::new(None);
+static LIBRARY: Mutex<Option<LibraryState>> = Mutex::new(None);
 /// One library in the process, one test at a time.
 static ALONE: Mutex<()> = Mutex::new(());
 
-fn told<T>(act: impl FnOnce(&mut Told) -> T) -> T {
-    act(TOLD.lock().unwrap().get_or_insert_with(Told::default))
+fn library<T>(act: impl FnOnce(&mut LibraryState) -> T) -> T {
+    act(LIBRARY
+        .lock()
+        .unwrap()
+        .get_or_insert_with(LibraryState::default))
 }
 
 unsafe extern "system" fn init(_: *const c_char) -> u32 {
-    told(|told| told.open += 1);
+    library(|library| library.open += 1);
     7
 }
 unsafe extern "system" fn close(_: u32) {
-    told(|told| told.open -= 1);
+    library(|library| library.open -= 1);
 }
 unsafe extern "system" fn nothing_of(_: u32) {}
 unsafe extern "system" fn nothing() {}
 unsafe extern "system" fn begin(_: u32) {
-    told(|told| told.frame = Some([0.0; 3]));
+    library(|library| library.frame = Some([0.0; 3]));
 }
 unsafe extern "system" fn end(_: u32) {
-    told(|told| {
-        let force = told.frame.take().unwrap();
-        told.displayed = if told.enabled { force } else { [0.0; 3] };
-        told.frames += 1;
+    library(|library| {
+        let force = library.frame.take().unwrap();
+        library.displayed = if library.enabled { force } else { [0.0; 3] };
+        library.frames += 1;
     });
 }
 unsafe extern "system" fn error() -> ErrorInfo {
@@ -70,10 +73,10 @@ unsafe extern "system" fn error() -> ErrorInfo {
     }
 }
 unsafe extern "system" fn enable(what: u32) {
-    told(|told| told.enabled |= what == 0x4000);
+    library(|library| library.enabled |= what == 0x4000);
 }
 unsafe extern "system" fn disable(what: u32) {
-    told(|told| told.enabled &= what != 0x4000);
+    library(|library| library.enabled &= what != 0x4000);
 }
 /// As many numbers as the documents list, one after another, so that Miri finds room that is too small.
 unsafe extern "system" fn doubles(what: u32, out: *mut f64) {
@@ -105,7 +108,7 @@ unsafe extern "system" fn booleans(_: u32, out: *mut u8) {
 unsafe extern "system" fn set_doubles(_: u32, force: *const f64) {
     // SAFETY: the caller has three numbers there.
     let force = unsafe { force.cast::<[f64; 3]>().read() };
-    told(|told| told.frame = Some(force));
+    library(|library| library.frame = Some(force));
 }
 unsafe extern "system" fn string(_: u32) -> *const c_char {
     c"ours".as_ptr()
@@ -117,7 +120,7 @@ unsafe extern "system" fn style() -> u32 {
     4
 }
 unsafe extern "system" fn schedule(with: Callback, data: *mut c_void, _: u16) -> c_ulong {
-    told(|told| told.called = Some((with, Data(data))));
+    library(|library| library.called = Some((with, Data(data))));
     1
 }
 unsafe extern "system" fn unschedule(_: c_ulong) {}
@@ -147,9 +150,9 @@ fn functions() -> Functions {
     }
 }
 
-/// One call of the scheduler, from a thread of its own; what it answers.
+/// One call of the scheduler, on a separate thread; returns its result.
 fn call() -> u32 {
-    let (with, data) = told(|told| told.called).unwrap();
+    let (with, data) = library(|library| library.called).unwrap();
     let called = std::thread::spawn(move || {
         // SAFETY: what was scheduled, with what it was scheduled.
         unsafe { with(data.pointer()) }
@@ -158,7 +161,7 @@ fn call() -> u32 {
 }
 
 fn loop_of(push: impl FnMut(&DeviceState, f64) -> Vec3 + Send + 'static) -> ServoThread {
-    *TOLD.lock().unwrap() = None;
+    *LIBRARY.lock().unwrap() = None;
     let device = OpenHapticsDevice::of(functions()).unwrap();
     let settings = ServoSettings {
         limits: Some(palpate_servo::Limits {
@@ -172,7 +175,7 @@ fn loop_of(push: impl FnMut(&DeviceState, f64) -> Vec3 + Send + 'static) -> Serv
     ServoThread::start(servo, Clock::virtual_time()).unwrap()
 }
 
-/// Ticks, the last of which says zero, and calls after that.
+/// Ticks, the last of which sends zero, and later calls.
 #[test]
 fn a_loop_in_the_callback_ends_with_zero() {
     let _alone = ALONE.lock();
@@ -180,18 +183,18 @@ fn a_loop_in_the_callback_ends_with_zero() {
     for _ in 0..10 {
         assert_eq!(call(), CONTINUE);
     }
-    assert!(told(|told| told.displayed[1] > 0.1));
+    assert!(library(|library| library.displayed[1] > 0.1));
     let ended = std::thread::spawn(move || thread.stop());
     while call() == CONTINUE {
         std::thread::yield_now();
     }
     assert_eq!(ended.join().unwrap().unwrap().fault, None);
-    let (displayed, frames) = told(|told| (told.displayed, told.frames));
+    let (displayed, frames) = library(|library| (library.displayed, library.frames));
     assert_eq!(displayed, [0.0; 3]);
-    assert!(told(|told| !told.enabled && told.open == 0));
-    // A call that comes too late finds nobody, and what it is called with is still there.
+    assert!(library(|library| !library.enabled && library.open == 0));
+    // A late call finds no tick, but its argument still exists.
     assert_ne!(call(), CONTINUE);
-    assert_eq!(told(|told| told.frames), frames);
+    assert_eq!(library(|library| library.frames), frames);
 }
 
 #[test]
@@ -202,8 +205,10 @@ fn a_panic_in_the_callback_ends_with_zero() {
         Vec3::y() * 0.2
     });
     while call() == CONTINUE {}
-    assert_eq!(told(|told| told.displayed), [0.0; 3]);
-    assert!(told(|told| told.frame.is_none() && !told.enabled));
+    assert_eq!(library(|library| library.displayed), [0.0; 3]);
+    assert!(library(
+        |library| library.frame.is_none() && !library.enabled
+    ));
     assert_eq!(thread.stop(), Err(Fault::Panicked));
-    assert_eq!(told(|told| told.open), 0);
+    assert_eq!(library(|library| library.open), 0);
 }

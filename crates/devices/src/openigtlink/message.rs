@@ -15,12 +15,12 @@ use crate::publisher::ShownSurface;
 /// Size of a header [B].
 pub const HEADER: usize = 58;
 
-/// How a system is.
+/// The status of a system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {
     /// All is well.
     Ok = 1,
-    /// Somebody holds it up.
+    /// A person has paused it.
     Manual = 14,
     /// A device has no force.
     HardwareFailure = 18,
@@ -52,7 +52,7 @@ pub fn append(
     bytes[start + 50..start + 58].copy_from_slice(&sum.to_be_bytes());
 }
 
-/// A place [m] of the scene in the axes of medical pictures [mm].
+/// A position [m] of the scene in the axes of medical images [mm].
 pub fn in_room(place: &Vec3) -> [f32; 3] {
     [-place.x, -place.y, place.z].map(|length| (1e3 * length) as f32)
 }
@@ -82,11 +82,11 @@ pub fn force(bytes: &mut Vec<u8>, force: &Vec3) {
 }
 
 /// Body of `STATUS`.
-pub fn status(bytes: &mut Vec<u8>, status: Status, said: &str) {
+pub fn status(bytes: &mut Vec<u8>, status: Status, text: &str) {
     bytes.extend((status as u16).to_be_bytes());
     bytes.extend(0_i64.to_be_bytes());
     append_name::<20>(bytes, "");
-    bytes.extend(said.bytes().filter(|byte| *byte != 0));
+    bytes.extend(text.bytes().filter(|byte| *byte != 0));
     bytes.push(0);
 }
 

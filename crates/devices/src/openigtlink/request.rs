@@ -4,12 +4,12 @@ use super::message::HEADER;
 /// The largest body that is read [B]: requests have none, or a few bytes.
 const LARGEST: u64 = 1 << 16;
 
-/// What a client asks for.
+/// A request of a client.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Request {
     /// Its type, such as `GET_POLYDATA`.
     pub kind: String,
-    /// The device that it is about; empty for any.
+    /// Its device; empty for any.
     pub device: String,
 }
 
@@ -21,19 +21,19 @@ pub struct Requests {
 }
 
 impl Requests {
-    /// Takes over what came.
+    /// Adds received bytes.
     pub fn add(&mut self, bytes: &[u8]) {
         if !self.lost {
             self.bytes.extend(bytes);
         }
     }
 
-    /// Whether what came cannot be a client of this protocol.
+    /// Whether the bytes cannot come from a client of this protocol.
     pub fn is_lost(&self) -> bool {
         self.lost
     }
 
-    /// The next request that is whole. One whose checksum is wrong is left out.
+    /// The next complete request. One with a wrong checksum is skipped.
     pub fn next_request(&mut self) -> Option<Request> {
         loop {
             let header: &[u8; HEADER] = self.bytes.first_chunk()?;

@@ -8,16 +8,16 @@ use crate::publisher::{
     MOST_CLIENTS, PublishedState, SURFACE_PERIOD, Serve, SharedSource, ShownTool, fill, locked,
 };
 
-/// Where readers of this protocol look.
+/// The default port of this protocol.
 pub const PORT: u16 = 18_944;
 
-/// Bytes that a client may be behind: several organs.
+/// Capacity for unsent bytes of a client: several organs.
 const MOST_BEHIND: usize = 16 << 20;
 
-/// What is sent.
+/// The types of sent messages.
 const KINDS: [&str; 4] = ["TRANSFORM", "SENSOR", "STATUS", "POLYDATA"];
 
-/// Under which name the system speaks of itself, and of the organ.
+/// The device names of the system and of the organ.
 const SYSTEM: &str = "palpate";
 const ORGAN: &str = "organ";
 
@@ -26,18 +26,18 @@ pub(crate) struct Server {
     listener: TcpListener,
     source: SharedSource,
     clients: Vec<Client>,
-    picture: PublishedState,
-    /// What every client gets in this period.
+    state: PublishedState,
+    /// The data that every client gets in this period.
     bytes: Vec<u8>,
 }
 
-/// Who looks on.
+/// A client.
 struct Client {
     stream: TcpStream,
     requests: Requests,
-    /// What the system did not take yet.
+    /// The bytes that the system has not accepted yet.
     behind: Vec<u8>,
-    /// Whether it asked for a surface, and when it had the last.
+    /// Whether it requested a surface, and when it got the last one.
     wants_surface: bool,
     had_surface: Option<Instant>,
 }
@@ -62,7 +62,7 @@ impl Server {
             listener,
             source,
             clients: Vec::new(),
-            picture: PublishedState::default(),
+            state: PublishedState::default(),
             bytes: Vec::new(),
         }
     }
@@ -76,7 +76,7 @@ impl Server {
                     stream,
                     requests: Requests::default(),
                     behind: Vec::new(),
-                    // Once without asking: some have no way to.
+                    // Once without a request: some clients cannot send one.
                     wants_surface: true,
                     had_surface: None,
                 });
@@ -84,12 +84,12 @@ impl Server {
         }
     }
 
-    /// Appends what everybody gets.
+    /// Appends the data for all clients.
     fn fill(&mut self) {
         let time = SystemTime::now();
-        fill(&self.source, &mut self.picture);
+        fill(&self.source, &mut self.state);
         let bytes = &mut self.bytes;
-        for tool in &self.picture.tools {
+        for tool in &self.state.tools {
             if let Some(place) = tool.place {
                 append(bytes, "TRANSFORM", &tool.name, time, |body| {
                     message::transform(body, &place, &tool.orientation);
@@ -100,19 +100,19 @@ impl Server {
             });
         }
         append(bytes, "STATUS", SYSTEM, time, |body| {
-            status(&self.picture, body)
+            status(&self.state, body)
         });
     }
 
-    /// What each client gets for itself.
+    /// Reads the clients' requests and returns the answers to each client.
     fn read(&mut self) -> Vec<Vec<u8>> {
-        let (source, picture) = (&self.source, &self.picture);
+        let (source, state) = (&self.source, &self.state);
         let answers = self.clients.iter_mut().map(|client| {
             let mut answer = Vec::new();
             client.read();
             while let Some(request) = client.requests.next_request() {
                 client.wants_surface |= request.kind == "GET_POLYDATA";
-                answer_to(&request, picture, &mut answer);
+                answer_to(&request, state, &mut answer);
             }
             if client.is_surface_due()
                 && let Some(source) = locked(source).as_mut()
@@ -128,30 +128,30 @@ impl Server {
     }
 }
 
-fn answer_to(request: &Request, picture: &PublishedState, bytes: &mut Vec<u8>) {
+fn answer_to(request: &Request, state: &PublishedState, bytes: &mut Vec<u8>) {
     let time = SystemTime::now();
     match request.kind.as_str() {
-        "GET_STATUS" => append(bytes, "STATUS", SYSTEM, time, |body| status(picture, body)),
+        "GET_STATUS" => append(bytes, "STATUS", SYSTEM, time, |body| status(state, body)),
         "GET_CAPABIL" => append(bytes, "CAPABILITY", SYSTEM, time, |body| {
             message::capability(body, &KINDS);
         }),
-        // Transforms and forces come by themselves, surfaces when they are due.
+        // Transforms and forces are sent regularly, surfaces when they are due.
         _ => {}
     }
 }
 
-fn status(picture: &PublishedState, body: &mut Vec<u8>) {
+fn status(state: &PublishedState, body: &mut Vec<u8>) {
     let fault = |tool: &ShownTool| Some(format!("{}: {}", tool.name, tool.fault?));
-    let fault = picture.tools.iter().find_map(fault);
+    let fault = state.tools.iter().find_map(fault);
     match fault {
         Some(fault) => message::status(body, Status::HardwareFailure, &fault),
-        None if picture.paused => message::status(body, Status::Manual, "paused"),
+        None if state.paused => message::status(body, Status::Manual, "paused"),
         None => message::status(body, Status::Ok, "OK"),
     }
 }
 
 impl Client {
-    /// Whether a surface that it asked for may be sent; it has to be then.
+    /// Whether a requested surface is due; the caller then has to send it.
     fn is_surface_due(&mut self) -> bool {
         let rests = |last: Instant| last.elapsed() < SURFACE_PERIOD;
         if !self.wants_surface || self.had_surface.is_some_and(rests) {
@@ -164,7 +164,7 @@ impl Client {
 
     fn read(&mut self) {
         let mut buffer = [0; 4096];
-        // A bound, for one that never stops.
+        // A bound, for a client that never stops.
         for _ in 0..16 {
             match self.stream.read(&mut buffer) {
                 Ok(0) | Err(_) => return,
@@ -173,7 +173,7 @@ impl Client {
         }
     }
 
-    /// Whether it is still there, keeps up and makes sense.
+    /// Whether it is still connected, keeps up and sends valid requests.
     fn write(&mut self) -> bool {
         if self.requests.is_lost() || self.behind.len() > MOST_BEHIND {
             return false;

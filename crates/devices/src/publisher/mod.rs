@@ -1,6 +1,6 @@
-//! Servers that send the running simulation to other programs: tools, forces and the organ, to read only.
+//! Servers that send the running simulation to other programs: tools, forces and the organ, read-only.
 //!
-//! A server listens on this machine alone, unless its address is another one, and takes no command.
+//! A server listens on this machine alone, unless its address is another one, and accepts no command.
 
 mod picture;
 
@@ -16,16 +16,16 @@ pub use picture::{PublishedState, ShownSurface, ShownTool};
 
 use crate::{openigtlink, rosbridge};
 
-/// From one state to the next.
+/// Period of the states.
 const PERIOD: Duration = Duration::from_millis(20);
 
-/// From one surface to the next, to one client.
+/// Period of the surfaces, per client.
 pub(crate) const SURFACE_PERIOD: Duration = Duration::from_millis(100);
 
-/// How many clients a server accepts.
+/// Largest number of clients of a server.
 pub(crate) const MOST_CLIENTS: usize = 16;
 
-/// How a server speaks with its clients.
+/// The protocol of a server.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Protocol {
     /// Version 1 of OpenIGTLink, for 3D Slicer and PLUS: [`crate::openigtlink`].
@@ -34,7 +34,7 @@ pub enum Protocol {
     Rosbridge,
 }
 
-/// Where states come from.
+/// The source of states.
 pub(crate) trait Source: Send {
     fn fill(&mut self, picture: &mut PublishedState);
     fn surface(&mut self) -> ShownSurface;
@@ -57,12 +57,12 @@ impl<P: FnMut(&mut PublishedState) + Send, S: FnMut() -> ShownSurface + Send> So
 /// A source, once there is one.
 pub(crate) type SharedSource = Arc<Mutex<Option<Box<dyn Source>>>>;
 
-/// What a server does in each period, without waiting for any client.
+/// The work of a server in each period, without waiting for any client.
 pub(crate) trait Serve: Send {
     fn serve(&mut self);
 }
 
-/// A server that publishes what it is given. Copies are the same server; it ends with the last.
+/// A server that publishes given data. Copies are the same server; it ends with the last.
 #[derive(Clone)]
 pub struct Publisher(Arc<Running>);
 
@@ -90,9 +90,9 @@ impl Publisher {
             Protocol::Rosbridge => Box::new(rosbridge::Server::new(listener, own)),
         };
         let ended = Arc::new(AtomicBool::new(false));
-        let asked = ended.clone();
+        let stopped = ended.clone();
         let thread = std::thread::Builder::new().name("publisher".to_owned());
-        let thread = thread.spawn(move || run(server, &asked))?;
+        let thread = thread.spawn(move || run(server, &stopped))?;
         Ok(Self(Arc::new(Running {
             address,
             protocol,
@@ -102,18 +102,18 @@ impl Publisher {
         })))
     }
 
-    /// Where it listens.
+    /// Its address.
     pub fn address(&self) -> SocketAddr {
         self.0.address
     }
 
-    /// How it speaks.
+    /// Its protocol.
     pub fn protocol(&self) -> Protocol {
         self.0.protocol
     }
 
-    /// From now on publishes what `picture` fills in, fifty times a second, and what `surface` gives when a client asks.
-    /// Both are called on the server's thread.
+    /// Publishes the state from `picture`, fifty times a second, and the result of `surface` when a client requests it.
+    /// The server's thread calls both.
     pub fn show(
         &self,
         picture: impl FnMut(&mut PublishedState) + Send + 'static,
@@ -142,7 +142,7 @@ impl Drop for Running {
     fn drop(&mut self) {
         self.ended.store(true, Ordering::Relaxed);
         if let Some(thread) = locked(&self.thread).take() {
-            // One that panicked has ended too.
+            // A thread that panicked has ended too.
             let _ = thread.join();
         }
     }
@@ -159,7 +159,7 @@ fn run(mut server: Box<dyn Serve>, ended: &AtomicBool) {
         server.serve();
         next += PERIOD;
         let now = Instant::now();
-        // What is late is left out.
+        // Late periods are skipped.
         next = next.max(now);
         std::thread::sleep(next - now);
     }

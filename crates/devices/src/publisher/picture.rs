@@ -1,12 +1,12 @@
 use nalgebra::UnitQuaternion;
 use palpate_servo::{Fault, Vec3};
 
-/// What there is to show.
+/// The state to display.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PublishedState {
     /// The tools.
     pub tools: Vec<ShownTool>,
-    /// Whether nothing moves, because somebody wants it so.
+    /// Whether the simulation is paused.
     pub paused: bool,
 }
 
@@ -15,7 +15,7 @@ pub struct PublishedState {
 pub struct ShownTool {
     /// Its name.
     pub name: String,
-    /// Where its tip is [m]; none while nobody holds it.
+    /// Position of its tip [m]; none while no hand holds it.
     pub place: Option<Vec3>,
     /// The rotation from tool to scene.
     pub orientation: UnitQuaternion<f64>,
@@ -23,7 +23,7 @@ pub struct ShownTool {
     pub force: Vec3,
     /// The torque on it about its tip [N m].
     pub torque: Vec3,
-    /// Why its device has no force, if it has none.
+    /// Why its device has no force, if that is so.
     pub fault: Option<Fault>,
 }
 

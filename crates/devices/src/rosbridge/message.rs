@@ -16,7 +16,7 @@ pub const ORGAN: &str = "/palpate/organ";
 /// The topic of the state of the simulation.
 pub const STATUS: &str = "/palpate/status";
 
-/// What a topic has.
+/// The content of a topic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Content {
     /// The pose of the tool with this number.
@@ -42,8 +42,8 @@ impl Content {
 }
 
 /// All topics.
-pub fn topics(picture: &PublishedState) -> Vec<(String, Content)> {
-    let tools = picture.tools.iter().enumerate();
+pub fn topics(state: &PublishedState) -> Vec<(String, Content)> {
+    let tools = state.tools.iter().enumerate();
     let of_tools = tools.flat_map(|(number, tool)| {
         let name = ros_name(&tool.name);
         [
@@ -82,7 +82,7 @@ fn vector(of: &Vec3) -> Value {
     json!({"x": of.x, "y": of.y, "z": of.z})
 }
 
-/// `geometry_msgs/PoseStamped`: the tip [m] and the rotation from tool to scene; none while nobody holds the tool.
+/// `geometry_msgs/PoseStamped`: the tip [m] and the rotation from tool to scene; none while no hand holds the tool.
 pub fn pose(tool: &ShownTool, time: SystemTime) -> Option<Value> {
     let turned = &tool.orientation;
     let orientation = json!({"x": turned.i, "y": turned.j, "z": turned.k, "w": turned.w});
@@ -106,9 +106,9 @@ pub fn mesh(surface: &ShownSurface) -> Value {
 }
 
 /// `std_msgs/String`: `ok`, `paused`, or the tool whose device has no force, and why.
-pub fn status(picture: &PublishedState) -> Value {
+pub fn status(state: &PublishedState) -> Value {
     let fault = |tool: &ShownTool| Some(format!("{}: {}", tool.name, tool.fault?));
-    let paused = || picture.paused.then(|| "paused".to_owned());
-    let fault = picture.tools.iter().find_map(fault);
+    let paused = || state.paused.then(|| "paused".to_owned());
+    let fault = state.tools.iter().find_map(fault);
     json!({"data": fault.or_else(paused).unwrap_or_else(|| "ok".to_owned())})
 }

@@ -1,5 +1,5 @@
-//! The running simulation for programs of ROS, without ROS: topics as JSON over a WebSocket, as version 2 of the rosbridge
-//! protocol has them, which roslibjs, roslibpy and Foxglove read.
+//! A server that publishes the running simulation to ROS programs, without ROS: topics as JSON over a WebSocket, by
+//! version 2 of the rosbridge protocol, which roslibjs, roslibpy and Foxglove read.
 //!
 //! Fifty times a second each subscriber gets the pose of a tool ([`message::pose`]), the force on it ([`message::wrench`])
 //! and the status; at most ten times a second the surface of the organ ([`message::mesh`]). Lengths are metres, forces
@@ -8,13 +8,13 @@
 //!
 //! *How we know*: `rosbridge::…` in the tests; a client of another language reads it in the Python tests.
 //!
-//! *Limits*: nothing is received but subscriptions and questions for topics; no compression, no encryption. A WebSocket
-//! has no same-origin rule: a page in a browser on the same machine can read it. Not tried with ROS itself.
+//! *Limits*: it accepts only subscriptions and requests for topics; no compression, no encryption. A WebSocket has no
+//! same-origin rule: a page in a browser on the same machine can read it. Not tried with ROS itself.
 
 pub mod message;
 mod server;
 
 pub(crate) use server::Server;
 
-/// Where clients of this protocol look.
+/// The default port of this protocol.
 pub const PORT: u16 = 9090;

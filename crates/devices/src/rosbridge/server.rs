@@ -17,13 +17,13 @@ use crate::publisher::{
 /// The largest message of a client [B].
 const LARGEST: usize = 1 << 16;
 
-/// Bytes that a client may be behind: several organs.
+/// Capacity for unsent bytes of a client: several organs.
 const MOST_BEHIND: usize = 32 << 20;
 
-/// How long a client may take to become a WebSocket.
+/// Timeout of the WebSocket handshake of a client.
 const HANDSHAKE_WITHIN: Duration = Duration::from_secs(2);
 
-/// Topics of a client, letters of a topic, and messages that are read of it in a period.
+/// Largest number of topics of a client, of letters of a topic, and of messages that are read from it in a period.
 const MOST_TOPICS: usize = 64;
 const LONGEST_TOPIC: usize = 256;
 const MOST_READ: usize = 16;
@@ -34,12 +34,12 @@ pub(crate) struct Server {
     source: SharedSource,
     arriving: Vec<Arriving>,
     clients: Vec<Client>,
-    picture: PublishedState,
+    state: PublishedState,
 }
 
 type Role = ServerHandshake<TcpStream, NoCallback>;
 
-/// A connection that is no WebSocket yet.
+/// A connection before its WebSocket handshake.
 struct Arriving {
     handshake: MidHandshake<Role>,
     since: Instant,
@@ -48,13 +48,13 @@ struct Arriving {
 struct Client {
     socket: WebSocket<TcpStream>,
     subscriptions: BTreeMap<String, Subscription>,
-    /// What it has to be told.
+    /// Pending replies.
     replies: VecDeque<Value>,
-    /// Whether the system has not yet taken what it was sent.
+    /// Whether the system has not yet accepted the sent data.
     is_behind: bool,
 }
 
-/// A topic that a client gets, no more often than every `period`.
+/// A topic of a client, with the least interval `period`.
 #[derive(Default)]
 struct Subscription {
     period: Duration,
@@ -68,7 +68,7 @@ impl Server {
             source,
             arriving: Vec::new(),
             clients: Vec::new(),
-            picture: PublishedState::default(),
+            state: PublishedState::default(),
         }
     }
 
@@ -117,12 +117,12 @@ impl Server {
 impl Serve for Server {
     fn serve(&mut self) {
         self.accept();
-        fill(&self.source, &mut self.picture);
-        let topics = message::topics(&self.picture);
+        fill(&self.source, &mut self.state);
+        let topics = message::topics(&self.state);
         self.clients.retain_mut(|client| client.read(&topics));
         let mut made: Vec<Option<Utf8Bytes>> = vec![None; topics.len()];
         let (now, time) = (Instant::now(), SystemTime::now());
-        let (source, picture) = (&self.source, &self.picture);
+        let (source, state) = (&self.source, &self.state);
         self.clients.retain_mut(|client| {
             if !client.flush() {
                 return false;
@@ -132,8 +132,8 @@ impl Serve for Server {
                     continue;
                 }
                 if made.is_none() {
-                    // The same bytes for all.
-                    let message = content_of(*content, picture, source, time);
+                    // The same bytes for all clients.
+                    let message = content_of(*content, state, source, time);
                     *made = message.map(|message| published(topic, &message));
                 }
                 if let Some(text) = made
@@ -149,14 +149,14 @@ impl Serve for Server {
 
 fn content_of(
     content: Content,
-    picture: &PublishedState,
+    state: &PublishedState,
     source: &SharedSource,
     time: SystemTime,
 ) -> Option<Value> {
     match content {
-        Content::Pose(number) => message::pose(picture.tools.get(number)?, time),
-        Content::Wrench(number) => Some(message::wrench(picture.tools.get(number)?, time)),
-        Content::Status => Some(message::status(picture)),
+        Content::Pose(number) => message::pose(state.tools.get(number)?, time),
+        Content::Wrench(number) => Some(message::wrench(state.tools.get(number)?, time)),
+        Content::Status => Some(message::status(state)),
         Content::Organ => {
             let surface = locked(source).as_mut()?.surface();
             Some(message::mesh(&surface))
@@ -170,7 +170,7 @@ fn published(topic: &str, message: &Value) -> Utf8Bytes {
 }
 
 impl Client {
-    /// Whether a topic has to be sent to it, which it is then.
+    /// Whether a topic is due for it; the caller then has to send it.
     fn is_due(&mut self, topic: &str, content: Content, now: Instant) -> bool {
         let Some(subscription) = self.subscriptions.get_mut(topic) else {
             return false;
@@ -186,7 +186,7 @@ impl Client {
         is_due
     }
 
-    /// Reads what it sends, and answers. Whether it is still there.
+    /// Reads its messages, and answers. Returns whether it is still connected.
     fn read(&mut self, topics: &[(String, Content)]) -> bool {
         for _ in 0..MOST_READ {
             match self.socket.read() {
@@ -242,7 +242,7 @@ impl Client {
                 names.join(", ")
             ));
         }
-        // A tool may come later, with another scene.
+        // A tool may appear later, with another scene.
         if topic.len() <= LONGEST_TOPIC && self.subscriptions.len() < MOST_TOPICS {
             let period = command["throttle_rate"].as_f64().unwrap_or(0.0);
             self.subscriptions.insert(
@@ -261,7 +261,7 @@ impl Client {
             .push_back(json!({"op": "status", "level": "error", "msg": message}));
     }
 
-    /// Whether it is still there. What the system does not take now is sent with the next ones.
+    /// Returns whether it is still connected. Data that the system does not accept now go with the next ones.
     fn send(&mut self, message: Message) -> bool {
         let outcome = self.socket.write(message);
         self.went(outcome) && self.flush()
@@ -289,7 +289,7 @@ fn is_waiting(error: &Error) -> bool {
     matches!(error, Error::Io(io) if io.kind() == ErrorKind::WouldBlock)
 }
 
-/// The answer to a question for topics, as `rosapi` gives it.
+/// The answer to a request for topics, as `rosapi` gives it.
 fn answer(command: &Value, topics: &[(String, Content)]) -> Value {
     let service = &command["service"];
     let of = |topic: &Value| {

@@ -1,12 +1,12 @@
 use super::NoCard;
 use crate::Tissue;
 
-/// Bulk modulus over shear modulus of what keeps its volume [-]: FEBio takes a number, and this one leaves
-/// Poisson's ratio at 0.4995.
+/// Bulk modulus over shear modulus of an incompressible law [-]: FEBio requires a number, and this one gives a
+/// Poisson's ratio of 0.4995.
 const STIFF_VOLUME: f64 = 1000.0;
 
-/// A material of FEBio. Its relaxation is 1 + Σ γᵢ exp(−t/τᵢ) times a law that is left when all has
-/// relaxed: moduli are times 1 − Σ g, and γᵢ = gᵢ/(1 − Σ g).
+/// A material of FEBio. Its relaxation is 1 + Σ γᵢ exp(−t/τᵢ) times the fully relaxed law: moduli are times 1 − Σ g,
+/// and γᵢ = gᵢ/(1 − Σ g).
 pub(super) fn card(tissue: &Tissue) -> Result<String, NoCard> {
     let left = 1.0 - tissue.prony.iter().map(|term| term.g.value).sum::<f64>();
     let law = tissue.elasticity.law();

@@ -1,6 +1,5 @@
-//! What a number may be: its domain, outside of which it is refused, and its usual range, outside of which the reader
-//! is warned. Each key and each column of a document names one [`Domain`]; those of the physical quantities stand in
-//! `quantities`.
+//! Domains of numbers: outside its domain a number is refused, and outside its usual range it gives a warning. Each
+//! key and each column of a document names one [`Domain`]; those of the physical quantities are in `quantities`.
 
 mod quantities;
 
@@ -11,14 +10,14 @@ use crate::units::{Match, UNITS, Unit};
 /// The numbers that a key or a column may hold.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Domain {
-    /// What it holds, with its article: `"a modulus"`.
+    /// The quantity, with its article: `"a modulus"`.
     what: &'static str,
     /// Suffix of the unit of the bounds; empty for a plain number.
     unit: &'static str,
     bounds: [Bound<f64>; 2],
-    /// Numbers outside are possible, and seldom meant. Zero is usual where it is allowed.
+    /// Usual numbers; others are possible, and seldom meant. Zero is usual where it is allowed.
     usual: Option<[f64; 2]>,
-    /// Said of the bounds, in brackets.
+    /// A remark on the bounds, in brackets.
     remark: &'static str,
 }
 
@@ -48,7 +47,7 @@ impl Domain {
         }
     }
 
-    /// The same, with a warning for what is not from `least` to `most` [unit of the bounds].
+    /// The same, with a warning for numbers outside `least` to `most` [unit of the bounds].
     pub const fn usually(self, least: f64, most: f64) -> Self {
         Self {
             usual: Some([least, most]),
@@ -72,7 +71,7 @@ impl Domain {
         value.is_finite() && std::ops::RangeBounds::contains(&(least, most), &value)
     }
 
-    /// Whether `value` is what people mean.
+    /// Whether `value` is usual.
     pub(crate) fn is_usual(&self, value: f64) -> bool {
         self.usual
             .is_none_or(|[least, most]| value == 0.0 || (least..=most).contains(&value))
@@ -108,7 +107,7 @@ impl Domain {
         format!("{}{numbers}{remark}", self.what)
     }
 
-    /// What to say of an unusual number: `given` under the name `key`, which `unit` brings to the unit expected.
+    /// The warning about an unusual number: `given` under the name `key`, which `unit` converts to the expected unit.
     /// None for a usual one.
     pub(crate) fn warning(&self, key: &str, given: f64, unit: Match) -> Option<String> {
         let value = unit.convert(given);
@@ -142,7 +141,7 @@ impl Domain {
                     let value = other.convert(given, wanted);
                     self.contains(value) && value != 0.0 && self.is_usual(value)
                 });
-            // A thousand is the factor that is mistaken most often.
+            // A factor of a thousand is the most common mistake.
             let from_thousand = |other: &&Unit| {
                 let factor = unit.convert(1.0, other).log10().abs();
                 ((factor - 3.0).abs() * 1e3).round() as i64
@@ -190,7 +189,7 @@ mod tests {
         Domain::quantity("a length", "m", [Excluded(0.0), Included(10.0)]).usually(1e-4, 0.5);
 
     #[test]
-    fn bounds_are_told_in_units() {
+    fn bounds_are_printed_with_units() {
         assert_eq!(LENGTH.expected(), "a length above 0, up to 10 m");
         assert_eq!(Domain::POSITIVE.expected(), "a number above 0");
         assert_eq!(Domain::FRACTION.expected(), "a number from 0 to 1");
@@ -203,17 +202,17 @@ mod tests {
     #[test]
     fn a_unit_that_was_meant_is_named() {
         let unit = |given: &str| matches(given, "radius_m").unwrap();
-        let said = |key: &str, given| LENGTH.warning(key, given, unit(key));
-        assert_eq!(said("radius_m", 0.01), None);
+        let warning = |key: &str, given| LENGTH.warning(key, given, unit(key));
+        assert_eq!(warning("radius_m", 0.01), None);
         assert_eq!(
-            said("radius_m", 3.0).as_deref(),
+            warning("radius_m", 3.0).as_deref(),
             Some("a length is usually from 100 um to 500 mm; did you mean 3 mm (`radius_mm`)?")
         );
         // Metres under the name of millimetres.
-        let said = said("radius_mm", 0.01).unwrap();
+        let sentence = warning("radius_mm", 0.01).unwrap();
         assert!(
-            said.ends_with("did you mean 0.01 m (`radius_m`)?"),
-            "{said}"
+            sentence.ends_with("did you mean 0.01 m (`radius_m`)?"),
+            "{sentence}"
         );
         // No unit makes it a length of an organ.
         assert!(

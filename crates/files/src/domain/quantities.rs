@@ -1,6 +1,6 @@
 //! The physical quantities of the documents.
 //!
-//! Domains reach from what no instrument resolves to what no body bears; usual ranges are those of soft tissue, from
+//! Domains span from instrument resolution to the limits of any body; usual ranges are those of soft tissue, from
 //! mucus to cartilage, and of instruments for it, from the tip of an atomic force microscope to a hand.
 
 use std::ops::Bound::{Excluded, Included};
@@ -8,7 +8,7 @@ use std::ops::Bound::{Excluded, Included};
 use super::Domain;
 
 impl Domain {
-    /// A radius of what touches [m].
+    /// A radius of an indenter or a tip [m].
     pub const TIP_RADIUS: Self =
         Self::quantity("the radius of a tip", "m", [Included(1e-9), Included(0.1)])
             .usually(1e-6, 0.02);
@@ -41,11 +41,11 @@ impl Domain {
     pub const TIME_CONSTANT: Self =
         Self::quantity("a time constant", "s", [Included(1e-6), Included(1e7)]).usually(1e-4, 1e5);
 
-    /// How long something takes [s].
+    /// A duration [s].
     pub const DURATION: Self =
         Self::quantity("a duration", "s", [Included(1e-6), Included(1e6)]).usually(1e-3, 1e4);
 
-    /// How long something takes, if any time [s].
+    /// A duration, which may be zero [s].
     pub const DURATION_OR_NONE: Self =
         Self::quantity("a duration", "s", [Included(0.0), Included(1e6)]).usually(1e-3, 1e4);
 
@@ -64,7 +64,7 @@ impl Domain {
     pub const FREQUENCY: Self =
         Self::quantity("a frequency", "hz", [Included(1e-6), Included(1e7)]).usually(1e-3, 1e5);
 
-    /// A speed of an indenter [m/s]. Slower, the way to the tissue takes hours, and every tick of it is kept.
+    /// A speed of an indenter [m/s]. Slower, the path to the tissue takes hours, and every tick of it is stored.
     pub const SPEED: Self =
         Self::quantity("a speed", "m_per_s", [Included(1e-5), Included(1.0)]).usually(1e-4, 0.5);
 
@@ -102,7 +102,7 @@ impl Domain {
     )
     .usually(-2e7, 2e7);
 
-    /// From and to which the modulus of a base over that of the layer on it tells both apart [-].
+    /// Usual ratios of the modulus of a base to that of the layer on it, which identify both [-].
     pub const BASE_RATIOS: [f64; 2] = [0.01, 100.0];
 
     /// The modulus of a base over that of the layer on it [-].

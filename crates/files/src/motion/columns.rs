@@ -56,7 +56,7 @@ impl Columns {
         }
     }
 
-    /// What to say of positions that no tool over an organ has; none for usual ones.
+    /// A warning about positions that no tool over an organ has; none for usual ones.
     pub(super) fn warning(&self, tools: &[ToolMotion]) -> Option<String> {
         let farthest = |axis: usize| {
             let all = tools.iter().flat_map(ToolMotion::rows);

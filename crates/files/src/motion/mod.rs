@@ -1,4 +1,4 @@
-//! How tools move: a table with a row for each tool and time, linear between the rows.
+//! Motions of tools: a table with a row for each tool and time, linear between the rows.
 
 mod columns;
 mod pose;
@@ -66,10 +66,10 @@ impl Motion {
         Self::parse(&read_text(path, MOST_OF_TABLE)?, path)
     }
 
-    /// Reads the text of a motion file; `path` is its name in errors. A session is a motion too:
-    /// columns that a motion does not have are passed over. A last line without its end may have been cut in its last
-    /// number. Within the box of the tool's rows before it is played, and [`Motion::incomplete`] says so; elsewhere it
-    /// is refused, for the tool would go where nobody sent it.
+    /// Reads the text of a motion file; `path` is its name in errors. A session is a motion too: columns that a
+    /// motion does not have are ignored. A last line without a line end may be truncated in its last number. If its
+    /// position is within the box of the tool's earlier rows it is played, and [`Motion::incomplete`] reports it;
+    /// elsewhere it is refused, because the number may be wrong.
     ///
     /// # Errors
     /// When the text does not hold a motion.
@@ -125,7 +125,7 @@ impl Motion {
         })
     }
 
-    /// Why rows may be missing; none for a motion with its end mark, and for one that is from no file.
+    /// Why rows may be missing; none for a motion with its end mark, and for one that does not come from a file.
     pub fn incomplete(&self) -> Option<&Incomplete> {
         self.incomplete.as_ref()
     }
@@ -157,8 +157,8 @@ impl Motion {
         times.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Where the tool called `name` is at `time_s` [s]: none before its first row or when there is
-    /// no such tool; after its last row it rests.
+    /// Pose of the tool called `name` at `time_s` [s]: none before its first row or when there is no such tool; after
+    /// its last row it rests.
     pub fn pose(&self, name: &str, time_s: f64) -> Option<Pose> {
         self.tool(name)?.pose(time_s, &mut Cursor::default())
     }

@@ -1,4 +1,4 @@
-/// Where a tool is and what its hand does.
+/// Pose and controls of a tool.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
     /// The tip in the scene's frame [m].
@@ -19,7 +19,7 @@ impl Pose {
     /// The same with a quaternion of length 1, if it is one that a motion can hold.
     ///
     /// # Errors
-    /// What is expected, when a number is not finite, a quaternion is zero or a grip is outside 0 to 1.
+    /// The expected values, when a number is not finite, a quaternion is zero or a grip is outside 0 to 1.
     pub fn checked(mut self) -> Result<Self, &'static str> {
         if !self.position_m.iter().all(|c| c.is_finite()) {
             return Err("a position of finite numbers");
@@ -44,7 +44,7 @@ impl Pose {
                 (from, _) => from,
             },
             grip: between(self.grip, later.grip),
-            // A cut is on or off; it changes at the row that says so.
+            // A cut is on or off; it changes at the row that states it.
             cut: self.cut,
         }
     }
@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn lengths_are_kept_at_any_scale() {
+    fn normalization_works_at_any_scale() {
         assert_eq!(normalised([0.0; 4]), None);
         assert_eq!(
             normalised([1e-200, 0.0, 0.0, 0.0]),

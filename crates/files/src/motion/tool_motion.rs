@@ -6,7 +6,7 @@ use crate::Error;
 pub struct MotionRow {
     /// The time [s].
     pub time_s: f64,
-    /// Where the tool is then.
+    /// The pose at that time.
     pub pose: Pose,
 }
 
@@ -17,14 +17,14 @@ pub struct ToolMotion {
     rows: Vec<MotionRow>,
 }
 
-/// Remembers where in a motion the last look-up was, so that stepping forward needs no search.
+/// Stores the place of the last look-up in a motion, so that stepping forward needs no search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Cursor {
     row: usize,
 }
 
 impl ToolMotion {
-    /// The motion of the tool called `name`. Quaternions are brought to length 1.
+    /// The motion of the tool called `name`. Quaternions are normalized.
     ///
     /// # Errors
     /// When the name is empty, there is no row, a number is not finite, the time does not grow, a
@@ -101,8 +101,8 @@ impl ToolMotion {
         self.rows.last().map(|row| row.time_s)
     }
 
-    /// Where the tool is at `time_s` [s]: none before the first row; after the last row it rests.
-    /// Allocates nothing. With the `cursor` of the last look-up, a later time costs no search.
+    /// Pose of the tool at `time_s` [s]: none before the first row; after the last row it rests. Allocates nothing.
+    /// With the `cursor` of the last look-up, a later time costs no search.
     pub fn pose(&self, time_s: f64, cursor: &mut Cursor) -> Option<Pose> {
         let started = |row: &MotionRow| row.time_s <= time_s;
         if !self.rows.get(cursor.row).is_some_and(started) {
@@ -117,7 +117,7 @@ impl ToolMotion {
             return Some(earlier.pose);
         };
         let part = (time_s - earlier.time_s) / (later.time_s - earlier.time_s);
-        // At the very time of a row the row itself, to the last bit.
+        // Exactly at the time of a row, returns the row itself, to the last bit.
         Some(if part > 0.0 {
             earlier.pose.towards(&later.pose, part)
         } else {

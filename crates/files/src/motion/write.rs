@@ -9,8 +9,8 @@ const COLUMNS: &str = "time_s,tool,x_m,y_m,z_m,grip,cut";
 const COLUMNS_WITH_ORIENTATION: &str = "time_s,tool,x_m,y_m,z_m,qx,qy,qz,qw,grip,cut";
 
 impl Motion {
-    /// The text of a motion file: what [`Motion::parse`] reads back to the same motion, but that
-    /// rows without an orientation beside others with one come back with [`IDENTITY`]. One that was read
+    /// The text of a motion file, which [`Motion::parse`] reads back to the same motion, except that rows without an
+    /// orientation among others with one come back with [`IDENTITY`]. A motion that was read
     /// [incomplete](Motion::incomplete) gets no end mark.
     pub fn to_csv(&self) -> String {
         // The columns are there for all rows or for none.

@@ -1,4 +1,4 @@
-//! What an experimenter wants measured: specimens, stimuli, and how careful the rig is.
+//! The protocol of an experiment: specimens, stimuli, and the rig's limits and speeds.
 
 mod place;
 mod rig;
@@ -19,16 +19,16 @@ pub use stimulus::{Stimulus, StimulusPlan, Sweep};
 use crate::whole_file::{MOST_OF_DOCUMENT, read_text};
 use crate::{Document, Error, Key};
 
-/// A protocol: every stimulus on every specimen. What is not stated in the file has its default here.
+/// A protocol: every stimulus on every specimen. Keys that the file leaves out have their defaults here.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Protocol {
-    /// How the rig goes about it.
+    /// The rig's limits and speeds.
     pub rig: RigLimits,
-    /// What measures the force.
+    /// The force sensor.
     pub sensor: SensorPlan,
-    /// What is measured: one or more.
+    /// The specimens: one or more.
     pub specimens: Vec<Measured>,
-    /// What is done to each: one or more.
+    /// The stimuli on each specimen: one or more.
     pub stimuli: Vec<StimulusPlan>,
     /// Warnings about its numbers, as sentences.
     pub warnings: Vec<String>,

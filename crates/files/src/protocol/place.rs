@@ -1,15 +1,15 @@
 use crate::{Domain, Error, Keys};
 
-/// Where on a specimen it is pressed.
+/// The indented location on a specimen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeasuredPlace {
-    /// Where the indenter is moved before it approaches, from where the rig begins, in the rig's axes: x right, y away
-    /// from the user, z up [m].
+    /// Where the indenter moves before it approaches, from the rig's start position, in the rig's axes: x right, y
+    /// away from the user, z up [m].
     pub place_m: [f64; 3],
     /// The direction out of the tissue, along which the indenter approaches, presses and withdraws, in the rig's axes
     /// [-].
     pub normal: [f64; 3],
-    /// Whether the surface is touched around the place first, and the normal that is measured there taken.
+    /// Whether the rig first probes the surface around the location, and uses the measured normal.
     pub measure_normal: bool,
 }
 
@@ -43,10 +43,10 @@ impl VirtualSurface {
     }
 }
 
-/// Where on a specimen a place is [m].
+/// A location on a specimen [m].
 pub(super) const PLACE: Domain = Domain::POSITION.usually(-0.2, 0.2);
 
-/// A direction that leads up.
+/// A direction with an upward component.
 pub(super) fn upward(keys: &Keys<'_>, key: &'static str) -> Result<Option<[f64; 3]>, Error> {
     match keys.direction(key)? {
         Some(direction) if direction[2] <= 0.0 => Err(keys.bad(

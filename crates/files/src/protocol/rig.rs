@@ -28,28 +28,28 @@ words! {
     }
 }
 
-/// How the rig goes about it. None is the rig's own default.
+/// Limits and speeds of the rig. None is the rig's own default.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct RigLimits {
     /// How fast the indenter goes to the tissue [m/s].
     pub approach_speed_m_per_s: Option<f64>,
-    /// The largest force on the tissue [N].
+    /// The force limit on the tissue [N].
     pub force_limit_n: Option<f64>,
-    /// The deepest that it may go [m].
+    /// The depth limit [m].
     pub depth_limit_m: Option<f64>,
-    /// The fastest that it may be [m/s].
+    /// The speed limit [m/s].
     pub speed_limit_m_per_s: Option<f64>,
-    /// How long a breath is held at most [s].
+    /// The longest breath hold [s].
     pub breath_s: Option<f64>,
-    /// How long tissue rests between two stimuli [s].
+    /// The recovery time of the tissue between two stimuli [s].
     pub recovery_s: Option<f64>,
-    /// How hard the indenter is driven.
+    /// The gains of the indenter's controller.
     pub gains: Option<Gains>,
-    /// What carries the indenter.
+    /// The device that carries the indenter.
     pub device: Option<RigDevice>,
-    /// The rise of the force that is a contact [N].
+    /// The rise of the force that counts as contact [N].
     pub contact_force_n: Option<f64>,
-    /// How far sideways the indenter may be moved from where the rig began [m].
+    /// The largest sideways distance of the indenter from the rig's start position [m].
     pub lateral_limit_m: Option<f64>,
     /// The direction from the tip to the device, in the rig's axes [-].
     pub indenter_axis: Option<[f64; 3]>,
@@ -57,11 +57,11 @@ pub struct RigLimits {
     pub stop_at_relative_interval: Option<f64>,
 }
 
-/// Relative half intervals that may be asked for [-].
+/// Relative half intervals that a protocol may request [-].
 const TARGET: Domain =
     Domain::number("a number", [Excluded(0.0), Excluded(1.0)]).usually(0.02, 0.5);
 
-/// What the rig takes where a protocol says nothing.
+/// Defaults of the rig.
 const OWN: &str = "the rig's own";
 
 impl RigLimits {
@@ -132,7 +132,7 @@ impl RigLimits {
         .optional("0.1", "whole stimuli"),
     ];
 
-    /// Whether nothing that is there carries the indenter.
+    /// Whether the device is a virtual one.
     pub(super) fn has_virtual_device(&self) -> bool {
         matches!(self.device, None | Some(RigDevice::Virtual))
     }

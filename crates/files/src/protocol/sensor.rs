@@ -21,7 +21,7 @@ words! {
 /// The force sensor between the device and the indenter. None is the rig's own default.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SensorPlan {
-    /// Where readings come from, and what its numbers mean.
+    /// The source of readings, and the meaning of its numbers.
     pub source: SensorSource,
     /// From the sensor's origin to the tip [m].
     pub tip_distance_m: Option<f64>,
@@ -31,11 +31,11 @@ pub struct SensorPlan {
     pub range_n: Option<[f64; 3]>,
     /// The largest torque about each of the sensor's axes [N m].
     pub range_n_m: Option<[f64; 3]>,
-    /// How long a reading may be missing [s].
+    /// The timeout of a reading [s].
     pub timeout_s: Option<f64>,
 }
 
-/// Where readings come from.
+/// The source of readings.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SensorSource {
     /// A virtual specimen.
@@ -61,7 +61,7 @@ pub struct Voltages {
     pub matrix: [[f64; 6]; 6],
 }
 
-/// What a count of a sensor is.
+/// The scale of a sensor's counts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Counts {
     /// Counts per newton [1/N].
@@ -180,7 +180,7 @@ impl SensorPlan {
         })
     }
 
-    /// Refuses every key that belongs to another kind.
+    /// Rejects every key that belongs to another kind.
     fn only(keys: &Keys<'_>, kind: SensorKind) -> Result<(), Error> {
         let (own, why): (&[&str], _) = match kind {
             SensorKind::Virtual => (&[], "nothing: a virtual sensor has none"),
@@ -215,7 +215,7 @@ impl SensorPlan {
     }
 }
 
-/// How long a reading may be missing; longer than a tick, and shorter than a hand takes to be hurt.
+/// Timeouts of a reading; longer than a tick, and short enough to protect a hand.
 const TIMEOUT: Domain = Domain::quantity(
     "a time without a reading",
     "s",
@@ -266,7 +266,7 @@ impl Counts {
     }
 }
 
-/// Which of the sensor's axes the indenter's are.
+/// The sensor's axes that correspond to the indenter's.
 fn axes(keys: &Keys<'_>) -> Result<[[f64; 3]; 3], Error> {
     const EXPECTED: &str = "three of \"x\", \"y\", \"z\", \"-x\", \"-y\" and \"-z\" that make a right-handed frame, \
                             such as [\"x\", \"-y\", \"-z\"]";

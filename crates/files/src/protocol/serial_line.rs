@@ -42,9 +42,9 @@ words! {
 pub struct SerialLine {
     /// Bits per second.
     pub baud: u32,
-    /// The fields of a line, in their order: fz, or all six axes, and what else there is.
+    /// The fields of a line, in their order: fz, or all six axes, and any others.
     pub fields: Vec<SerialField>,
-    /// What stands between two fields.
+    /// The separator between two fields.
     pub separator: SerialSeparator,
     /// Counts per newton [1/N].
     pub per_newton: f64,

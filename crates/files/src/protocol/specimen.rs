@@ -20,21 +20,21 @@ words! {
     }
 }
 
-/// What is under the indenter where no device is.
+/// The specimen under the indenter of a virtual device.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MeasuredTissue {
     /// A wide and deep piece of a tissue.
     Tissue(TissueChoice),
     /// The static response of table 5-1, and the relaxation of table 6-3.
     Published(PublishedOrgan),
-    /// What lies under a real sensor.
+    /// The specimen under a real sensor.
     Real,
 }
 
 /// A specimen.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
-    /// What it is made of.
+    /// Its material.
     pub tissue: MeasuredTissue,
     /// The organ, for its recordings.
     pub organ: Option<String>,
@@ -52,7 +52,7 @@ pub struct Measured {
     pub factor: f64,
     /// The radius, not the diameter, of the indenter [m].
     pub indenter_radius_m: f64,
-    /// Where on it, and along which direction.
+    /// The indented location, and the direction.
     pub place: MeasuredPlace,
     /// The shape of a virtual one.
     pub surface: VirtualSurface,
@@ -113,7 +113,7 @@ impl Measured {
         .optional("0.05", "it is plane"),
     ];
 
-    /// One under a real sensor, which is made of nothing that a document could say.
+    /// A specimen under a real sensor, which no document describes.
     pub(super) fn real_from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         const REAL: &str = "nothing: the specimen under a real force sensor is real";
         let of_virtual = [

@@ -3,39 +3,39 @@ use std::ops::Bound::{Excluded, Included};
 
 use crate::{Domain, Error, Key, Keys};
 
-/// What an indenter does, from first contact (figure 5-8).
+/// A motion of the indenter, from first contact (figure 5-8).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stimulus {
-    /// It goes to a depth and stays there.
+    /// A ramp to a depth, and a hold.
     RampAndHold {
         /// The depth [m].
         depth_m: f64,
-        /// How long the way takes [s].
+        /// Duration of the ramp [s].
         ramp_s: f64,
-        /// How long it stays [s].
+        /// Duration of the hold [s].
         hold_s: f64,
     },
-    /// It swings about a depth, from it downward first.
+    /// An oscillation about a depth, beginning downward.
     Swing {
-        /// From the middle to an end [m].
+        /// Amplitude [m].
         amplitude_m: f64,
-        /// The middle [m].
+        /// Mean depth [m].
         pre_indentation_m: f64,
-        /// How often.
+        /// Frequency.
         sweep: Sweep,
-        /// How long it swings [s].
+        /// Duration [s].
         duration_s: f64,
     },
 }
 
-/// How often something swings, from its beginning to its end.
+/// Frequency of an oscillation, from its beginning to its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Sweep {
-    /// Always with one frequency [Hz].
+    /// Constant [Hz].
     Constant(f64),
-    /// From one frequency to another [Hz], by equal steps in equal times.
+    /// A linear chirp, from one frequency to another [Hz].
     Linear([f64; 2]),
-    /// From one frequency to another [Hz], by equal parts in equal times.
+    /// An exponential chirp, from one frequency to another [Hz].
     Exponential([f64; 2]),
 }
 
@@ -66,9 +66,9 @@ impl Stimulus {
 /// A stimulus and how often it is repeated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StimulusPlan {
-    /// What the indenter does.
+    /// The motion of the indenter.
     pub stimulus: Stimulus,
-    /// How often it is done.
+    /// Number of repetitions.
     pub repeats: u64,
 }
 
@@ -196,7 +196,7 @@ fn chirp(keys: &Keys<'_>, sweep: fn([f64; 2]) -> Sweep) -> Result<Vec<Stimulus>,
     }])
 }
 
-/// Amplitude and middle of a swing [m].
+/// Amplitude and mean depth of an oscillation [m].
 fn swing(keys: &Keys<'_>) -> Result<[f64; 2], Error> {
     Ok([
         keys.required_number("amplitude_m")?,
@@ -204,7 +204,7 @@ fn swing(keys: &Keys<'_>) -> Result<[f64; 2], Error> {
     ])
 }
 
-/// Refuses every key that belongs to another kind.
+/// Rejects every key that belongs to another kind.
 fn only(keys: &Keys<'_>, own: &[&str], why: &'static str) -> Result<(), Error> {
     const OF_ALL: [&str; 2] = ["kind", "repeats"];
     let is_foreign = |key: &&'static str| !own.contains(key) && !OF_ALL.contains(key);

@@ -48,14 +48,14 @@ impl SensorAxes {
         Domain::ANY_TORQUE,
     ];
 
-    /// The largest force beside the indenter's axis [N].
+    /// The largest force perpendicular to the indenter's axis [N].
     pub fn largest_lateral_n(&self) -> f64 {
         let [fx, fy, ..] = &self.columns;
         let both = fx.iter().zip(fy);
         both.fold(0.0, |most, (x, y)| most.max(x.hypot(*y)))
     }
 
-    /// The six columns of a table; none unless all are there, for one alone is somebody's own.
+    /// The six columns of a table; none unless all are there, because a single one may have another meaning.
     pub(super) fn columns_of(table: &TableText<'_>) -> Result<Option<[Column; 6]>, Error> {
         let mut found = Vec::with_capacity(6);
         for name in Self::COLUMNS {
@@ -82,12 +82,12 @@ impl SensorAxes {
     }
 }
 
-/// How a table is read.
+/// Columns and rules for reading a table.
 pub(super) struct Reading<'c> {
     /// Time, depth and force.
     pub(super) columns: &'c [Column; 3],
     /// The six axes, if the table has them.
     pub(super) axes: Option<&'c [Column; 6]>,
-    /// What becomes of rows that repeat the one above.
+    /// Treatment of rows that repeat the one above.
     pub(super) on_repeated: Repeated,
 }

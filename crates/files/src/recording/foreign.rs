@@ -11,8 +11,8 @@ use crate::Error;
 use crate::table::{Column, Row};
 use crate::whole_file::{MOST_OF_TABLE, read_bytes};
 
-/// Where a table that is not in the format of this project holds time, depth and force. A column
-/// that is not named is recognised by its name, when only one can be meant.
+/// The columns of time, depth and force in a table of another program. A column that is not named is recognised by
+/// its name, if the match is unique.
 ///
 /// The unit is taken from the name (`Load (mN)`, `Load [mN]`, `load_mn`, `Load mN`), from a row of
 /// units below the names, or as stated here. A time without a unit is in seconds.
@@ -59,12 +59,12 @@ impl Recording {
 
     /// Reads the text of a table with other columns; `path` is its name in errors.
     ///
-    /// Fields are separated by commas, semicolons or tabs; with the latter two a decimal comma is
-    /// understood. Lines above the names of the columns are passed over, but for comments
-    /// `# key = value` with the keys of a recording. A row that repeats the one above it in every
-    /// field is left out. A table of stretches or strains with stresses is read as the recording of
-    /// a cube of one metre; one of distances and forces without times has those of the speed that a line above it states. A
-    /// force in g or kg is the weight of that mass. What was taken for what is told by [`Recording::remarks`].
+    /// Fields are separated by commas, semicolons or tabs; with the latter two a decimal comma is understood. Lines
+    /// above the names of the columns are ignored, except comments `# key = value` with the keys of a recording. A
+    /// row that repeats the one above it in every field is left out. A table of stretches or strains with stresses is
+    /// read as the recording of a cube of one metre; one of distances and forces without times gets times from the
+    /// speed that a line above it states. A force in g or kg is the weight of that mass. [`Recording::remarks`] lists
+    /// how columns and units were interpreted.
     ///
     /// # Errors
     /// When a column is not there, its unit is not known or its numbers make no recording.

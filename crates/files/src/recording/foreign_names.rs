@@ -32,17 +32,17 @@ const DEPTH: &[&str] = &[
     "height",
 ];
 const FORCE: &[&str] = &["force", "load", "f", "kraft", "standardkraft", "last"];
-/// A name of more words, its unit included, is a sentence.
+/// A name with more words, its unit included, is a sentence.
 const MOST_WORDS: usize = 6;
 
-/// How the column of a quantity is found.
+/// A quantity and the names of its column.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wanted<'c> {
     /// The quantity, such as `time`.
     pub(super) quantity: &'static str,
     /// The name that the user gives.
     named: Option<&'c str>,
-    /// Words by which it is recognised otherwise, the surest first.
+    /// Words by which it is recognised otherwise, the most reliable first.
     words: &'static [&'static str],
     /// Words of other quantities.
     excluded: &'static [&'static str],
@@ -86,7 +86,7 @@ impl<'c> Wanted<'c> {
         self.named.is_none()
     }
 
-    /// The names among `columns` that answer best; several when nothing tells them apart.
+    /// The names among `columns` that match best; several when they match equally.
     pub(super) fn candidates<'n>(&self, columns: &'n [String]) -> Vec<&'n str> {
         let mut best = usize::MAX;
         let mut found = Vec::new();
@@ -105,7 +105,7 @@ impl<'c> Wanted<'c> {
         found
     }
 
-    /// How well a name answers, zero best; none when it does not.
+    /// Rank of a match, zero best; none when the name does not match.
     fn rank(&self, own: &str) -> Option<usize> {
         if let Some(named) = self.named {
             return (own == named).then_some(0);

@@ -5,11 +5,11 @@ use super::foreign_names::Wanted;
 use crate::Error;
 use crate::table::{Header, Layout, TableText};
 
-/// Lines that are looked at even if they hold none of the names, to say what was found instead.
+/// Lines that are searched even if they hold none of the names, for the error message.
 const HEAD: usize = 50;
 
-/// The table in `text` whose first line holds the names of all columns that are `wanted`, or as many
-/// of them as any line does; and whether it holds all.
+/// The table in `text` whose first line holds the names of all columns that are `wanted`, or as many of them as any
+/// line does; and whether it holds all.
 pub(super) fn find<'t>(
     text: &'t str,
     path: &Path,
@@ -41,7 +41,7 @@ pub(super) fn find<'t>(
         })
 }
 
-/// How much a line looks like the names of the columns: more of the names, then more columns.
+/// How well a line matches the names of the columns: more of the names, then more columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Likeness {
     names: usize,

@@ -4,8 +4,7 @@ use crate::table::{Column, Row, TableText};
 use crate::units::Unit;
 use crate::words::either;
 
-/// A quantity of a recording: the name of its column, its unit if the user states one, and the SI
-/// unit of what it measures.
+/// A quantity of a recording: the name of its column, its unit if the user states one, and its SI unit.
 struct Quantity<'c> {
     name: &'c str,
     stated: Option<&'c str>,
@@ -97,7 +96,7 @@ pub(super) fn of_row<const COLUMNS: usize>(
     found.try_into().ok()
 }
 
-/// The unit of a force whose instrument states a mass, that of what weighs as much.
+/// The unit of a force in place of that of a mass: the weight of the mass.
 fn of_weight(unit: &'static Unit) -> &'static Unit {
     let weight = match unit.suffix {
         "g" => Unit::named("gf"),
@@ -145,7 +144,7 @@ impl<'c> Quantity<'c> {
         };
         match unit {
             Some(unit) if unit.si == self.si => Ok(unit),
-            // Programs seldom say that they count seconds, or that a ratio has no unit.
+            // Programs rarely state that time is in seconds, or that a ratio has no unit.
             None if ["s", "one"].contains(&self.si) => {
                 Ok(Unit::named(self.si).expect("SI units are in the table"))
             }
@@ -167,7 +166,7 @@ impl<'c> Quantity<'c> {
     }
 }
 
-/// What stands where a name may carry a unit.
+/// The part of a name that may hold a unit.
 enum Written {
     Unit(&'static Unit),
     /// Brackets around something else.
@@ -191,7 +190,7 @@ pub(super) fn base(name: &str) -> &str {
     }
 }
 
-/// What stands before a unit, what stands where one may stand, and whether that is in brackets.
+/// The text before a unit, the text of the unit, and whether that is in brackets.
 fn parts(name: &str) -> Option<(&str, &str, bool)> {
     if let Some(inner) = name.strip_suffix([')', ']'])
         && let Some((base, unit)) = inner.rsplit_once(['(', '['])

@@ -46,7 +46,8 @@ impl StimulusKind {
         matches!(self, Self::Uniaxial) || self.is_clamped()
     }
 
-    /// Whether such a piece was held from the first sample, so that its displacement counts from there, with either sign.
+    /// Whether such a piece is clamped from the first sample, so that its displacement counts from there, with either
+    /// sign.
     pub fn is_clamped(self) -> bool {
         matches!(
             self,
@@ -98,8 +99,7 @@ words! {
 }
 
 header_keys! {
-    /// What the comments above a recording say; none where they say nothing. The fields bear the names
-    /// of the keys.
+    /// The comments above a recording; none where they state nothing. The fields have the names of the keys.
     pub struct RecordingHeader {
         /// The organ.
         organ: String = Holds::Text,
@@ -209,7 +209,7 @@ header_keys! {
     }
 }
 
-/// What is expected of the key `fixed`.
+/// The expected value of the key `fixed`.
 const FIXED: &str = "where the organ is fixed, such as `{ planes = [{ point_m = [0.0, 0.0, 0.001], normal = [0.0, 0.0, 1.0] }] }`";
 
 impl RecordingHeader {
@@ -268,8 +268,8 @@ impl RecordingHeader {
             ("base_modulus_error", self.base_modulus_error),
             ("base_thickness_m", self.base_thickness_m),
         ];
-        let mut said = each.into_iter().filter(|(_, value)| value.is_some());
-        said.next().map(|(key, _)| key)
+        let mut given = each.into_iter().filter(|(_, value)| value.is_some());
+        given.next().map(|(key, _)| key)
     }
 
     /// The error of a complete header that states a layer on a base: a key and what to give; none where nothing is missing
@@ -322,12 +322,12 @@ impl RecordingHeader {
     /// [`ended`](Self::ended) of a recording with all its samples.
     pub const WHOLE: &str = "whole";
 
-    /// Why it ends before its stimulus; none when it is whole, or says nothing.
+    /// Why it ends before its stimulus; none when it is whole, or does not state it.
     pub fn cut_short(&self) -> Option<&str> {
         self.ended.as_deref().filter(|ended| *ended != Self::WHOLE)
     }
 
-    /// The same, with what it does not say taken from `other`.
+    /// The same, with missing entries taken from `other`.
     pub fn completed_by(mut self, other: &Self) -> Self {
         macro_rules! complete {
             ($($field:ident)*) => {

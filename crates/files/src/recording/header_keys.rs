@@ -1,4 +1,4 @@
-//! A header is declared once: its fields, its keys, their reader and their writer come from one list.
+//! Declares a header once: its fields, its keys, their reader and their writer come from one list.
 
 use crate::scene::Region;
 use crate::toml_document::{quoted, toml_number};
@@ -7,7 +7,7 @@ use crate::{Error, Holds, Keys};
 
 /// A value of a header's key.
 pub(super) trait HeaderValue: Sized {
-    /// The value of a key that is declared; none where the key is not there.
+    /// The value of a declared key; none where the key is not there.
     fn read(keys: &Keys<'_>, key: &'static str) -> Result<Option<Self>, Error>;
 
     /// The value as TOML writes it.
@@ -110,7 +110,7 @@ impl<W: Worded> HeaderValue for W {
     }
 }
 
-/// A header whose fields are its keys, and each of which may be left out.
+/// A header whose fields are its keys, each of which is optional.
 macro_rules! header_keys {
     ($(#[$meta:meta])* pub struct $name:ident {
         $($(#[doc = $meaning:literal])+ $key:ident: $type:ty = $holds:expr,)+
@@ -119,12 +119,12 @@ macro_rules! header_keys {
         #[derive(Debug, Clone, PartialEq, Default)]
         pub struct $name {
             $($(#[doc = $meaning])+ pub $key: Option<$type>,)+
-            /// Keys that mean nothing here and are kept.
+            /// Unknown keys, which are preserved.
             pub extra: Vec<ExtraKey>,
         }
 
         impl $name {
-            /// The keys that mean something in it.
+            /// The known keys.
             pub const KEYS: &'static [Key] = &[$(Key {
                 name: stringify!($key),
                 holds: $holds,
@@ -142,7 +142,7 @@ macro_rules! header_keys {
                 })
             }
 
-            /// What it says, by key, each value as TOML writes it.
+            /// Its entries, by key, each value as TOML writes it.
             pub fn entries(&self) -> Vec<(&'static str, String)> {
                 use super::header_keys::HeaderValue;
                 let values = [$((stringify!($key), self.$key.as_ref().map(HeaderValue::written)),)+];

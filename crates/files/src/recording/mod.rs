@@ -1,5 +1,4 @@
-//! What was measured on a specimen: depth and force against time, and what is known of the
-//! specimen, the indenter and the stimulus.
+//! Recordings of a measurement: depth and force against time, with the specimen, the indenter and the stimulus.
 
 mod axes;
 mod foreign;
@@ -34,28 +33,28 @@ use crate::table::{Ended, TableText};
 use crate::whole_file::{MOST_OF_TABLE, read_text};
 use crate::{Error, Incomplete};
 
-/// What wrote a recording: which of its zeros and signs are known.
+/// The origin of a recording, which determines the known zeros and signs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Origin {
     /// This project: depth counts from first contact.
     Project,
     /// An instrument: signs are known, first contact and the force's zero are not.
     Instrument,
-    /// Another program, of which nothing is known.
+    /// Another program: neither zeros nor signs are known.
     Foreign,
 }
 
-/// A recording. Depth is positive into the tissue from first contact; force is positive on the
-/// tissue. One that was read from a table of another program ([`Recording::is_foreign`]) keeps that
-/// program's zeros and signs; an instrument's file ([`Recording::read_all`]) has its zeros.
+/// A recording. Depth is positive into the tissue from first contact; force is positive on the tissue. One from a
+/// table of another program ([`Recording::is_foreign`]) keeps that program's zeros and signs; one from an
+/// instrument's file ([`Recording::read_all`]) has the file's zeros.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recording {
-    /// What is known of the specimen, the indenter and the stimulus.
+    /// The specimen, the indenter and the stimulus.
     pub header: RecordingHeader,
     samples: Samples,
     axes: Option<SensorAxes>,
     extra_columns: Vec<ExtraColumn>,
-    /// What was done to read the file of another program, and warnings about what stands above its numbers.
+    /// Conversions of the file of another program, and warnings about the comments above its numbers.
     remarks: Vec<String>,
     origin: Origin,
     incomplete: Option<Incomplete>,
@@ -101,9 +100,9 @@ impl Recording {
         Ok(self)
     }
 
-    /// Whether a table says its format, as the recordings of this project do; others are
+    /// Whether a table states its format, as the recordings of this project do; others are
     /// [foreign](Recording::read_foreign).
-    fn says_format(text: &str) -> bool {
+    fn states_format(text: &str) -> bool {
         let comments = text
             .lines()
             .take_while(|line| line.trim_start().starts_with('#'));
@@ -185,8 +184,8 @@ impl Recording {
         self.origin == Origin::Project
     }
 
-    /// What was done to read the table of another program, and Warnings about the numbers above it,
-    /// in plain sentences.
+    /// Conversions of the table of another program, and warnings about the comments above its numbers, in plain
+    /// sentences.
     pub fn remarks(&self) -> &[String] {
         &self.remarks
     }
@@ -197,7 +196,7 @@ impl Recording {
         self.incomplete.as_ref()
     }
 
-    /// The columns that are kept although they mean nothing here.
+    /// Unknown columns, which are preserved.
     pub fn extra_columns(&self) -> &[ExtraColumn] {
         &self.extra_columns
     }

@@ -13,7 +13,7 @@ pub struct Samples {
     pub force_n: Vec<f64>,
 }
 
-/// A column that means nothing to a recording and is kept.
+/// An unknown column of a recording, which is preserved.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExtraColumn {
     /// Its name.
@@ -100,7 +100,7 @@ impl ExtraColumn {
     }
 }
 
-/// What becomes of a row that repeats the one above it in every field.
+/// The treatment of a row that repeats the one above it in every field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Repeated {
     /// It is an error, because time stands still.
@@ -109,7 +109,7 @@ pub(super) enum Repeated {
     LeftOut,
 }
 
-/// The samples of a table with what else it holds.
+/// The samples of a table with its other content.
 #[derive(Debug, Default)]
 pub(super) struct Read {
     pub(super) samples: Samples,

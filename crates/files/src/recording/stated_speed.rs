@@ -8,12 +8,12 @@ use crate::{Domain, Error};
 
 /// Lines above a table in which a speed is sought.
 const MOST_LINES: usize = 100;
-/// What a speed is called, and which one is not that of the test.
+/// Names of a speed, and of one that is not that of the test.
 const SPEED: [&str; 4] = ["speed", "velocity", "geschwindigkeit", "crosshead rate"];
 const OTHERS: [&str; 6] = ["pre", "post", "return", "approach", "vor", "rück"];
 
-/// A table of distances and forces without times, as testing machines write it, below a line that states the speed: the time
-/// is the way over the speed. None of another table, or where the speed of the test is not stated, or more than one.
+/// A table of distances and forces without times, as testing machines write it, below a line that states the speed:
+/// time is distance over speed. None for another table, or where the speed of the test is missing or ambiguous.
 pub(super) fn parse(
     text: &str,
     path: &Path,

@@ -43,7 +43,7 @@ pub(super) fn parse(
     clamped(text, path, columns)
 }
 
-/// How the depth of the cube follows from the number in a column.
+/// The conversion of a column to the depth of the cube.
 struct Axial {
     domain: Domain,
     /// The depth [m].

@@ -14,7 +14,7 @@ pub(super) fn axes_names() -> String {
 }
 
 impl Recording {
-    /// The text of a recording file: what [`Recording::parse`] reads back to the same recording. One that was read
+    /// The text of a recording file, which [`Recording::parse`] reads back to the same recording. One that was read
     /// [incomplete](Recording::incomplete) gets no end mark.
     pub fn to_csv(&self) -> String {
         let mut text = self.header.print();
@@ -71,7 +71,7 @@ impl RecordingHeader {
         text
     }
 
-    /// The fields can be filled with anything; the reader knows what they may hold.
+    /// The fields are public; the reader checks them.
     pub(super) fn check(&self, path: &Path) -> Result<(), Error> {
         let text = self.print() + "time_s\n";
         let table = TableText::parse(&text, path, Self::KEYS).map_err(Error::of_content)?;

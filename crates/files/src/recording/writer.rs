@@ -7,28 +7,28 @@ use crate::Error;
 use crate::table::{TableWriter, header_line};
 use crate::toml_document::quoted;
 
-/// [`RecordingHeader::ended`] until it is finished.
+/// The value of [`RecordingHeader::ended`] until it is finished.
 const UNFINISHED: &str = "unfinished";
 
-/// Room for how it ended, which is known last and stands at the top [byte].
+/// Space for the reason of its end, which is known last and written at the top [byte].
 const ROOM: usize = 120;
 
-/// Writes a recording while it is made, into the [`unfinished`](crate::unfinished) file beside its own, which reads
-/// as a recording too and says that it is unfinished. Only whole lines go to the disk, at least every 200 samples.
+/// Writes a recording while it is made, into an [`unfinished`](crate::unfinished) file next to the target, which is a
+/// valid recording marked as unfinished. Only whole lines go to the disk, at least every 200 samples.
 #[derive(Debug)]
 pub struct RecordingWriter {
     table: TableWriter,
-    /// Where the line of how it ended begins [byte].
+    /// Position of the line with the reason of its end [byte].
     ended_at: usize,
     has_axes: bool,
 }
 
 impl RecordingWriter {
-    /// Begins the recording at `path`, of a sensor of one axis. Its folder must exist; what `header` says of its end
-    /// is not taken.
+    /// Begins the recording at `path`, of a sensor of one axis. Its folder must exist; the entry of `header` on its
+    /// end is ignored.
     ///
     /// # Errors
-    /// When the header holds what a recording cannot, or the operating system refuses.
+    /// When the header has a value that a recording cannot have, or the operating system refuses.
     pub fn create(path: impl AsRef<Path>, header: &RecordingHeader) -> Result<Self, Error> {
         Self::begin(path.as_ref(), header, false)
     }
@@ -96,8 +96,8 @@ impl RecordingWriter {
         })
     }
 
-    /// Says at its top how it `ended` (in ASCII, what is longer than its room is cut), ends it with its mark,
-    /// brings it to the disk and gives it its name.
+    /// Writes at its top how it `ended` (in ASCII, truncated to the reserved space), adds the end mark, writes it to
+    /// the disk and gives it its name.
     ///
     /// # Errors
     /// When the operating system refuses.
@@ -109,7 +109,7 @@ impl RecordingWriter {
     }
 }
 
-/// The line of how a recording ended, always equally long.
+/// The line that states how a recording ended, always equally long.
 fn ended_line(ended: &str) -> String {
     let plain = |c: char| match c {
         '"' => '\'',

@@ -5,7 +5,7 @@ use sha2::{Digest, Sha256};
 /// Bytes that are handled at a time.
 const CHUNK: usize = 1 << 16;
 
-/// A reader or writer that keeps the digest of what has passed.
+/// A reader or writer that computes the digest of its data.
 pub(super) struct Checked<S> {
     stream: S,
     digest: Sha256,
@@ -19,7 +19,7 @@ impl<S> Checked<S> {
         }
     }
 
-    /// The digest of what has passed, and the stream.
+    /// The digest of the data, and the stream.
     pub(super) fn finish(self) -> ([u8; super::DIGEST], S) {
         (self.digest.finalize().into(), self.stream)
     }

@@ -1,4 +1,4 @@
-//! What a hybrid model has prepared of an organ: the response of its surface to unit traction.
+//! The cached response of an organ for a hybrid model: displacements of its surface for unit traction.
 //!
 //! ```text
 //! palpate response 1                  the words and the version of the layout
@@ -12,8 +12,8 @@
 //! <SHA-256 of all that stands before, 32 bytes>
 //! ```
 //!
-//! Numbers are little-endian. The file can always be made again; whoever finds one that is damaged makes a
-//! new one.
+//! Numbers are little-endian. The file can always be computed again; a program that finds it damaged writes a new
+//! one.
 
 mod checked;
 mod read;
@@ -24,13 +24,13 @@ use std::borrow::Cow;
 /// How a surface moves under a unit force on each of its touchable triangles, times Young's modulus.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredResponse<'a> {
-    /// 64 hexadecimal digits that name what it was made from.
+    /// 64 hexadecimal digits that identify its inputs.
     pub key: String,
-    /// How it was made, for people: one line.
+    /// Its provenance, for people: one line.
     pub made_by: String,
-    /// The triangles that forces act on, each in three directions: a column for each.
+    /// The triangles on which forces act, each in three directions: a column for each.
     pub touchable: Vec<u32>,
-    /// How many triangles are moved.
+    /// The number of displaced triangles.
     pub triangles: usize,
     /// Displacements of all triangles, column by column [1/m].
     pub displacements: Cow<'a, [f32]>,

@@ -16,11 +16,11 @@ struct Header {
 }
 
 impl StoredResponse<'static> {
-    /// Reads a file and compares its checksum. `memory` [bytes] is what may be taken: a header may name any size, and a
+    /// Reads a file and checks its checksum. `memory` is the memory limit [bytes]: a header may name any size, and a
     /// file with holes has any length.
     ///
     /// # Errors
-    /// When it cannot be read, takes more memory than that or than there is, is not whole, or its checksum is another.
+    /// When it cannot be read, needs more memory than allowed or available, is incomplete, or fails the checksum.
     pub fn read(path: impl AsRef<Path>, memory: usize) -> Result<Self, Error> {
         let path = path.as_ref();
         let fault = |source| Error::read(path, source);
@@ -62,7 +62,7 @@ impl Header {
         u64::try_from(bytes.checked_add(self.text.len() + DIGEST)?).ok()
     }
 
-    /// What follows the header, and whether the checksum is its own.
+    /// The data after the header, and whether the checksum matches.
     fn body(self, file: impl Read) -> io::Result<(StoredResponse<'static>, bool)> {
         let mut checked = Checked::new(io::Cursor::new(self.text.as_bytes()).chain(file));
         checked.bytes(&mut vec![0; self.text.len()])?;

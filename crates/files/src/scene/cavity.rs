@@ -1,11 +1,11 @@
 use crate::{Domain, Error, Key, Keys};
 
-/// What is in a cavity of a body, such as a gall bladder.
+/// The content of a cavity of a body, such as a gall bladder.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CavityContent {
     /// A constant pressure [Pa], which is 0 where the cavity is empty.
     Pressure(f64),
-    /// A fluid that keeps its volume, under a pressure [Pa] while nothing else loads the body.
+    /// An incompressible fluid, under a pressure [Pa] while nothing else loads the body.
     Fluid(f64),
 }
 
@@ -26,10 +26,10 @@ impl CavityContent {
         .default("false"),
     ];
 
-    /// What a table `cavity` says.
+    /// Reads a table `cavity`.
     ///
     /// # Errors
-    /// When a key has a value that it cannot have.
+    /// When a value is invalid.
     pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         let pressure = keys.number("pressure_pa")?.unwrap_or(0.0);
         Ok(match keys.truth("constant_volume")?.unwrap_or(false) {

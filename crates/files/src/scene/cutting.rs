@@ -12,16 +12,16 @@ words! {
     }
 }
 
-/// How the organ is cut. What the scene does not say of the depth follows from its layers.
+/// Settings for cutting the organ. A depth that the scene leaves out follows from its layers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cutting {
-    /// How the surface gives way.
+    /// The method of cutting the surface.
     pub mode: CutMode,
-    /// How deep a cut goes at most [m], and always in an organ without layers.
+    /// The largest depth of a cut [m], and the depth of every cut in an organ without layers.
     pub depth_m: Option<f64>,
-    /// How far an opening gapes in its middle [m].
+    /// The width of an opening in its middle [m].
     pub width_m: f64,
-    /// The work that a cut takes per area of its face [J/m²], in layers that have no toughness of their own.
+    /// The fracture work per area of the cut face [J/m²], in layers that have no toughness of their own.
     pub toughness_j_per_m2: f64,
     /// The normal force at which any tool begins to cut [N]; none when it never does.
     pub force_limit_n: Option<f64>,

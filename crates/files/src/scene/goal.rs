@@ -6,74 +6,74 @@ use super::{CutLine, Tool, ToolKind};
 use crate::words::either;
 use crate::{Domain, Error, Key, Keys};
 
-/// When a task is done.
+/// The goal of a task.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Goal {
-    /// When somebody says so.
+    /// The trainee states that the task is done.
     #[default]
     Free,
-    /// When a place is marked; it should be the target.
+    /// The trainee marks a location, which should be the target.
     Find {
-        /// The place on or under the surface that is meant [m].
+        /// The target on or under the surface [m].
         target_m: [f64; 3],
-        /// How far from it, along the surface, still counts [m].
+        /// The tolerance from it, along the surface [m].
         tolerance_m: f64,
-        /// How large it is, where that is asked for as well.
+        /// The size of the target, where the trainee must state it.
         size: Option<SoughtSize>,
     },
-    /// When a force was held for long enough.
+    /// A force is held for long enough.
     Traction {
-        /// By which tool; none for any.
+        /// The tool; none for any.
         tool: Option<String>,
         /// Its magnitude [N].
         force_n: f64,
-        /// How far beside it still counts [N].
+        /// The tolerance of the force [N].
         tolerance_n: f64,
-        /// For how long in all [s].
+        /// The total duration [s].
         hold_s: f64,
-        /// Where to pull, and the largest angle from it that still counts [rad]; none for anywhere.
+        /// The direction of the pull, and the largest angle from it that counts [rad]; none for any direction.
         direction: Option<([f64; 3], f64)>,
         /// The pull above which the tissue tears [N].
         tear_force_n: Option<f64>,
     },
-    /// When a line is cut.
+    /// A line is cut.
     Cut {
-        /// Where.
+        /// The line.
         line: CutLine,
-        /// How far beside the line still counts [m].
+        /// The tolerance from the line [m].
         tolerance_m: f64,
-        /// How many layers from outside; none in an organ without layers.
+        /// The number of layers from outside; none in an organ without layers.
         layers: Option<usize>,
     },
-    /// When a place beside the organ was touched for long enough.
+    /// A location next to the organ is touched for long enough.
     Touch(TouchGoal),
 }
 
-/// A place of a neighbour that is to be touched, while the organ is held out of the way. A touch counts while neither
-/// the tip nor the shaft of the tool touches the organ.
+/// A location of a neighbour that the trainee touches while holding the organ out of the way. A touch counts while
+/// neither the tip nor the shaft of the tool touches the organ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TouchGoal {
     /// The tool that touches.
     pub tool: String,
-    /// The place that is meant [m].
+    /// The target location [m].
     pub target_m: [f64; 3],
     /// The largest distance of the tip from it that counts [m].
     pub tolerance_m: f64,
-    /// The force that is wanted [N].
+    /// The target force [N].
     pub force_n: f64,
     /// The largest distance from it that counts [N].
     pub tolerance_n: f64,
-    /// For how long in all [s].
+    /// The total duration [s].
     pub hold_s: f64,
-    /// The force above which what is touched is injured [N].
+    /// The force above which the touched tissue is injured [N].
     pub injury_force_n: Option<f64>,
-    /// The tool that has to hold the organ meanwhile; none where nothing has to.
+    /// The tool that must hold the organ meanwhile; none where this is not required.
     pub holder: Option<String>,
     /// The pull of the holder above which the tissue tears [N].
     pub tear_force_n: Option<f64>,
 }
 
-/// The size of what is to be found; the trainee states its diameter after marking it.
+/// The size of the target; the trainee states its diameter after marking it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SoughtSize {
     /// Its radius [m].
@@ -83,7 +83,7 @@ pub struct SoughtSize {
 }
 
 impl SoughtSize {
-    /// By how much a stated diameter is too large [m]; negative where it is too small.
+    /// The error of a stated diameter [m]; negative where it is too small.
     pub fn error_of(&self, stated_diameter_m: f64) -> f64 {
         stated_diameter_m - 2.0 * self.radius_m
     }
@@ -94,7 +94,7 @@ impl SoughtSize {
     }
 }
 
-/// How far a pull may be from its direction [rad].
+/// The largest angle of a pull from its direction [rad].
 const ANGLE: Domain = Domain::quantity("an angle", "rad", [Excluded(0.0), Included(PI)]);
 
 impl Goal {

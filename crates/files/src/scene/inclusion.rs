@@ -6,31 +6,31 @@ use super::part::CAVITY;
 use super::{CavityContent, LengthUnit, PartContent, Shape, TissueChoice};
 use crate::{Domain, Error, Key, Keys};
 
-/// A part of an organ with a tissue of its own, such as a tumour or a vessel, which the hybrid and the nonlinear model solve and the
-/// local one estimates, or a cavity, which the nonlinear model has.
+/// A part of an organ with a tissue of its own, such as a tumour or a vessel, which the hybrid and the nonlinear
+/// model solve and the local one estimates, or a cavity, which only the nonlinear model has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inclusion {
     /// Its name, for people.
     pub name: String,
-    /// Where it is.
+    /// Its location.
     pub place: InclusionPlace,
-    /// What it is made of.
+    /// Its material.
     pub content: PartContent,
 }
 
-/// An inclusion of the tissue around it, so many times as stiff, whose effect on the force is estimated: it needs no preparation, and
-/// may be drawn for each attempt.
+/// An inclusion with a stiffness ratio to the tissue around it, whose effect on the force is estimated: it needs no
+/// preparation, and may be drawn for each attempt.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EstimatedInclusion {
     /// Its name, for people.
     pub name: String,
-    /// Where it is.
+    /// Its location.
     pub shape: InclusionShape,
     /// Its modulus over that of the tissue around it [-].
     pub stiffness_ratio: f64,
 }
 
-/// Where an inclusion is.
+/// The location of an inclusion.
 #[derive(Debug, Clone, PartialEq)]
 pub enum InclusionPlace {
     /// In a shape.
@@ -83,7 +83,7 @@ impl Inclusion {
         }
     }
 
-    /// What is in it, if it is a cavity.
+    /// The content of a cavity.
     pub fn cavity(&self) -> Option<CavityContent> {
         match self.content {
             PartContent::Tissue(_) => None,

@@ -11,7 +11,7 @@ pub struct Jaws {
     pub width_m: f64,
     /// Between their ends when they are open [m].
     pub opening_m: f64,
-    /// The most with which each presses on what is between them [N]; 0 for blades.
+    /// The largest force of each on the tissue between them [N]; 0 for blades.
     pub force_n: f64,
     /// Friction of tissue on their faces [-]; 0 for blades.
     pub friction: f64,
@@ -65,7 +65,7 @@ impl Jaws {
     ];
     const OF_SCISSORS: &[&str] = &["length_m", "opening_m"];
 
-    /// Those of a tool of `kind` with `keys`; what is not stated has its default.
+    /// The jaws of a tool of `kind` with `keys`; missing entries have their defaults.
     pub(super) fn from_keys(keys: &Keys<'_>, kind: ToolKind) -> Result<Option<Self>, Error> {
         let default = match kind {
             ToolKind::Grasper => Self::GRASPER,

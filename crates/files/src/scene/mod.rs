@@ -1,5 +1,4 @@
-//! What stands in a scene: an organ and its tissue, what surrounds it, the model that moves it and
-//! the tools that touch it.
+//! The scene: an organ and its tissue, its surroundings, the model that moves it and the tools that touch it.
 
 mod cavity;
 mod cut_line;
@@ -30,7 +29,7 @@ pub use draw::{Drawn, Draws, FindOnSurface, LARGEST_SEED, OnSurface, SurfacePoin
 pub use goal::{Goal, SoughtSize, TouchGoal};
 pub use inclusion::{EstimatedInclusion, Inclusion, InclusionPlace, InclusionShape};
 pub use jaws::Jaws;
-use model::Asked;
+use model::Requirements;
 pub use model::{Enhancement, LocalSettings, Model};
 pub use model_words::{
     Assembly, Calibration, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind,
@@ -51,32 +50,32 @@ pub use view::{Shading, View};
 use crate::whole_file::{MOST_OF_DOCUMENT, read_text};
 use crate::{Document, Error, Key};
 
-/// A scene. What is not stated in the file has its default here.
+/// A scene. Keys that the file leaves out have their defaults here.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     /// The folder of the scene's file. The paths in the scene already begin with it.
     pub folder: PathBuf,
     /// The organ that is touched.
     pub organ: Organ,
-    /// What is around it.
+    /// Its surroundings.
     pub neighbours: Vec<Neighbour>,
-    /// How the organ is moved.
+    /// The model of the organ.
     pub model: Model,
-    /// How it is cut.
+    /// The settings for cutting.
     pub cutting: Cutting,
     /// The tools: one or two, with different names.
     pub tools: Vec<Tool>,
-    /// How the scene is looked at.
+    /// The view of the scene.
     pub view: View,
-    /// What there is to do.
+    /// The task.
     pub task: Task,
-    /// What has to be drawn before anybody touches it ([`Scene::drawn`]); none for a scene of fixed numbers.
+    /// The draws to make before a simulation ([`Scene::drawn`]); none for a scene of fixed numbers.
     pub draws: Option<Draws>,
     /// Which variant of a task it is; none for a scene that was not drawn.
     pub variant: Option<Variant>,
-    /// Its text, which means the same in any folder ([`standing_alone`]); none once something was changed.
+    /// Its text, which means the same in any folder ([`standing_alone`]); none after a change.
     pub written: Option<String>,
-    /// Warnings about its numbers, as sentences; none once something was changed.
+    /// Warnings about its numbers, as sentences; none after a change.
     pub warnings: Vec<String>,
 }
 
@@ -159,7 +158,7 @@ impl Scene {
             .iter()
             .map(|keys| Neighbour::of_organ(keys, &folder));
         let around: Vec<Neighbour> = rigid_or_soft.chain(organs).collect::<Result<_, _>>()?;
-        let does = Asked {
+        let does = Requirements {
             cuts: cutting.is_some(),
             bends: touched.self_contact || around.iter().any(|body| body.soft.is_some()),
             is_hollow: touched.inclusions.iter().any(|own| own.cavity().is_some()),
@@ -226,7 +225,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// Built-in organs are held where they grow; a mesh is held only where the scene says so.
+    /// Built-in organs are fixed at their attachment; a mesh is fixed only where the scene states it.
     fn lacks_anchor(&self) -> bool {
         self.model.kind != ModelKind::Local
             && matches!(self.organ.shape, Shape::Mesh { .. })

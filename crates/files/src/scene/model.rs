@@ -5,13 +5,12 @@ use super::model_words::{
 use super::{Organ, Shape, Tool, ToolKind};
 use crate::{Domain, Error, Key, Keys, Word};
 
-/// How the organ is moved, with the settings of every kind of model; those of the other kind are
-/// kept but not used.
+/// The model of the organ, with the settings of every kind of model; those of other kinds are stored but not used.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Model {
-    /// Which model.
+    /// The kind of model.
     pub kind: ModelKind,
-    /// Why it was chosen, where the scene leaves the choice (`kind = "auto"`).
+    /// The reason for the kind, where the scene leaves the choice (`kind = "auto"`).
     pub reason: Option<&'static str>,
     /// The period of the model thread [s].
     pub step_s: f64,
@@ -19,39 +18,39 @@ pub struct Model {
     pub local: LocalSettings,
     /// Settings of the hybrid model's refinement.
     pub enhancement: Enhancement,
-    /// How many triangles carry the hybrid model's mechanics at most; the shown surface keeps its own. The
-    /// default is chosen by the model.
+    /// The largest number of triangles with the hybrid model's mechanics; the displayed surface has its own. The
+    /// model chooses the default.
     pub mechanical_triangles: Option<usize>,
-    /// About how many nodes carry the nonlinear model's mechanics. The default is chosen by the model.
+    /// The approximate number of nodes with the nonlinear model's mechanics. The model chooses the default.
     pub nodes: Option<usize>,
-    /// Acceleration by which the nonlinear model's organ hangs under its own weight [m/s²]; none where the mesh is the organ as
-    /// it hangs.
+    /// Gravitational acceleration on the nonlinear model's organ [m/s²]; none where the mesh is the organ under its
+    /// own weight.
     pub gravity_m_per_s2: Option<[f64; 3]>,
-    /// How the hybrid model's response is solved.
+    /// The solver of the hybrid model's response.
     pub response: ResponseMethod,
-    /// What is handed over to the servo loop.
+    /// The quantity that the model hands over to the servo loop.
     pub hand_over: HandOver,
-    /// Factor on every force that a device displays [-]; the factor itself is shown and recorded, forces are
-    /// recorded as they are.
+    /// Factor on every force that a device displays [-]; the factor itself is shown and recorded, forces are recorded
+    /// without it.
     pub force_scale: f64,
 }
 
 /// Settings of the finite spheres.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LocalSettings {
-    /// How many particles stand around a tool.
+    /// The number of particles around a tool.
     pub particles: usize,
     /// The form of the equations.
     pub form: Form,
-    /// Where the particles stand.
+    /// The placement of the particles.
     pub placement: Placement,
-    /// How the equations are solved.
+    /// The solver of the equations.
     pub solver: Solver,
-    /// When the equations are put together.
+    /// When the equations are assembled.
     pub assembly: Assembly,
-    /// At how many points they are integrated.
+    /// The number of integration points.
     pub integration_points: IntegrationPoints,
-    /// What makes a force of their solution.
+    /// The calibration of the force.
     pub calibration: Calibration,
 }
 
@@ -60,9 +59,9 @@ pub struct LocalSettings {
 pub struct Enhancement {
     /// The area that is refined.
     pub area: EnhancementArea,
-    /// How often each triangle is divided into four.
+    /// The number of subdivisions of each triangle into four.
     pub levels: usize,
-    /// How displacements are spread over it.
+    /// The interpolation of displacements over it.
     pub smoothing: Smoothing,
 }
 
@@ -109,7 +108,7 @@ impl Default for Model {
     }
 }
 
-/// What a scene may say of its model; none leaves the choice.
+/// The kinds of model in a scene; none leaves the choice.
 const CHOICES: &[(&str, Option<ModelKind>)] = &[
     ("local", Some(ModelKind::Local)),
     ("hybrid", Some(ModelKind::Hybrid)),
@@ -127,10 +126,10 @@ const CHOICE_MEANINGS: &[Word] = &[
     ),
 ];
 
-/// What else a scene asks of its model.
+/// Requirements of a scene on its model.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Asked {
-    /// Whether it has a table on cutting.
+pub(super) struct Requirements {
+    /// Whether it has settings for cutting.
     pub(super) cuts: bool,
     /// Whether neighbours bend, or the organ touches itself.
     pub(super) bends: bool,
@@ -138,20 +137,20 @@ pub(super) struct Asked {
     pub(super) is_hollow: bool,
 }
 
-/// The least model that answers what these tools do, and why.
-fn choose(organ: &Organ, tools: &[Tool], asked: Asked) -> (ModelKind, &'static str) {
+/// The simplest model that supports these tools, and the reason.
+fn choose(organ: &Organ, tools: &[Tool], requirements: Requirements) -> (ModelKind, &'static str) {
     let any = |kinds: &[ToolKind]| tools.iter().any(|tool| kinds.contains(&tool.kind));
-    let is_held = organ.anchor.is_some() || matches!(organ.shape, Shape::Builtin { .. });
-    if !is_held {
+    let is_fixed = organ.anchor.is_some() || matches!(organ.shape, Shape::Builtin { .. });
+    if !is_fixed {
         let reason = "the scene does not say where its mesh is fixed (organ.anchor)";
         return (ModelKind::Local, reason);
     }
-    if asked.bends {
+    if requirements.bends {
         let reason = "it alone has bodies that bend and touch";
         (ModelKind::Nonlinear, reason)
-    } else if asked.is_hollow {
+    } else if requirements.is_hollow {
         (ModelKind::Nonlinear, "it alone has cavities")
-    } else if asked.cuts || any(&[ToolKind::Scissors, ToolKind::Hook]) {
+    } else if requirements.cuts || any(&[ToolKind::Scissors, ToolKind::Hook]) {
         (ModelKind::Hybrid, "its forces change while a blade cuts")
     } else if !organ.layers.is_empty() {
         (
@@ -260,12 +259,12 @@ impl Model {
         .default("1.0"),
     ];
 
-    /// The model of a scene whose organ, tools and what else is `asked` decide what `auto` takes.
+    /// The model of a scene; organ, tools and the other `requirements` decide the choice of `auto`.
     pub(super) fn from_keys(
         keys: Option<&Keys<'_>>,
         organ: &Organ,
         tools: &[Tool],
-        asked: Asked,
+        requirements: Requirements,
     ) -> Result<Self, Error> {
         let default = Self::default();
         let Some(keys) = keys else {
@@ -278,7 +277,7 @@ impl Model {
             None => (default.kind, None),
             Some(Some(kind)) => (kind, None),
             Some(None) => {
-                let (kind, reason) = choose(organ, tools, asked);
+                let (kind, reason) = choose(organ, tools, requirements);
                 (kind, Some(reason))
             }
         };

@@ -14,12 +14,12 @@ const SOFT_NODES: usize = 500;
 pub(super) const LEAST_NODES: u64 = 200;
 pub(super) const MOST_NODES: u64 = 6_000;
 
-/// A body beside the organ.
+/// A body next to the organ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Neighbour {
     /// Its surface.
     pub shape: Shape,
-    /// Where it stands.
+    /// Its placement.
     pub location: Location,
     /// Whether tools stop at it.
     pub collides: bool,
@@ -27,11 +27,11 @@ pub struct Neighbour {
     pub friction: f64,
     /// The force on a tip per depth in it [N/m], if it is rigid.
     pub stiffness_n_per_m: f64,
-    /// What it is made of, if it bends.
+    /// Its material, if it bends.
     pub soft: Option<SoftNeighbour>,
 }
 
-/// What a neighbour is made of that bends with the organ of a nonlinear model.
+/// The material of a neighbour that bends with the organ of a nonlinear model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SoftNeighbour {
     /// Its tissue.
@@ -40,17 +40,17 @@ pub struct SoftNeighbour {
     pub layers: Vec<Layer>,
     /// Parts of another tissue in it, and cavities; a `[[neighbour]]` has none.
     pub inclusions: Vec<Inclusion>,
-    /// Where it is held, in the scene; none for the attachment of a built-in organ, which stands where it does.
+    /// Where it is fixed, in the scene; none for the attachment of a built-in organ, which is placed with it.
     pub anchor: Option<Region>,
     /// About how many nodes carry its mechanics.
     pub nodes: usize,
 }
 
-/// Where a body stands in the scene: each of its points is scaled about the body's own origin, turned about
-/// x, then y, then z, and moved.
+/// Placement of a body in the scene: each of its points is scaled about the body's own origin, turned about x, then
+/// y, then z, and moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Location {
-    /// Where its origin comes to [m].
+    /// Position of its origin [m].
     pub at_m: [f64; 3],
     /// About x, then y, then z of the scene, counter-clockwise [rad].
     pub turn_rad: [f64; 3],
@@ -59,7 +59,7 @@ pub struct Location {
 }
 
 impl Default for Location {
-    /// As it was made.
+    /// The identity.
     fn default() -> Self {
         Self {
             at_m: [0.0; 3],
@@ -130,7 +130,7 @@ impl Neighbour {
             "Coulomb's coefficient between it and an organ of the nonlinear model, if it collides or bends.",
         )
         .default("0.0"),
-        // What a loop at 1 kHz displays without trembling on the devices of `docs/devices.md`.
+        // The range that a loop at 1 kHz displays without vibration on the devices of `docs/devices.md`.
         Key::number(
             "stiffness_n_per_m",
             Domain::STIFFNESS,
@@ -152,7 +152,7 @@ impl Neighbour {
 }
 
 impl Neighbour {
-    /// Further organs: bodies that bend beside the first.
+    /// Further organs: bodies that bend, next to the first.
     pub(super) fn of_organ(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
         for key in ["touchable", "nodule", "self_contact", "self_friction"] {
             keys.refuse(
@@ -226,8 +226,8 @@ impl SoftNeighbour {
     fn of_tissue(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
         let anchor = keys.table("anchor")?;
         let anchor = anchor.map(|keys| Region::from_keys(&keys)).transpose()?;
-        let is_held = anchor.as_ref().is_some_and(|region| !region.is_empty());
-        if keys.contains("mesh") && !is_held {
+        let is_fixed = anchor.as_ref().is_some_and(|region| !region.is_empty());
+        if keys.contains("mesh") && !is_fixed {
             return Err(keys.missing(
                 "anchor",
                 "fixed regions, with `planes`, `boxes` or `spheres`, for a body that bends has to be held somewhere",
@@ -247,7 +247,7 @@ impl SoftNeighbour {
     }
 }
 
-/// The key that says what a neighbour is made of.
+/// The key of a neighbour's material.
 pub(super) fn tissue_key(keys: &Keys<'_>) -> Option<&'static str> {
     ["tissue", "builtin_tissue"]
         .into_iter()

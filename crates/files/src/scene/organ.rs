@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{Domain, Error, Event, Key, Keys};
 
-/// What an organ means that does not say where it stands.
+/// The default placement of an organ.
 const OF_FURTHER: &str = "as its mesh does; of a further organ alone";
 
 /// The organ that is touched.
@@ -15,12 +15,12 @@ const OF_FURTHER: &str = "as its mesh does; of a further organ alone";
 pub struct Organ {
     /// Its surface.
     pub shape: Shape,
-    /// What it is made of.
+    /// Its material.
     pub tissue: TissueChoice,
-    /// Where it is held; none when the scene does not say.
+    /// Where it is fixed; none when the scene does not state it.
     pub anchor: Option<Region>,
-    /// Where tools may touch it; everywhere when the scene does not say. The hybrid model prepares no more
-    /// than this.
+    /// Where tools may touch it; everywhere when the scene does not state it. The hybrid model prepares no more than
+    /// this.
     pub touchable: Option<Region>,
     /// Its layers from outside to inside; empty for an organ of one tissue.
     pub layers: Vec<Layer>,
@@ -28,26 +28,26 @@ pub struct Organ {
     pub inclusions: Vec<Inclusion>,
     /// Stiff parts in it whose effect is estimated.
     pub estimated_inclusions: Vec<EstimatedInclusion>,
-    /// Whether its parts stay out of one another, with the nonlinear model.
+    /// Whether it has self-contact, with the nonlinear model.
     pub self_contact: bool,
     /// Coulomb's coefficient between them [-].
     pub self_friction: f64,
 }
 
-/// A layer of an organ. A blade opens it where it goes as deep as the layer's lower face, and any tool where the
-/// layer is bare and the normal force exceeds `perforation_force_n`. The hybrid and the nonlinear model feel its tissue; with the
-/// local model the organ answers as `organ.tissue` does. Below the layers is `organ.tissue`.
+/// A layer of an organ. A blade opens it where it cuts as deep as the layer's lower face, and any tool where the
+/// layer is exposed and the normal force exceeds `perforation_force_n`. The hybrid and the nonlinear model include
+/// its tissue; with the local model the organ responds as `organ.tissue`. Below the layers is `organ.tissue`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
     /// Its name, for people.
     pub name: String,
     /// Its thickness [m].
     pub thickness_m: f64,
-    /// What it is made of.
+    /// Its material.
     pub tissue: TissueChoice,
-    /// The normal force on a tool at which it gives way when it is bare [N]; none when it never does.
+    /// The normal force on a tool at which it perforates when it is exposed [N]; none when it never does.
     pub perforation_force_n: Option<f64>,
-    /// The work that a cut through it takes per area of its face [J/m²]; none when `[cutting]` says it.
+    /// The fracture work per area of a cut through it [J/m²]; none when `[cutting]` states it.
     pub toughness_j_per_m2: Option<f64>,
 }
 
@@ -159,7 +159,7 @@ impl Organ {
     }
 }
 
-/// What is not of the tissue of an organ.
+/// Parts of an organ that are not of its tissue.
 pub(super) struct Parts {
     pub(super) layers: Vec<Layer>,
     pub(super) inclusions: Vec<Inclusion>,
@@ -237,7 +237,7 @@ impl Parts {
     }
 }
 
-/// Refuses the cavities of an organ, for a model that has none.
+/// Rejects the cavities of an organ, for a model that has none.
 pub(super) fn refuse_cavities(organ: &Keys<'_>) -> Result<(), Error> {
     for key in ["inclusion", "region"] {
         for part in organ.tables(key)? {
@@ -251,7 +251,7 @@ pub(super) fn refuse_cavities(organ: &Keys<'_>) -> Result<(), Error> {
 }
 
 impl Layer {
-    /// The keys of a layer: name, thickness and tissue, then what a blade meets.
+    /// The keys of a layer: name, thickness and tissue, then those for cutting.
     pub const KEYS: &'static [Key] = &[
         Key::text("name", "What people call it.").optional("\"circular muscle\"", "its number"),
         Key::number("thickness_m", Domain::LENGTH, "Its thickness.").required("0.0008"),

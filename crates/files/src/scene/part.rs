@@ -4,20 +4,20 @@ use super::inclusion::{BALL, CAPSULE, ELLIPSOID, InclusionShape, STIFFNESS_RATIO
 use super::{CavityContent, InclusionPlace, LengthUnit, Shape, TissueChoice};
 use crate::{Domain, Error, Key, Keys};
 
-/// A part of a body that is not of its tissue, as a table `[[region]]` says it.
+/// A part of a body that is not of its tissue, as in a table `[[region]]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyPart {
     /// Its name, for people.
     pub name: String,
-    /// Where it is.
+    /// Its location.
     pub place: PartPlace,
-    /// The key that says where it is.
+    /// The key of its location.
     pub key: &'static str,
-    /// What it is made of.
+    /// Its material.
     pub content: PartContent,
 }
 
-/// What a part of a body is made of.
+/// The material of a part of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PartContent {
     /// A tissue.
@@ -26,7 +26,7 @@ pub enum PartContent {
     Cavity(CavityContent),
 }
 
-/// Where a part of a body is.
+/// The location of a part of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PartPlace {
     /// The next layer from outside, of this thickness [m].
@@ -164,7 +164,7 @@ impl PartContent {
 }
 
 impl PartPlace {
-    /// Every key that says where a part is.
+    /// Every key for the location of a part.
     const SHAPES: [&str; 8] = [
         "layer",
         "ball",

@@ -8,8 +8,8 @@ use crate::error::Place;
 /// The keys whose texts are paths, wherever they stand in a scene.
 const PATHS: [&str; 5] = ["mesh", "surface", "tissue", "expert", "picture"];
 
-/// The text of a scene that means the same in any folder: the paths in it, which begin at `path`, are
-/// absolute. It is kept beside a session, so that the session can be played again.
+/// The text of a scene that means the same in any folder: the paths in it, which are relative to `path`, become
+/// absolute. It is stored with a session, so that the session can be played again.
 ///
 /// # Errors
 /// When the text is no TOML.

@@ -5,14 +5,14 @@ use super::standing_alone::plain;
 use super::{Goal, Neighbour, Tool};
 use crate::{Domain, Error, Key, Keys};
 
-/// What there is to do, and how a performance is judged.
+/// The task, and the criteria for a performance.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Task {
-    /// What it is called.
+    /// Its title.
     pub title: Option<String>,
-    /// What the trainee reads.
+    /// The instructions for the trainee.
     pub instructions: Option<String>,
-    /// How long it may take [s].
+    /// The time limit [s].
     pub time_limit_s: Option<f64>,
     /// The force above which tissue would be harmed [N].
     pub force_limit_n: Option<f64>,
@@ -20,11 +20,11 @@ pub struct Task {
     pub expert: Option<PathBuf>,
     /// A picture for a list of tasks.
     pub picture: Option<PathBuf>,
-    /// When it is done.
+    /// The goal.
     pub goal: Goal,
 }
 
-/// What of a scene its task depends on.
+/// Properties of a scene on which its task depends.
 pub(super) struct TaskScene<'a> {
     /// How many layers the organ has.
     pub(super) layers: usize,
@@ -32,7 +32,7 @@ pub(super) struct TaskScene<'a> {
     pub(super) neighbours: &'a [Neighbour],
 }
 
-/// Where the expert's session is. What the folder of the scene itself holds is, at most, the session that is judged.
+/// The folder of the expert's session. The scene's own folder may only hold the judged session.
 fn expert(keys: &Keys<'_>, folder: &Path) -> Result<Option<PathBuf>, Error> {
     match keys.text("expert")? {
         Some(path) if plain(Path::new(&path)).as_os_str().is_empty() => Err(keys.bad(

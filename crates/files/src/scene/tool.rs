@@ -63,20 +63,20 @@ impl DeviceKind {
     }
 }
 
-/// The end of a tool that touches.
+/// The tip of a tool.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tip {
     /// Its shape.
     pub shape: TipShape,
     /// Its radius, not its diameter [m].
     pub radius_m: f64,
-    /// How it holds the tissue.
+    /// Its contact with the tissue.
     pub contact: TipContact,
-    /// Coulomb's coefficient of a tip that sticks [-], beyond which it slides; none where it never does.
+    /// Coulomb's coefficient of a sticking tip [-], beyond which it slides; none where it never does.
     pub friction: Option<f64>,
 }
 
-/// What a tool looks like, from a file: in the tool's frame, with the tip at the origin and the shaft along +z.
+/// The appearance of a tool, from a file: in the tool's frame, with the tip at the origin and the shaft along +z.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToolMesh {
     /// The file.
@@ -90,22 +90,21 @@ pub struct ToolMesh {
 pub struct Tool {
     /// Its name, which motions and sessions use.
     pub name: String,
-    /// What it can do.
+    /// Its kind.
     pub kind: ToolKind,
-    /// The end that touches.
+    /// The tip.
     pub tip: Tip,
-    /// The point through which its shaft always passes [m]; none for a free tool.
+    /// The fulcrum, through which its shaft always passes [m]; none for a free tool.
     pub trocar_m: Option<[f64; 3]>,
-    /// Friction of its shaft in the trocar [N], which a hand feels along the shaft.
+    /// Friction of its shaft in the trocar [N], along the shaft on the hand.
     pub trocar_friction_n: f64,
-    /// How the abdominal wall resists a shaft that leans away from the organ: force on the hand per way
-    /// of the hand across [N/m].
+    /// Lateral stiffness of the abdominal wall on the shaft: force on the hand over its lateral displacement [N/m].
     pub trocar_stiffness_n_per_m: f64,
     /// Its jaws; none of a probe and a hook.
     pub jaws: Option<Jaws>,
-    /// What it looks like, if not as its kind does.
+    /// Its appearance, if it differs from that of its kind.
     pub mesh: Option<ToolMesh>,
-    /// What moves it.
+    /// The device that moves it.
     pub device: DeviceKind,
 }
 
@@ -151,7 +150,7 @@ pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Vec<Tool>, Err
     }
     let mut tools: Vec<Tool> = Vec::new();
     for keys in &tables {
-        // A tool without a name takes the hand that is free.
+        // A tool without a name is assigned to the free hand.
         let right_is_taken = tools.iter().any(|tool| tool.name == "right");
         let free = if right_is_taken { "left" } else { "right" };
         tools.push(Tool::from_keys(keys, free, folder)?);

@@ -18,19 +18,18 @@ words! {
     }
 }
 
-/// How the scene is looked at. What is not stated, the viewer chooses so that the organ fills the
-/// picture.
+/// The view of the scene. The viewer chooses missing entries so that the organ fills the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
-    /// Where the eye is [m].
+    /// The position of the camera [m].
     pub eye_m: Option<[f64; 3]>,
-    /// What it looks at [m].
+    /// The point at which the camera looks [m].
     pub target_m: Option<[f64; 3]>,
     /// The direction that is up in the picture [-].
     pub up: Option<[f64; 3]>,
     /// The angle from the lower to the upper edge of the picture [rad].
     pub field_of_view_rad: f64,
-    /// How the organ is drawn.
+    /// The rendering of the organ.
     pub shading: Shading,
 }
 

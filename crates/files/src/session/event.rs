@@ -81,17 +81,17 @@ impl Events {
     /// No event.
     pub const NONE: Self = Self { bits: 0 };
 
-    /// Adds an event; one that is there already stays there once.
+    /// Adds an event; a repeated one is stored once.
     pub fn insert(&mut self, event: Event) {
         self.bits |= 1 << event as u32;
     }
 
-    /// Takes an event away.
+    /// Removes an event.
     pub fn remove(&mut self, event: Event) {
         self.bits &= !(1 << event as u32);
     }
 
-    /// Whether an event is there.
+    /// Whether an event is present.
     pub fn contains(self, event: Event) -> bool {
         self.bits & (1 << event as u32) != 0
     }
@@ -104,7 +104,7 @@ impl Events {
             .map(|index| index + 1)
     }
 
-    /// Whether nothing happened.
+    /// Whether there is no event.
     pub fn is_empty(self) -> bool {
         self.bits == 0
     }
@@ -142,7 +142,7 @@ impl FromIterator<Event> for Events {
 impl std::ops::BitOr for Events {
     type Output = Self;
 
-    /// The events of both.
+    /// The union of both.
     fn bitor(self, other: Self) -> Self {
         Self {
             bits: self.bits | other.bits,

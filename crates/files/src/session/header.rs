@@ -3,18 +3,18 @@ use crate::table::header_line;
 use crate::toml_document::{quoted, toml_number};
 use crate::{Domain, Error, Key, Keys};
 
-/// Under which conditions a session was played.
+/// The conditions of a session.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SessionHeader {
     /// The version of the program.
     pub version: String,
-    /// A digest of the scene with all that belongs to it.
+    /// A digest of the scene with all its files.
     pub scene_digest: String,
     /// The model.
     pub model: ModelKind,
     /// The model's period [s].
     pub step_s: f64,
-    /// The seed of whatever was drawn by chance.
+    /// The seed of all random numbers.
     pub seed: u64,
     /// Factor on every force [-].
     pub force_scale: f64,

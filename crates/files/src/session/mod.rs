@@ -1,4 +1,4 @@
-//! What happened: for each tool and step of the model its pose, its force and what it did.
+//! Sessions: for each tool and step of the model its pose, its force and its events.
 
 mod columns;
 mod event;
@@ -18,10 +18,10 @@ use crate::table::{Ended, RowDigest, TableText};
 use crate::whole_file::{MOST_OF_TABLE, read_text};
 use crate::{Error, Incomplete};
 
-/// A session that was played.
+/// A recorded session.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Session {
-    /// Under which conditions.
+    /// Its conditions.
     pub header: SessionHeader,
     /// The names of the tools, in the order of the scene.
     pub tools: Vec<String>,
@@ -83,8 +83,8 @@ impl Session {
         })
     }
 
-    /// A name for what happened: the SHA-256 of the columns and rows as they are written, in hexadecimal digits. It
-    /// is the digest in the end mark of a session that this program wrote.
+    /// A name for its content: the SHA-256 of the columns and rows as they are written, in hexadecimal digits. It is
+    /// the digest in the end mark of a session that this program wrote.
     pub fn digest(&self) -> String {
         let mut digest = RowDigest::default();
         digest.add(match self.has_torques {
@@ -106,7 +106,7 @@ impl Session {
         let mut is_known = vec![true; self.tools.len()];
         self.rows.iter().map(move |row| {
             let known = &mut is_known[row.tool];
-            // What began anew says it once more.
+            // After a restart the session states an unknown direction again.
             *known |= row.events.contains(Event::ShaftKnown);
             *known |= row.events.contains(Event::BeginAnew);
             *known &= !row.events.contains(Event::ShaftUnknown);
@@ -119,7 +119,7 @@ impl Session {
         })
     }
 
-    /// The motion that was played, to be played again.
+    /// The recorded motion, to be played again.
     ///
     /// # Errors
     /// When there is no row, or there are more than two tools.

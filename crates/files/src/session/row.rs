@@ -24,13 +24,13 @@ pub struct SessionRow {
     pub torque_nm: [f64; 3],
     /// Whether the tool touches the organ.
     pub contact: bool,
-    /// How far the tip is below the rest surface [m]; 0 without contact.
+    /// Depth of the tip below the rest surface [m]; 0 without contact.
     pub depth_m: f64,
-    /// What happened.
+    /// The events.
     pub events: Events,
-    /// With how much each of its jaws presses on the tissue that it holds [N]; 0 without.
+    /// The force of each of its jaws on the tissue that it holds [N]; 0 without.
     pub grip_force_n: f64,
-    /// The diameter that the trainee stated for what was found [m].
+    /// The diameter that the trainee stated for the target [m].
     pub stated_diameter_m: Option<f64>,
 }
 
@@ -38,11 +38,11 @@ pub struct SessionRow {
 pub(super) const COLUMNS: &str = "time_s,tool,x_m,y_m,z_m,qx,qy,qz,qw,grip,cut,\
                                   fx_n,fy_n,fz_n,tx_nm,ty_nm,tz_nm,contact,depth_m,event,grip_force_n";
 
-/// The same before there were torques.
+/// The names of the columns in sessions without torques.
 pub(super) const COLUMNS_WITHOUT_TORQUE: &str = "time_s,tool,x_m,y_m,z_m,qx,qy,qz,qw,grip,cut,\
                                                  fx_n,fy_n,fz_n,contact,depth_m,event,grip_force_n";
 
-/// Before the diameter in the column `event`, the only value there.
+/// Precedes the diameter in the column `event`, the only value there.
 pub(super) const STATED_DIAMETER: &str = "stated_diameter_m=";
 
 impl SessionRow {

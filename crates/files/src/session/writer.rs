@@ -5,7 +5,7 @@ use super::{SessionHeader, SessionRow};
 use crate::Error;
 use crate::table::TableWriter;
 
-/// Writes a session while it is played, into the [`unfinished`](crate::unfinished) file beside its own. Only whole
+/// Writes a session while it is played, into an [`unfinished`](crate::unfinished) file next to the target. Only whole
 /// lines go to the disk, at least every 200 rows; the same rows give the same bytes.
 #[derive(Debug)]
 pub struct SessionWriter {
@@ -53,7 +53,7 @@ impl SessionWriter {
         self.table.row(|text| row.print(tool, text))
     }
 
-    /// Brings all rows to the file.
+    /// Writes all rows to the file.
     ///
     /// # Errors
     /// When the operating system refuses.
@@ -61,7 +61,7 @@ impl SessionWriter {
         self.table.flush()
     }
 
-    /// Ends the session with its mark, brings it to the disk and gives it its name.
+    /// Adds the end mark, writes the session to the disk and gives it its name.
     ///
     /// # Errors
     /// When the operating system refuses.
@@ -69,7 +69,7 @@ impl SessionWriter {
         self.finish_after(|| Ok(()))
     }
 
-    /// The same, with `before` done when the session is on the disk and does not have its name yet.
+    /// The same; `before` runs when the session is on the disk and does not have its name yet.
     ///
     /// # Errors
     /// When the operating system refuses, or `before` does.

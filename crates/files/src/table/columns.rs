@@ -17,7 +17,7 @@ impl Column {
         self.unit.convert(value)
     }
 
-    /// What to say of a number of the column [the unit expected] that is unusual; none for a usual one.
+    /// A warning about an unusual number of the column [the unit expected]; none for a usual one.
     pub(crate) fn warning(&self, value: f64, domain: Domain) -> Option<String> {
         let given = match self.unit {
             Match::Exact => value,
@@ -87,7 +87,7 @@ impl TableText<'_> {
         })
     }
 
-    /// The column of a quantity that need not be there.
+    /// The column of an optional quantity.
     pub(crate) fn optional_column(&self, expected: &str) -> Result<Option<Column>, Error> {
         let mut all = self
             .columns()
@@ -111,7 +111,7 @@ impl TableText<'_> {
         }
     }
 
-    /// Checks that no column is nearly one of the `known`: a misspelled one would be passed over.
+    /// Checks that no column is nearly one of the `known`: a misspelled one would be ignored.
     pub(crate) fn refuse_near_misses(&self, known: &[&str]) -> Result<(), Error> {
         for own in self.columns() {
             if known

@@ -17,29 +17,29 @@ use super::header::{comments_above, key_and_value};
 use crate::toml_document::{Value, parse_toml};
 use crate::whole_file::newlines;
 
-/// Why a table may lack rows that its writer meant to be in it.
+/// Why a table may lack rows.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Incomplete {
     /// There is no end mark.
     Unmarked,
-    /// The last line has no end: writing stopped in its middle. It is left out.
+    /// The last line has no line end: writing was interrupted. It is left out.
     CutLine {
         /// Its number, from one.
         line: usize,
     },
-    /// The last line has no end, and its last number may have been cut. It counts all the same.
+    /// The last line has no line end, and its last number may be truncated. It counts all the same.
     OpenLine {
         /// Its number, from one.
         line: usize,
     },
-    /// The end mark is of another number of rows.
+    /// The end mark states another number of rows.
     OtherRows {
         /// The number in the mark.
         marked: u64,
         /// The number of rows that were read.
         found: usize,
     },
-    /// The digest in the end mark is of other rows.
+    /// The digest in the end mark does not match the rows.
     OtherContent,
 }
 
@@ -106,18 +106,18 @@ pub(crate) fn end_mark(text: &str, rows: usize) -> String {
     digest.mark(rows)
 }
 
-/// The whole lines of a table, and what its end says.
+/// The whole lines of a table, and its end mark.
 pub(crate) struct Ended<'t> {
     /// The text without a last line that was cut off.
     pub(crate) whole: &'t str,
     /// The number of that line, from one.
     pub(crate) cut_line: Option<usize>,
     mark: Option<Mark>,
-    /// What stands above the mark.
+    /// The text above the mark.
     above: &'t str,
 }
 
-/// What an end mark says.
+/// The content of an end mark.
 struct Mark {
     rows: u64,
     sha256: Option<String>,
@@ -127,7 +127,7 @@ impl<'t> Ended<'t> {
     pub(crate) fn of(text: &'t str) -> Self {
         let whole = text.rfind('\n').map_or("", |end| &text[..=end]);
         let rest = text[whole.len()..].trim();
-        // A comment has no number that could be cut, and an end mark counts without its line end.
+        // A comment has no number that could be truncated, and an end mark counts without its line end.
         let is_cut = !rest.is_empty() && !rest.starts_with('#');
         let cut_line = is_cut.then(|| 1 + newlines(whole.as_bytes()));
         let whole = if is_cut { whole } else { text };
@@ -141,7 +141,7 @@ impl<'t> Ended<'t> {
         }
     }
 
-    /// Why the table of so many rows may lack some; none where its end mark is theirs.
+    /// Why the table of so many rows may lack some; none where its end mark matches.
     pub(crate) fn incomplete(&self, rows: usize) -> Option<Incomplete> {
         if let Some(line) = self.cut_line {
             return Some(Incomplete::CutLine { line });

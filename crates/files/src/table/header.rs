@@ -8,7 +8,7 @@ use crate::{Error, Key, Keys, units};
 /// Keys that may stand above a table: each is compared with all that are known, and no instrument writes more.
 const MOST_KEYS: usize = 1000;
 
-/// What the comments above a table say.
+/// The comments above a table.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Header {
     entries: Table,
@@ -17,7 +17,7 @@ pub(crate) struct Header {
     pub(crate) extra: Vec<ExtraKey>,
 }
 
-/// A key above a table that means nothing to this version.
+/// An unknown key above a table.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExtraKey {
     /// Its name.
@@ -74,8 +74,8 @@ impl Header {
         Ok(header)
     }
 
-    /// The known keys in the comments above somebody else's table. Whatever else stands there was
-    /// not written for this program.
+    /// The known keys in the comments above a table of another program. Other comments were not written for this
+    /// program.
     pub(crate) fn of_foreign(
         above: &[&str],
         path: &Path,

@@ -23,7 +23,7 @@ pub use writer::unfinished;
 use crate::error::Place;
 use crate::{Error, Key, cell_text};
 
-/// How the fields of a table are written.
+/// The format of a table's fields.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Layout {
     pub(crate) delimiter: u8,

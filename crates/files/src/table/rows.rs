@@ -8,7 +8,7 @@ use crate::error::Place;
 use crate::whole_file::newlines;
 use crate::{Domain, Error, cell_text};
 
-/// The rows of a table, one after the other. Blank lines and comments are passed over.
+/// The rows of a table, one after the other. Blank lines and comments are skipped.
 pub(crate) struct Rows<'t> {
     table: &'t TableText<'t>,
     reader: csv::Reader<&'t [u8]>,
@@ -75,8 +75,8 @@ impl<'t> Rows<'t> {
         }))
     }
 
-    /// Moves the known line number to the record that was read from `byte` on. The reader passes
-    /// over blank lines and comments without saying so; they are counted here.
+    /// Moves the known line number to the record that was read from `byte` on. The reader skips blank lines and
+    /// comments without reporting them; they are counted here.
     fn count_lines_to(&mut self, byte: usize) {
         let text = self.table.below.as_bytes();
         self.line += newlines(&text[self.byte..byte]);
@@ -90,7 +90,7 @@ impl<'t> Rows<'t> {
         }
     }
 
-    /// One field for each column; empty ones behind the last are forgiven.
+    /// One field for each column; additional empty ones at the end are accepted.
     fn check_width(&self) -> Result<(), Error> {
         // The names of the columns are read as a row too, when their number is not known yet.
         let columns = self.table.columns().len();

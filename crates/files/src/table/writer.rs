@@ -10,14 +10,14 @@ use crate::Error;
 /// Rows that may be lost when the program is killed.
 const ROWS_BETWEEN_FLUSHES: usize = 200;
 
-/// Where a table of numbers is while it is written: beside `path`, with the ending `.part`.
+/// The path of an unfinished table: next to `path`, with the ending `.part`.
 pub fn unfinished(path: impl AsRef<Path>) -> PathBuf {
     let mut part = OsString::from(path.as_ref());
     part.push(".part");
     PathBuf::from(part)
 }
 
-/// Writes a table row by row into the [`unfinished`] file beside its own, to the disk at least every 200 rows and
+/// Writes a table row by row into the [`unfinished`] file next to the target, to the disk at least every 200 rows and
 /// only whole lines. Its end mark follows the last row; then it takes its name.
 #[derive(Debug)]
 pub(crate) struct TableWriter {
@@ -64,13 +64,13 @@ impl TableWriter {
         }
     }
 
-    /// Brings all rows to the file.
+    /// Writes all rows to the file.
     pub(crate) fn flush(&mut self) -> Result<(), Error> {
         let written = self.write_waiting();
         written.map_err(|source| Error::write(&self.part, source))
     }
 
-    /// Writes over what stands in the header at a place [byte].
+    /// Overwrites the header at a position [byte].
     pub(crate) fn write_over(&mut self, at: u64, text: &str) -> Result<(), Error> {
         let mut put = || {
             self.file.seek(SeekFrom::Start(at))?;
@@ -82,7 +82,7 @@ impl TableWriter {
             .map_err(|source| Error::write(&self.part, source))
     }
 
-    /// Ends with the mark, brings all to the disk and, after `before`, gives the file its name.
+    /// Adds the end mark, writes all to the disk and, after `before`, gives the file its name.
     pub(crate) fn finish(
         mut self,
         before: impl FnOnce() -> Result<(), Error>,
@@ -98,16 +98,16 @@ impl TableWriter {
 
     fn write_waiting(&mut self) -> io::Result<()> {
         let written = self.file.write_all(self.waiting.as_bytes());
-        // Cleared in any case: half of it may be in the file, and must not come twice.
+        // Cleared in any case: half of it may be in the file, and must not be written twice.
         self.waiting.clear();
         written
     }
 }
 
 impl Drop for TableWriter {
-    /// What ends in an error keeps its rows, without an end mark.
+    /// A table that ends in an error keeps its rows, without an end mark.
     fn drop(&mut self) {
-        // There is nobody left to tell; `finish` is for who wants to know.
+        // An error cannot be reported here; `finish` reports it.
         let _ = self.write_waiting();
     }
 }

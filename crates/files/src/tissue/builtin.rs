@@ -28,8 +28,7 @@ impl BuiltinTissue {
 }
 
 impl Tissue {
-    /// A tissue that comes with the program. Each carries warnings: the published numbers
-    /// contradict one another.
+    /// A tissue that comes with the program. Each has warnings: the published numbers contradict one another.
     pub fn builtin(tissue: BuiltinTissue) -> Self {
         Self::parse(tissue.text(), tissue.word()).expect("a test reads every built-in tissue")
     }

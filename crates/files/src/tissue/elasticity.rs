@@ -18,8 +18,8 @@ pub struct Elasticity {
 }
 
 impl Elasticity {
-    /// A law with its parameters [unit of their keys], in the order of [`super::LawRow::keys`]; none where the law has
-    /// another number of parameters. Whether they are those of a solid is asked where a file is read or written.
+    /// A law with its parameters [unit of their keys], in the order of [`super::LawRow::keys`]; none where the law
+    /// has another number of parameters. Reading or writing a file checks whether they are those of a solid.
     pub fn new(law: LawName, parameters: &[Estimate]) -> Option<Self> {
         let (row, count) = (law.row(), parameters.len());
         let most = row.parameters.len().min(MOST);
@@ -68,7 +68,7 @@ impl Elasticity {
             let words = LawName::WORDS.iter().map(|(word, _)| format!("\"{word}\""));
             keys.missing("law", either(&words.collect::<Vec<_>>()))
         })?;
-        // A parameter of another law is a mistake, not something to pass over.
+        // A parameter of another law is a mistake and must not be ignored.
         let has = |law: LawName, key: &str| law.row().keys().any(|own| own == key);
         let is_of_any = |key: &str| LawName::WORDS.iter().any(|(_, other)| has(*other, key));
         let known = Tissue::KEYS.iter().map(|key| key.name);

@@ -1,5 +1,5 @@
-//! The table of elastic laws: what each is called, which parameters it has and how other packages write it. A new law
-//! joins by a word, a row here, its keys in `Tissue::KEYS` and a constructor in `palpate_mechanics`.
+//! The table of elastic laws: the name and the parameters of each, and how other packages write it. A new law needs a
+//! word, a row here, its keys in `Tissue::KEYS` and a constructor in `palpate_mechanics`.
 
 use std::ops::Bound::{Excluded, Included};
 
@@ -27,7 +27,7 @@ words! {
     }
 }
 
-/// What the program knows of a law beside its stress.
+/// Properties of a law other than its stress.
 #[derive(Debug)]
 pub struct LawRow {
     /// Its name for people.
@@ -36,7 +36,7 @@ pub struct LawRow {
     pub(super) parameters: &'static [Key],
     /// Parameters of a term; a tissue has one term or more, up to all parameters.
     pub(super) term: usize,
-    /// What several parameters must fulfil together.
+    /// A constraint on several parameters.
     pub(super) positive: Option<Positive>,
     /// Abaqus' keyword, its options and its numbers; none where Abaqus has no such law.
     pub(crate) abaqus: Option<fn(&[f64]) -> AbaqusLaw>,
@@ -95,7 +95,7 @@ const FIBRE_EXPONENT: Domain =
 const SIGNED_EXPONENT: Domain =
     Domain::number("an exponent", [Included(-1e4), Included(1e4)]).usually(-100.0, 100.0);
 
-/// What a tissue has that leaves a parameter out.
+/// The default of a missing parameter.
 const OTHER: &str = "another law";
 
 /// The widest domain of the laws that have it.
@@ -320,7 +320,7 @@ pub(super) const HOLZAPFEL_GASSER_OGDEN: LawRow = LawRow {
         let (sin, cos) = p[4].to_radians().sin_cos();
         AbaqusLaw {
             keyword: "*ANISOTROPIC HYPERELASTIC, HOLZAPFEL, LOCAL DIRECTIONS=2".to_owned(),
-            // 2/κ is zero of what keeps its volume.
+            // 2/κ is zero for an incompressible law.
             numbers: vec![p[0], 0.0, p[1], p[2], p[3]],
             fibres: vec![[cos, sin, 0.0], [cos, -sin, 0.0]],
             compressible: false,
@@ -343,7 +343,7 @@ impl LawName {
         matches!(self, Self::HolzapfelGasserOgden)
     }
 
-    /// What the program knows of it.
+    /// Its properties.
     pub fn row(self) -> &'static LawRow {
         match self {
             Self::Linear => &LINEAR,

@@ -1,6 +1,6 @@
 use crate::{Domain, Error, Estimate, Key, Keys};
 
-/// Parameters of models without geometry. They belong to one indenter on one specimen.
+/// Parameters of models without geometry. They apply to one indenter on one specimen.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Lumped {
     /// Two springs and a damper (6.3).
@@ -199,7 +199,7 @@ const fn parameter(name: &'static str, meaning: &'static str) -> Key {
 }
 
 impl NonlinearSprings {
-    /// What the parameters are called, in their order.
+    /// The names of the parameters, in their order.
     pub const NAMES: [&str; 8] = ["k01", "k02", "k11", "k12", "k13", "k21", "k22", "k23"];
 
     const KEYS: &[Key] = &[

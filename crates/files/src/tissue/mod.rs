@@ -1,5 +1,5 @@
-//! What an organ is made of: density, elasticity, relaxation, lumped parameters, each with its
-//! standard error, and where they come from.
+//! The tissue of an organ: density, elasticity, relaxation, lumped parameters, each with its standard error, and
+//! their sources.
 
 mod builtin;
 mod elasticity;
@@ -24,10 +24,10 @@ use crate::{Document, Domain, Error, Estimate, Key, Keys};
 /// Density of soft tissue when a tissue does not state its own [kg/m³].
 pub const DEFAULT_DENSITY_KG_M3: f64 = 1060.0;
 
-/// A tissue. All moduli are instantaneous: `prony` says how they fall with time.
+/// A tissue. All moduli are instantaneous: `prony` describes their relaxation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tissue {
-    /// What it is, for people.
+    /// A description, for people.
     pub name: Option<String>,
     /// Density [kg/m³].
     pub density_kg_m3: Estimate,
@@ -37,10 +37,10 @@ pub struct Tissue {
     pub prony: Vec<PronyTerm>,
     /// Parameters of models without geometry.
     pub lumped: Lumped,
-    /// Where the numbers come from, with warnings.
+    /// The source of the numbers, with warnings.
     pub source: TissueSource,
-    /// Warnings about the numbers of its file, as sentences. Those of a table in another document are
-    /// that document's.
+    /// Warnings about the numbers of its file, as sentences. A table in another document adds its warnings to that
+    /// document.
     pub warnings: Vec<String>,
 }
 
@@ -88,7 +88,7 @@ impl Tissue {
     pub const FILE: &'static [Key] =
         &[Key::table("tissue", Self::KEYS, "What an organ is made of.").required("")];
 
-    /// A tissue with the default density, no relaxation and no history.
+    /// A tissue with the default density, no relaxation and no source.
     pub fn new(elasticity: Elasticity) -> Self {
         Self {
             name: None,

@@ -1,15 +1,15 @@
 use crate::{Error, Key, Keys};
 
-/// Where the numbers of a tissue come from.
+/// The source of a tissue's numbers.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct TissueSource {
     /// The recordings that were fitted.
     pub recordings: Vec<String>,
-    /// How the numbers were found.
+    /// The method.
     pub method: Option<String>,
-    /// The version of the program that found them.
+    /// The version of the program that computed them.
     pub version: Option<String>,
-    /// Warnings, in plain sentences. Whoever uses the tissue passes them on.
+    /// Warnings, in plain sentences. Programs that use the tissue pass them on.
     pub warnings: Vec<String>,
 }
 

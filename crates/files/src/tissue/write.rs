@@ -6,7 +6,7 @@ use crate::toml_document::quoted;
 use crate::{Error, write_whole};
 
 impl Tissue {
-    /// The text of a tissue file: what [`Tissue::parse`] reads back to the same tissue.
+    /// The text of a tissue file, which [`Tissue::parse`] reads back to the same tissue.
     pub fn to_toml(&self) -> String {
         let mut text = "format = 1\n\n[tissue]\n".to_owned();
         if let Some(name) = &self.name {
@@ -40,7 +40,7 @@ impl Tissue {
     /// When a value is one that [`Tissue::read`] refuses, or the operating system refuses.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Error> {
         let text = self.to_toml();
-        // The reader knows what a tissue may hold, so the writer asks it.
+        // The writer checks the text with the reader.
         Self::parse(&text, &path).map_err(Error::of_content)?;
         write_whole(path, text.as_bytes())
     }

@@ -8,7 +8,7 @@ use super::key::Key;
 use super::keys::Warnings;
 use super::value::{Entry, Table, Value, parse};
 
-/// A TOML file in `format = 1`, read but not yet understood.
+/// A TOML file in `format = 1`, parsed but not yet interpreted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Document {
     path: PathBuf,
@@ -42,7 +42,7 @@ impl Document {
         })
     }
 
-    /// Changes the document's values before they are understood.
+    /// Changes the document's values before they are interpreted.
     ///
     /// # Errors
     /// Those of `change`, which gets the document's keys to name places.
@@ -66,8 +66,8 @@ impl Document {
         Ok(keys)
     }
 
-    /// The keys of a document in which one of them decides which others may occur: `known` are those
-    /// of all cases, and [`Keys::only`] checks them once the case is known.
+    /// The keys of a document in which one of them decides which others may occur: `known` are those of all cases,
+    /// and [`Keys::only`] checks them once the case is known.
     pub fn open_keys(&self, known: &'static [Key]) -> Keys<'_> {
         Keys::of_table(
             Place::file(&self.path),

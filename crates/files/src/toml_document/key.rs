@@ -1,26 +1,26 @@
-//! The declaration of a key: the one place that says what it holds. From it come the reader's checks, templates, JSON
-//! Schemas and the reference.
+//! The declaration of a key: the only place that defines its values. The reader's checks, templates, JSON Schemas and
+//! the reference come from it.
 
 use crate::Domain;
 
 /// A key of a document.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Key {
-    /// Its name, which ends in the unit of what it holds.
+    /// Its name, which ends in the unit of its value.
     pub name: &'static str,
-    /// What it holds.
+    /// The type of its value.
     pub holds: Holds,
-    /// What that is, as sentences.
+    /// Its meaning, as sentences.
     pub meaning: &'static str,
-    /// What a document means that leaves it out.
+    /// Its default.
     pub omitted: Omitted,
-    /// A value for a template, as TOML writes it; empty for a table, which has its own keys.
+    /// An example for a template, as TOML writes it; empty for a table, which has its own keys.
     pub example: &'static str,
-    /// Whether a template has it, rather than naming it in a comment.
+    /// Whether a template sets it, rather than naming it in a comment.
     pub in_template: bool,
 }
 
-/// What a key holds.
+/// The type of a key's value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Holds {
     /// A number [unit of the key].
@@ -67,16 +67,16 @@ pub enum Holds {
     Other(&'static str),
 }
 
-/// What a document means that leaves a key out.
+/// The default of a key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Omitted {
-    /// It is refused.
+    /// None: the document is refused.
     Refused,
-    /// It is refused unless another key is there, which is named.
+    /// None unless another key is there, which is named.
     RefusedWithout(&'static str),
     /// The value of [`Key::example`].
     Example,
-    /// What the words say.
+    /// Described in words.
     Means(&'static str),
 }
 
@@ -208,17 +208,17 @@ impl Key {
         Self::new(name, Holds::NumberOrDraw(domain), meaning)
     }
 
-    /// What the words `holds` say.
+    /// A value described by the words `holds`.
     pub const fn other(name: &'static str, holds: &'static str, meaning: &'static str) -> Self {
         Self::new(name, Holds::Other(holds), meaning)
     }
 
-    /// The same, which has to be there; such as `example`.
+    /// The same, but required; with an `example`.
     pub const fn required(self, example: &'static str) -> Self {
         Self { example, ..self }
     }
 
-    /// The same, which has to be there unless `other` is; such as `example`.
+    /// The same, but required unless `other` is there; with an `example`.
     pub const fn required_without(self, other: &'static str, example: &'static str) -> Self {
         Self {
             example,
@@ -227,7 +227,7 @@ impl Key {
         }
     }
 
-    /// The same, which is `value` where it is left out.
+    /// The same, with the default `value`.
     pub const fn default(self, value: &'static str) -> Self {
         Self {
             example: value,
@@ -237,7 +237,7 @@ impl Key {
         }
     }
 
-    /// The same, such as `example`; a document that leaves it out means what `meaning` says.
+    /// The same, with an `example`; `meaning` describes the default.
     pub const fn optional(self, example: &'static str, meaning: &'static str) -> Self {
         Self {
             example,
@@ -255,7 +255,7 @@ impl Key {
         }
     }
 
-    /// The same, which a template has.
+    /// The same, set in a template.
     pub const fn in_template(self) -> Self {
         Self {
             in_template: true,

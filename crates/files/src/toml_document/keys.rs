@@ -9,7 +9,7 @@ use crate::words::nearest;
 use super::key::{Key, names};
 use super::value::{Entry, Table, Value};
 
-/// The keys of one table of a document, being understood.
+/// The keys of one table of a document, with access to their values.
 ///
 /// A key that ends in a unit is found under the same name in another unit too, and converted.
 #[derive(Debug, Clone)]
@@ -31,7 +31,7 @@ pub(crate) struct Found<'d> {
     pub(crate) warnings: &'d Warnings,
 }
 
-/// Warnings about a document, gathered while it is being understood.
+/// Warnings about a document, collected while it is read.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Warnings(RefCell<Vec<String>>);
 
@@ -39,7 +39,7 @@ impl Warnings {
     /// Adds a sentence, unless it is there.
     pub(crate) fn add(&self, sentence: String) {
         let mut all = self.0.borrow_mut();
-        // A key may be asked for twice.
+        // A key may be read twice.
         if !all.contains(&sentence) {
             all.push(sentence);
         }
@@ -236,7 +236,7 @@ impl<'d> Keys<'d> {
         }
     }
 
-    /// The error for a key that must be there and is not.
+    /// The error for a missing required key.
     pub fn missing(&self, key: &str, expected: impl Into<Cow<'static, str>>) -> Error {
         Error::MissingKey {
             place: self.place.clone(),
@@ -245,7 +245,7 @@ impl<'d> Keys<'d> {
         }
     }
 
-    /// The error for a key that is there with a value that cannot be used.
+    /// The error for a key with an invalid value.
     pub fn bad(&self, key: &'static str, expected: impl Into<Cow<'static, str>>) -> Error {
         match self.find(key) {
             Ok(Some(found)) => found.bad(expected),
@@ -254,7 +254,7 @@ impl<'d> Keys<'d> {
         }
     }
 
-    /// Checks that a key is not there; `expected` says what to give instead, and why.
+    /// Checks that a key is not there; `expected` states the remedy and the reason.
     ///
     /// # Errors
     /// When it is there.

@@ -1,5 +1,5 @@
-//! TOML documents: every key is declared once ([`Key`]) and read with its line number: every value knows its line and every key its tables, so that
-//! an error can name both.
+//! TOML documents: every key is declared once ([`Key`]). Every value has its line number and every key its tables, so
+//! that an error can name both.
 
 mod document;
 mod key;

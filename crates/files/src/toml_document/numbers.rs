@@ -19,7 +19,7 @@ impl Keys<'_> {
             .transpose()
     }
 
-    /// A number that must be there [unit of `key`].
+    /// A required number [unit of `key`].
     ///
     /// # Errors
     /// When it is missing, no number or outside its `domain`.
@@ -56,7 +56,7 @@ impl Keys<'_> {
         each.collect::<Result<_, _>>().map(Some)
     }
 
-    /// Three numbers that must be there [unit of `key`].
+    /// Three required numbers [unit of `key`].
     ///
     /// # Errors
     /// When they are missing, the value is anything else or a number is outside its `domain`.
@@ -91,7 +91,7 @@ impl Keys<'_> {
             .transpose()
     }
 
-    /// A list of numbers that must be there [unit of `key`].
+    /// A required list of numbers [unit of `key`].
     ///
     /// # Errors
     /// When it is missing, the value is anything else or a number is outside its domain.
@@ -113,7 +113,7 @@ impl Keys<'_> {
         self.integer_within(key, least..=most)
     }
 
-    /// A whole number in a range that other keys decide.
+    /// A whole number in a range that depends on other keys.
     ///
     /// # Errors
     /// When the value is anything else.

@@ -7,7 +7,7 @@ use toml::de::{DeTable, DeValue};
 use crate::Error;
 use crate::error::Place;
 
-/// A TOML value that remembers how it was written.
+/// A TOML value with its original digits.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Value {
     Text(String),
@@ -54,7 +54,7 @@ pub(crate) fn parse(text: &str, path: &Path, first_line: usize) -> Result<Table,
     let lines = Lines::new(text, first_line);
     let document = DeTable::parse(text).map_err(|error| Error::Syntax {
         place: Place::line(path, lines.at(error.span().map_or(0, |span| span.start))),
-        // The reader's sentences may run over several lines; ours is one.
+        // The reader's sentences may have several lines; ours have one.
         message: error.message().replace('\n', " "),
     })?;
     table(document.get_ref(), &lines, path)

@@ -155,7 +155,7 @@ impl<'d> Keys<'d> {
         Ok(Some(keys))
     }
 
-    /// A table whose keys are names of somebody's choice.
+    /// A table whose keys are free names.
     ///
     /// # Errors
     /// When the value is no table.
@@ -166,10 +166,10 @@ impl<'d> Keys<'d> {
         })
     }
 
-    /// A list, each of whose values is understood.
+    /// A list, each of whose values is interpreted.
     ///
     /// # Errors
-    /// When the value is no list, or one of its values is not understood.
+    /// When the value is no list, or one of its values is invalid.
     pub(crate) fn values_of<T>(
         &self,
         key: &'static str,
@@ -192,7 +192,7 @@ impl<'d> Keys<'d> {
         let Some(found) = self.find(key)? else {
             return Ok(Vec::new());
         };
-        // What may be one table or several is a list of one here.
+        // A table in place of a list is a list of one here.
         if let (Holds::TableOrTables(_), Value::Table(_)) = (self.declared(key).holds, found.value)
         {
             return Ok(self.table_of(key, known)?.into_iter().collect());

@@ -10,13 +10,13 @@ use crate::{TriangleId, TriangleMesh, Vec3};
 pub struct Nearest {
     /// The triangle it lies on; the lowest number when several are equally near.
     pub triangle: TriangleId,
-    /// Where on the triangle.
+    /// The point on the triangle.
     pub on: PointOnTriangle,
     /// Distance [m], not signed.
     pub distance: f64,
 }
 
-/// Where a ray meets a mesh.
+/// Intersection of a ray with a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
     /// The triangle that is met.
@@ -25,10 +25,11 @@ pub struct Hit {
     pub distance: f64,
 }
 
-/// Farther out [m] squares of distances do not tell an organ's points apart, and the nearest one could be behind it.
+/// Farther out [m] squares of distances do not distinguish an organ's points, and the nearest one could be behind
+/// it.
 const FAR: f64 = 1e6;
 
-/// What lies farther out is as good as there.
+/// Clamps points that lie farther out.
 fn within_reach(point: &Vec3) -> Vec3 {
     point.map(|number| number.clamp(-FAR, FAR))
 }

@@ -1,4 +1,4 @@
-//! What is wrong with a mesh, and how to repair it.
+//! Problems of a mesh, and how to repair it.
 
 mod contact;
 pub(crate) mod problem;
@@ -16,7 +16,7 @@ use self::thickness::is_double_wall;
 use self::topology::Topology;
 use crate::{Adjacency, TriangleMesh, is_plausible_extent};
 
-/// What [`inspect`] found.
+/// The findings of [`inspect`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeshReport {
     /// Vertices, used or not.
@@ -47,7 +47,7 @@ pub struct MeshReport {
     pub low_m: [f64; 3],
     /// Its largest coordinates [m].
     pub high_m: [f64; 3],
-    /// What is wrong, with the remedy; nothing when the mesh bounds a solid of even triangles.
+    /// Problems, with the remedy; none when the mesh bounds a solid of even triangles.
     pub problems: Vec<MeshProblem>,
 }
 

@@ -7,7 +7,7 @@ pub struct MeshProblem {
     pub kind: ProblemKind,
     /// How many edges, vertices, triangles or pieces have it.
     pub count: usize,
-    /// What to do about it, as a sentence.
+    /// The remedy, as a sentence.
     #[serde(rename = "mend")]
     pub remedy: &'static str,
 }

@@ -1,10 +1,10 @@
-/// Thinner than this part of the size, the inside of a shell is no solid [-].
+/// Thinner than this part of the size, the inside of a closed surface is no solid [-].
 const RELATIVE: f64 = 0.004;
 
 /// Thinner than this, it is a capsule rather than the wall of a hollow organ [m].
 const LARGEST_WALL_M: f64 = 0.0015;
 
-/// Whether a closed shell of this volume [m³] and area [m²] is a sheet with two sides, close
+/// Whether a closed surface of this volume [m³] and area [m²] is a sheet with two sides, close
 /// together, rather than a solid: its mean thickness 2 V / A is both a small part of its size and
 /// below the wall of any hollow organ.
 pub(super) fn is_double_wall(volume_m3: f64, area_m2: f64) -> bool {

@@ -1,7 +1,7 @@
 use crate::mesh::edges::{Side, by_edge, sides};
 use crate::{Adjacency, NodeId, TriangleMesh};
 
-/// What the numbers of a mesh say, whatever its coordinates.
+/// The connectivity of a mesh, whatever its coordinates.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Topology {
     /// Edges with one triangle.

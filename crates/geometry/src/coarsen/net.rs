@@ -1,4 +1,4 @@
-//! Tetrahedra that change, and how they hang together.
+//! Tetrahedra under edge collapse, and their connectivity.
 
 use super::planes;
 use crate::simplify::Quadric;
@@ -9,18 +9,18 @@ pub(super) struct Net {
     pub(super) vertices: Vec<Vec3>,
     /// Of the boundary around each vertex.
     pub(super) quadrics: Vec<Quadric>,
-    /// Area that each quadric stands for [m²].
+    /// Area of each quadric [m²].
     pub(super) areas: Vec<f64>,
     pub(super) is_boundary: Vec<bool>,
     pub(super) tetrahedra: Vec<[u32; 4]>,
-    /// The tetrahedra around each vertex; none around one that is gone.
+    /// The tetrahedra around each vertex; none around a removed one.
     pub(super) around: Vec<Vec<u32>>,
     /// How often a vertex has changed.
     pub(super) versions: Vec<u32>,
     pub(super) left: Left,
 }
 
-/// Numbers of what is left.
+/// Counts of the remaining mesh.
 pub(super) struct Left {
     pub(super) vertices: usize,
     pub(super) boundary: usize,
@@ -117,7 +117,7 @@ impl Net {
             .collect()
     }
 
-    /// Whether the collapse of `edge` keeps the body what it is.
+    /// Whether the collapse of `edge` preserves the topology of the body.
     pub(super) fn keeps_topology(&self, [a, b]: [u32; 2]) -> bool {
         let (link_a, link_b) = (self.link(a), self.link(b));
         // With a vertex outside that is joined to all of the boundary.
@@ -225,7 +225,7 @@ fn sorted<T: Ord>(mut list: Vec<T>) -> Vec<T> {
     list
 }
 
-/// What stands in both of two ascending lists.
+/// Common entries of two ascending lists.
 fn common<T: Ord + Copy>(a: &[T], b: &[T]) -> Vec<T> {
     let both = a.iter().filter(|one| b.binary_search(one).is_ok());
     both.copied().collect()

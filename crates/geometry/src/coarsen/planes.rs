@@ -1,5 +1,5 @@
-//! The planes that each vertex of a boundary stands for: those of the surface that was filled, since a filling cuts off its
-//! sharp edges.
+//! The planes that each vertex of a boundary represents: those of the filled surface, since a filling cuts off its sharp
+//! edges.
 
 use crate::deviation::for_each_middle;
 use crate::simplify::Quadric;
@@ -11,7 +11,7 @@ const PART: f64 = 0.4;
 /// Rows of parts of a triangle of the surface at most [-].
 const MOST_ROWS: f64 = 64.0;
 
-/// The quadric of each vertex of a mesh, zero inside, and the area that it stands for [m²].
+/// The quadric of each vertex of a mesh, zero inside, and the area that it represents [m²].
 pub(super) fn of_surface(mesh: &TetrahedronMesh, surface: &TriangleMesh) -> Vec<(Quadric, f64)> {
     let mut all = vec![(Quadric::zero(), 0.0); mesh.vertices().len()];
     let faces = mesh.boundary();

@@ -10,12 +10,12 @@ const LEAST_LEAD: f64 = 3.0;
 /// A blade that turns by more than this within a triangle gets a vertex where it turns [rad].
 const TURN: f64 = 0.35;
 
-/// A cut that is under way.
+/// A cut in progress.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CutPath {
     pub(super) blade: Blade,
-    /// Where the last vertex came from, when the edge between the two waits to be opened.
-    pub(super) held: Option<NodeId>,
+    /// The vertex before the last one, while the edge between the two is not yet opened.
+    pub(super) pending: Option<NodeId>,
     pub(super) opened: usize,
     pub(super) before: Mark,
 }
@@ -24,12 +24,12 @@ impl CutPath {
     /// Triangles from the end of the opening to the blade, which is always in one around the last
     /// vertex.
     pub(super) fn lag(&self) -> usize {
-        usize::from(self.blade.inside.is_some()) + usize::from(self.held.is_some())
+        usize::from(self.blade.inside.is_some()) + usize::from(self.pending.is_some())
     }
 }
 
 impl CutSurface {
-    /// The vertex with which a cut begins, and the blade at it or beside.
+    /// The first vertex of a cut, and the blade at it or near it.
     pub(super) fn first_vertex(
         &mut self,
         surface: &Surface,
@@ -65,7 +65,7 @@ impl CutSurface {
         blade
     }
 
-    /// Moves the blade over the next edge on its way. Whether the way goes on.
+    /// Moves the blade over the next edge of its path. Returns whether the path continues.
     pub(super) fn pass(&mut self, surface: &Surface, cut_path: &mut CutPath, to: &Vec3) -> bool {
         let blade = &mut cut_path.blade;
         let Some(crossing) = blade.crossing(&self.net, to) else {
@@ -87,7 +87,7 @@ impl CutSurface {
             blade.rest(&self.net, &crossing.at);
             return true;
         }
-        let Some(next) = self.next_vertex(surface, cut_path.held, &crossing, to) else {
+        let Some(next) = self.next_vertex(surface, cut_path.pending, &crossing, to) else {
             cut_path.blade.rest(&self.net, &crossing.at);
             return false;
         };
@@ -99,7 +99,7 @@ impl CutSurface {
     fn next_vertex(
         &mut self,
         surface: &Surface,
-        held: Option<NodeId>,
+        pending: Option<NodeId>,
         crossing: &Crossing,
         to: &Vec3,
     ) -> Option<Corner> {
@@ -113,7 +113,7 @@ impl CutSurface {
         let net = &mut self.net;
         let made = match self.method {
             CutMethod::SnapVertices => ends.into_iter().find(|&end| {
-                let free = net.openings_at(end) == 0 && held != Some(net.node_at(end));
+                let free = net.openings_at(end) == 0 && pending != Some(net.node_at(end));
                 free && snap::snap(net, surface, end, &crossing.at)
             }),
             CutMethod::SplitTriangles => {
@@ -188,8 +188,8 @@ impl CutSurface {
     }
 
     /// Opens the edge from the last vertex to the next, which is a corner of the same triangle, and
-    /// puts the blade there. The first edge of a slit waits for the second: opened alone it would
-    /// leave both sides with the same two vertices.
+    /// puts the blade there. The first edge of a slit stays pending until the second: opened alone
+    /// it would leave both sides with the same two vertices.
     fn extend(&mut self, cut_path: &mut CutPath, next: Corner) {
         let front = cut_path.blade.front;
         cut_path.blade = Blade {
@@ -202,14 +202,14 @@ impl CutSurface {
             (next.place, Side::Right)
         };
         let (from, to) = (self.net.node_at(front), self.net.node_at(next));
-        let returns = cut_path.held == Some(to);
+        let returns = cut_path.pending == Some(to);
         if returns {
-            cut_path.held = Some(from);
+            cut_path.pending = Some(from);
         }
         if returns || self.net.facet(front.triangle).open[edge].is_some() {
             return;
         }
-        if let Some(start) = cut_path.held.take() {
+        if let Some(start) = cut_path.pending.take() {
             let spoke = self.net.around(front).find(|corner| {
                 self.net.mesh.corners(corner.triangle)[(corner.place + 1) % 3] == start
             });
@@ -219,7 +219,7 @@ impl CutSurface {
             }
         }
         if self.net.openings_at(front) == 0 && self.net.openings_at(next) == 0 {
-            cut_path.held = Some(from);
+            cut_path.pending = Some(from);
             return;
         }
         self.net.open(front.triangle, edge, side);

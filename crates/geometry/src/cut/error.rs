@@ -7,7 +7,7 @@ pub enum CutError {
     /// A coordinate of the blade is NaN or infinite.
     #[error("the blade is at {at:?}, which is no place; give finite coordinates in metres")]
     NotFinite {
-        /// Where it was said to be [m].
+        /// The position given [m].
         at: [f64; 3],
     },
     /// The blade was to begin where there is no surface.
@@ -31,7 +31,7 @@ pub enum CutError {
     /// A blade was moved or lifted that does not cut.
     #[error("no cut is under way; begin one before the blade moves on")]
     NotBegun,
-    /// A cut was begun or undone while another was under way.
+    /// A cut was begun or undone while another was in progress.
     #[error("a cut is under way; end it first")]
     UnderWay,
 }

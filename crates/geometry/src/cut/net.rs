@@ -19,7 +19,7 @@ impl Side {
     }
 }
 
-/// The place of a vertex on the surface that was there before any cut.
+/// The place of a vertex on the uncut surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Origin {
     /// A triangle of that surface.
@@ -28,19 +28,19 @@ pub struct Origin {
     pub barycentric: [f64; 3],
 }
 
-/// What is known of a vertex beside its position.
+/// Data of a vertex apart from its position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Node {
     pub(super) origin: Origin,
-    /// Where an opening pulls it: a unit vector, or zero where nothing opens [-].
+    /// Direction in which an opening pulls it: a unit vector, or zero where nothing opens [-].
     pub(super) opening: Vec3,
     pub(super) side: Option<Side>,
 }
 
-/// What is known of a triangle beside its corners.
+/// Data of a triangle apart from its corners.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Facet {
-    /// Who lies across each edge, whether the edge is open or not.
+    /// The triangle across each edge, whether the edge is open or not.
     pub(super) across: [TriangleId; 3],
     /// On which side of an opening this triangle lies, at each edge.
     pub(super) open: [Option<Side>; 3],
@@ -56,14 +56,14 @@ pub(super) struct Corner {
     pub(super) place: usize,
 }
 
-/// What was there before a change.
+/// The state before a change.
 #[derive(Debug, Clone, Copy)]
-enum Earlier {
+enum UndoEntry {
     Triangle(TriangleId, [NodeId; 3], Facet),
     Node(NodeId, Vec3, Node),
 }
 
-/// How much there was when a cut began.
+/// Counts at the beginning of a cut.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Mark {
     changes: usize,
@@ -71,14 +71,14 @@ pub(super) struct Mark {
     triangles: usize,
 }
 
-/// The mesh, its neighbours and what was changed. All changes go through `set_triangle` and
-/// `set_node`, so that all can be taken back.
+/// The mesh, its neighbours and an undo log. All changes go through `set_triangle` and `set_node`,
+/// so that all can be undone.
 #[derive(Debug, Clone)]
 pub(super) struct Net {
     pub(super) mesh: TriangleMesh,
     pub(super) facets: Vec<Facet>,
     pub(super) nodes: Vec<Node>,
-    earlier: Vec<Earlier>,
+    undo_log: Vec<UndoEntry>,
 }
 
 impl Net {
@@ -113,7 +113,7 @@ impl Net {
         mesh.reserve(more_nodes, more_facets);
         Self {
             // A new triangle changes itself and its neighbours, some of them twice.
-            earlier: Vec::with_capacity(8 * more_facets),
+            undo_log: Vec::with_capacity(8 * more_facets),
             facets,
             nodes,
             mesh,
@@ -133,8 +133,8 @@ impl Net {
     }
 
     pub(super) fn set_triangle(&mut self, id: TriangleId, corners: [NodeId; 3], facet: Facet) {
-        let before = Earlier::Triangle(id, self.mesh.corners(id), *self.facet(id));
-        self.earlier.push(before);
+        let before = UndoEntry::Triangle(id, self.mesh.corners(id), *self.facet(id));
+        self.undo_log.push(before);
         self.mesh.replace_corners(id, corners);
         self.facets[id.index()] = facet;
     }
@@ -142,7 +142,7 @@ impl Net {
     pub(super) fn set_node(&mut self, id: NodeId, position: Vec3, node: Node) {
         let (place, before) = (self.mesh.vertices()[id.index()], self.nodes[id.index()]);
         if place != position || before != node {
-            self.earlier.push(Earlier::Node(id, place, before));
+            self.undo_log.push(UndoEntry::Node(id, place, before));
             self.mesh.move_vertex(id, position);
             self.nodes[id.index()] = node;
         }
@@ -160,7 +160,7 @@ impl Net {
 
     pub(super) fn mark(&self) -> Mark {
         Mark {
-            changes: self.earlier.len(),
+            changes: self.undo_log.len(),
             nodes: self.nodes.len(),
             triangles: self.facets.len(),
         }
@@ -168,13 +168,13 @@ impl Net {
 
     /// Makes everything as it was at `mark`.
     pub(super) fn go_back(&mut self, mark: Mark) {
-        while self.earlier.len() > mark.changes {
-            match self.earlier.pop() {
-                Some(Earlier::Triangle(id, corners, facet)) => {
+        while self.undo_log.len() > mark.changes {
+            match self.undo_log.pop() {
+                Some(UndoEntry::Triangle(id, corners, facet)) => {
                     self.mesh.replace_corners(id, corners);
                     self.facets[id.index()] = facet;
                 }
-                Some(Earlier::Node(id, position, node)) => {
+                Some(UndoEntry::Node(id, position, node)) => {
                     self.mesh.move_vertex(id, position);
                     self.nodes[id.index()] = node;
                 }

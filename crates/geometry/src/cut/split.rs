@@ -101,7 +101,7 @@ fn halve(net: &mut Net, id: TriangleId, edge: usize, middle: NodeId) -> Triangle
     second
 }
 
-/// Tells a triangle that a neighbour has another number.
+/// Updates a triangle when a neighbour changes its number.
 fn introduce(net: &mut Net, triangle: TriangleId, old: TriangleId, new: TriangleId) {
     let mut facet = *net.facet(triangle);
     facet.across[net.edge_towards(triangle, old)] = new;

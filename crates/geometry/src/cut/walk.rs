@@ -2,8 +2,8 @@ use super::net::{Corner, Net};
 use crate::proximity::{PointOnTriangle, closest_on_triangle};
 use crate::{Surface, TriangleId, Vec3};
 
-/// A blade inside a triangle keeps this weight of each corner at least [-], so that its way out is
-/// never in warning.
+/// A blade inside a triangle keeps this weight of each corner at least [-], so that the edge where
+/// it leaves is always well defined.
 const INSIDE: f64 = 1e-6;
 
 /// A blade and the last vertex of its cut. While the blade is inside a triangle, that is one of those
@@ -11,11 +11,11 @@ const INSIDE: f64 = 1e-6;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Blade {
     pub(super) front: Corner,
-    /// Where it is [m]; at `front` when none.
+    /// Its position [m]; at `front` when none.
     pub(super) inside: Option<Vec3>,
 }
 
-/// Where a blade leaves a triangle on its way.
+/// The point where the path of a blade leaves a triangle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Crossing {
     /// The last vertex of the cut, from the triangle that is left.
@@ -84,7 +84,7 @@ impl Blade {
         })
     }
 
-    /// Puts the blade at `place` [m] inside the triangle of its front.
+    /// Moves the blade to `place` [m] inside the triangle of its front.
     pub(super) fn rest(&mut self, net: &Net, place: &Vec3) {
         let corners = net.mesh.positions(self.front.triangle);
         let weights = closest_on_triangle(&corners, place).barycentric;

@@ -1,4 +1,4 @@
-//! Tetrahedra that cover a body, and what its surface does to them.
+//! Tetrahedra that cover a body, and their cuts by its surface.
 
 use crate::{AabbTree, Surface, Vec3};
 
@@ -15,22 +15,22 @@ pub(super) trait Background {
 
     fn place(&self, number: u32) -> Place;
 
-    /// Where a point is now [m].
+    /// Current position of a point [m].
     fn position(&self, number: u32) -> Vec3;
 
-    /// Where the edge between these points is cut [m], and the number of the cut.
+    /// The cut of the edge between these points [m], and its number.
     fn cut(&self, inside: u32, outside: u32) -> Option<(u32, Vec3)>;
 
     /// Whether the quadrilateral that the face p, q, n keeps (n being outside) is cut from p to the cut
-    /// of q, rather than from q to the cut of p. Both tetrahedra at the face must be told the same, and the three
-    /// faces at a point outside must not follow each other around.
+    /// of q, rather than from q to the cut of p. The answer must be the same for both tetrahedra at the face, and
+    /// must not be cyclic over the three faces at a point outside.
     fn diagonal_from_first(&self, p: u32, q: u32, n: u32) -> bool;
 
-    /// Shows all tetrahedra.
+    /// Visits all tetrahedra.
     fn visit(&self, see: &mut dyn FnMut([u32; 4]));
 }
 
-/// Where a point lies.
+/// The place of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
     Inside,
@@ -65,8 +65,8 @@ pub(super) fn find_cut(cuts: &[Cut], inside: u32, outside: u32) -> Option<(u32, 
     Some((found as u32, cuts[found].position))
 }
 
-/// Where the way from inside to outside leaves the body first. A ray may slip through a gap of
-/// rounding; then halving finds a change of sign.
+/// The first point where a segment from inside to outside leaves the body. A ray may slip through a
+/// gap of rounding; then halving finds a change of sign.
 pub(super) fn crossing(surface: &Surface, tree: &AabbTree, from: Vec3, to: Vec3) -> Vec3 {
     let way = to - from;
     let length = way.norm();

@@ -12,7 +12,7 @@ pub struct Fidelity {
 }
 
 impl Fidelity {
-    /// A volume that is off by more than this part deserves a warning [-]: a tenth of what the force of an organ may be off.
+    /// A relative error of the volume above this gives a warning [-]: a tenth of the allowed error of an organ's force.
     pub const VOLUME: f64 = 0.005;
 
     /// That of the `filling` of a `surface`.

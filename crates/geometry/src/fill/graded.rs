@@ -8,8 +8,8 @@ use crate::{AabbTree, NodeId, Surface, TetrahedronError, Vec3, refine_to};
 /// Part of an edge: a cut nearer to its end than that moves the end.
 const ALPHA: f64 = 0.3;
 
-/// Part of its volume that a tetrahedron keeps when an end moves [-].
-const KEPT: f64 = 0.2;
+/// Least part of its volume that a tetrahedron retains when an end moves [-].
+const LEAST_VOLUME: f64 = 0.2;
 
 /// Bisected tetrahedra, points moved onto the surface, and cuts.
 pub(super) struct GradedLattice {
@@ -21,7 +21,7 @@ pub(super) struct GradedLattice {
 }
 
 impl GradedLattice {
-    /// Of cells of this `edge` [m], with edges no longer than `longest_edge` says [m].
+    /// Of cells of this `edge` [m], with edges no longer than `longest_edge` [m].
     pub(super) fn new(
         surface: &Surface,
         tree: &AabbTree,
@@ -94,7 +94,7 @@ impl GradedLattice {
             if before
                 .iter()
                 .zip(&after)
-                .all(|(before, after)| *after > KEPT * before)
+                .all(|(before, after)| *after > LEAST_VOLUME * before)
             {
                 self.places[point] = Place::On;
             } else {

@@ -82,7 +82,7 @@ impl Lattice {
         TetrahedronMesh::new(vertices, tetrahedra)
     }
 
-    /// That covers a surface, of which it knows nothing yet.
+    /// That covers a surface, before any cut.
     fn around(surface: &Surface, edge: f64) -> Self {
         let (low, high) = surface.mesh().bounds();
         // A cell to spare on each side: the outermost points are outside.

@@ -1,8 +1,8 @@
 use crate::mesh::tetrahedra::{faces, matched, pieces, six_fold_volume};
 use crate::{NodeId, Vec3};
 
-/// The largest piece whose boundary is manifold, and the volume of what was taken away [m³]. Each round
-/// takes something away, so that there is a last one; two are usual where any are needed.
+/// The largest piece whose boundary is manifold, and the volume removed [m³]. Each round removes
+/// tetrahedra, so that the loop ends; two rounds are usual where any are needed.
 pub(super) fn largest_component(
     vertices: &[Vec3],
     mut tetrahedra: Vec<[NodeId; 4]>,

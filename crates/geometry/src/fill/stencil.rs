@@ -1,8 +1,8 @@
-//! What a tetrahedron of the background keeps inside, cut into tetrahedra
+//! The inside part of a tetrahedron of the background, cut into tetrahedra
 //! [Labelle and Shewchuk 2007].
 //!
 //! Two neighbours share a face, and where the face keeps a quadrilateral both must cut it along the
-//! same diagonal. It is chosen by what the face alone knows (`diagonal_from_first`).
+//! same diagonal. The choice depends on the face alone (`diagonal_from_first`).
 
 use super::background::{Background, Place};
 use crate::mesh::tetrahedra::six_fold_volume;

@@ -10,7 +10,7 @@ use crate::{LengthUnit, MeshError, MeshFormat, TetrahedronError};
 pub struct ReadError {
     /// The file.
     pub path: PathBuf,
-    /// What is wrong with it.
+    /// The fault.
     #[source]
     pub fault: ReadFault,
 }
@@ -22,7 +22,7 @@ impl ReadError {
     }
 }
 
-/// What is wrong with a mesh file. Each message says what was found, what was expected and the remedy.
+/// Faults of a mesh file. Each message states what was found, what was expected and the remedy.
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error)]
 pub enum ReadFault {
@@ -51,10 +51,10 @@ pub enum ReadFault {
     /// The system gives no more memory.
     #[error("there is no memory for {bytes} bytes; close other programs, or give a smaller file")]
     NoMemory {
-        /// What was asked for [bytes].
+        /// Memory requested [bytes].
         bytes: u64,
     },
-    /// The name does not tell the format.
+    /// The format is not clear from the name.
     #[error(
         "the extension `{found}` is not one of .stl, .obj, .ply, .gltf, .glb; convert the mesh, or rename the file"
     )]
@@ -62,7 +62,7 @@ pub enum ReadFault {
         /// The extension, or nothing.
         found: String,
     },
-    /// The name tells another format than the content.
+    /// The name gives another format than the content.
     #[error(
         "the extension says {expected}, but the content is {found}; give the file its proper extension"
     )]
@@ -89,7 +89,7 @@ pub enum ReadFault {
         "{what} needs at least {expected} bytes, but {found} were found; the file is cut short, copy or export it again"
     )]
     Truncated {
-        /// What is cut short.
+        /// The truncated part.
         what: &'static str,
         /// Bytes that are needed at least.
         expected: u64,
@@ -103,10 +103,10 @@ pub enum ReadFault {
     EndsEarly {
         /// The last line, from one.
         line: usize,
-        /// What should follow.
+        /// The expected text.
         expected: &'static str,
     },
-    /// Something else than the format asks for.
+    /// Something else than the format requires.
     #[error(
         "line {line}: found `{found}` where {expected} was expected; fix the line or export the mesh again"
     )]
@@ -166,7 +166,7 @@ pub enum ReadFault {
     /// A header without the parts that make a mesh.
     #[error("the header has no {expected}; export the mesh again with vertices and faces")]
     MissingPart {
-        /// What a mesh needs.
+        /// The requirement of a mesh.
         expected: &'static str,
     },
     /// Something that the standard allows and that is not read here.
@@ -199,7 +199,7 @@ pub enum ReadFault {
         /// The same taken as millimetres, to four digits [m].
         in_millimetres: f64,
     },
-    /// The name does not tell a format that holds volumes.
+    /// The name gives no format that holds volumes.
     #[error(
         "the extension `{found}` is not one of .msh, .vtk, .vtu; save the tetrahedra as one of these"
     )]
@@ -250,7 +250,7 @@ pub enum ReadFault {
     /// Nothing but points, lines or triangles.
     #[error("the file holds no tetrahedra; export the volume, not only its surface")]
     NoTetrahedra,
-    /// The name does not tell a format that meshes are written in.
+    /// The name gives no format that meshes are written in.
     #[error(
         "the extension `{found}` is not one of .stl, .obj, .ply, .vtp; give the file one of these"
     )]
@@ -258,7 +258,7 @@ pub enum ReadFault {
         /// The extension, or nothing.
         found: String,
     },
-    /// The name does not tell a format that holds label maps.
+    /// The name gives no format that holds label maps.
     #[error(
         "the extension `{found}` is not one of .nii, .nii.gz, .nrrd, and this is no DICOM file; save the label map as one of these"
     )]
@@ -266,7 +266,7 @@ pub enum ReadFault {
         /// The extension, or nothing.
         found: String,
     },
-    /// A header of a picture that says something else than it must.
+    /// An image header with an invalid value.
     #[error(
         "the header's {what} is {found} where {expected} was expected; save the label map again"
     )]

@@ -18,7 +18,7 @@ pub enum MeshFormat {
 }
 
 impl MeshFormat {
-    /// The format of a file by its extension, held against its first bytes.
+    /// The format of a file by its extension, checked against its first bytes.
     ///
     /// # Errors
     /// When the extension is not known, or the content is plainly of another format.
@@ -34,7 +34,7 @@ impl MeshFormat {
                 return Err(ReadFault::UnknownExtension { found });
             }
         };
-        // The free header of a binary STL may begin like anything, but its length tells.
+        // The free header of a binary STL may begin like anything, but its length decides.
         if expected == Self::Stl && stl::has_binary_length(bytes) {
             return Ok(expected);
         }

@@ -1,5 +1,6 @@
-//! STL, binary and text. Written here rather than taken from a crate because a cut file must be
-//! told from a whole one by its length, and because names are missing or odd in files in the wild.
+//! STL, binary and text. Written here rather than taken from a crate because a truncated file must
+//! be distinguished from a whole one by its length, and because names are missing or odd in files
+//! in the wild.
 
 use super::raw::RawMesh;
 use super::text::{lines, number, unexpected};
@@ -54,7 +55,7 @@ fn read_binary(bytes: &[u8]) -> Result<RawMesh, ReadFault> {
     }
     let mut mesh = RawMesh::default();
     for record in bytes[HEADER_BYTES..].chunks_exact(TRIANGLE_BYTES) {
-        // The normal comes first and is not used: the order of the corners says the same.
+        // The normal comes first and is not used: the order of the corners gives the same.
         let coordinate = |k: usize| {
             let at = 12 + 4 * k;
             let four = [record[at], record[at + 1], record[at + 2], record[at + 3]];

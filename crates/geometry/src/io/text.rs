@@ -25,10 +25,11 @@ pub(crate) fn unexpected(line: usize, found: &str, expected: &'static str) -> Re
     }
 }
 
-/// What an error quotes of a file at most [characters]: a damaged file may have megabytes on one line.
+/// Longest quotation of a file in an error [characters]: a damaged file may have megabytes on one
+/// line.
 const LONGEST_QUOTATION: usize = 200;
 
-/// A text as an error quotes it: one that is longer than 200 characters is cut there, and its length told.
+/// A text as an error quotes it: one longer than 200 characters is cut there, with its length.
 pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
     match text.char_indices().nth(LONGEST_QUOTATION) {
         None => Cow::Borrowed(text),

@@ -78,7 +78,7 @@ pub fn extent_warning(extent_m: f64) -> Option<String> {
     })
 }
 
-/// The unit of a file that does not say it, for a mesh of this largest extent [file unit]: metres
+/// The unit of a file that does not state it, for a mesh of this largest extent [file unit]: metres
 /// when that is plausible. Millimetres are never guessed, since a wrong guess changes every force.
 ///
 /// # Errors

@@ -13,11 +13,11 @@ use crate::{NodeId, Vec3};
 pub struct PointField<'a> {
     /// As it is to appear in ParaView.
     pub name: &'a str,
-    /// One value for each, in any unit; the name should say it.
+    /// One value for each, in any unit, which the name should state.
     pub values: FieldValues<'a>,
 }
 
-/// What a field has at each vertex.
+/// The values of a field at each vertex.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FieldValues<'a> {
     /// A number.

@@ -90,7 +90,7 @@ impl Block {
         pieces - 1
     }
 
-    /// Fills what is shut in. Returns how many voxels that were.
+    /// Fills enclosed voids. Returns the number of their voxels.
     pub(super) fn fill_hollows(&mut self) -> usize {
         let before = self.count();
         let mut outside = self.none();

@@ -20,7 +20,7 @@ type Edge = (usize, usize);
 /// The surface between the voxels inside and those outside, through the middles between them.
 ///
 /// Marching cubes whose loops are traced rather than looked up: on a face with two inside corners
-/// across, these are kept apart, in both cells alike. So every edge of the surface has two
+/// across, these are separated, in both cells alike. So every edge of the surface has two
 /// triangles; and a vertex, which belongs to one edge of the grid, one fan.
 ///
 /// None when it has more than so many triangles.

@@ -1,6 +1,6 @@
 use crate::{NodeId, TriangleId, TriangleMesh};
 
-/// The neighbour tables of a mesh: who shares an edge and who shares a vertex (figure 4-4).
+/// The neighbour tables of a mesh: triangles that share an edge or a vertex (figure 4-4).
 ///
 /// Edge `k` of a triangle runs from corner `k` to corner `(k + 1) % 3`.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,4 +1,4 @@
-/// What is wrong with a mesh that was asked for.
+/// Errors in the construction of a mesh.
 #[non_exhaustive]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MeshError {

@@ -1,4 +1,4 @@
-//! Tetrahedra over shared vertices: what a finite element solver works on.
+//! Tetrahedra over shared vertices, for finite element solvers.
 //!
 //! A tetrahedron a, b, c, d is positive when (b − a) · (c − a) × (d − a) > 0: seen from d, its first
 //! three corners run counter-clockwise. Faces are numbered by the corner that they leave out.

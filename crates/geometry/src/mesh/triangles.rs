@@ -158,8 +158,8 @@ impl TriangleMesh {
         (low, high)
     }
 
-    /// Moves one vertex to `position` [m]: how an organ deforms. Trees over the mesh are refitted by
-    /// whoever holds them.
+    /// Moves one vertex to `position` [m], to deform an organ. The caller refits trees over the
+    /// mesh.
     ///
     /// # Panics
     /// When the position is not finite.
@@ -185,7 +185,7 @@ impl TriangleMesh {
         self.triangles.reserve(triangles);
     }
 
-    /// Adds a vertex at a finite `position` [m], for whoever then adds its triangles.
+    /// Adds a vertex at a finite `position` [m]; the caller then adds its triangles.
     pub(crate) fn push_vertex(&mut self, position: Vec3) -> NodeId {
         self.vertices.push(position);
         NodeId(self.vertices.len() as u32 - 1)
@@ -202,7 +202,7 @@ impl TriangleMesh {
         self.triangles[triangle.index()] = corners;
     }
 
-    /// Takes back what was added beyond these numbers.
+    /// Removes vertices and triangles beyond these numbers.
     pub(crate) fn truncate(&mut self, vertices: usize, triangles: usize) {
         self.vertices.truncate(vertices);
         self.triangles.truncate(triangles);

@@ -1,6 +1,6 @@
 use crate::Vec3;
 
-/// A plane that holds everything on the side that its normal points away from.
+/// A plane that fixes the part of an organ on the side that its normal points away from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AnchorPlane {
     /// A point on the plane [m].
@@ -10,7 +10,7 @@ pub struct AnchorPlane {
 }
 
 impl AnchorPlane {
-    /// Whether a triangle with this `centroid` [m] is held.
+    /// Whether a triangle with this `centroid` [m] is fixed.
     pub fn holds(&self, centroid: &Vec3) -> bool {
         (centroid - self.point).dot(&self.normal) < 0.0
     }

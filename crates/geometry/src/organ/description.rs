@@ -2,18 +2,18 @@ use std::fmt;
 
 use crate::Vec3;
 
-/// What a user has to know to place tools at a built-in organ. Displayed as a few lines of text.
+/// Description of a built-in organ, for placing tools. Displayed as a few lines of text.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OrganDescription {
-    /// What it is, in one sentence.
+    /// Summary in one sentence.
     pub summary: &'static str,
-    /// Where x, y and z point.
+    /// Directions of x, y and z.
     pub axes: &'static str,
-    /// Where the origin lies.
+    /// Position of the origin.
     pub origin: &'static str,
     /// Its lengths, in words and numbers.
     pub lengths: &'static str,
-    /// What holds it by default.
+    /// The part fixed by default.
     pub held: &'static str,
     /// Size along x, y and z of a fine mesh [m].
     pub extent: Vec3,

@@ -22,8 +22,8 @@ const BACK: f64 = 48.0;
 const TYPICAL: f64 = 57.0;
 const RIM_WEIGHT: f64 = 0.02;
 
-/// How much of a side is held, from here outward [m].
-const HELD: f64 = 0.050;
+/// Each side is fixed from here outward [m].
+const FIXED_FROM: f64 = 0.050;
 
 pub(super) fn description() -> OrganDescription {
     OrganDescription {
@@ -43,7 +43,7 @@ pub(super) fn anchor() -> Vec<AnchorPlane> {
     [1.0, -1.0]
         .into_iter()
         .map(|side| AnchorPlane {
-            point: Vec3::new(side * HELD, 0.0, 0.0),
+            point: Vec3::new(side * FIXED_FROM, 0.0, 0.0),
             normal: -side * Vec3::x(),
         })
         .collect()

@@ -14,9 +14,9 @@ pub enum OrganError {
     /// The number of triangles is out of range.
     #[error("the {organ} cannot be made of {triangles} triangles; ask for {least} to {most}")]
     TriangleCount {
-        /// The organ that was asked for.
+        /// The requested organ.
         organ: Organ,
-        /// The number that was asked for.
+        /// The requested number.
         triangles: usize,
         /// The smallest possible number.
         least: usize,

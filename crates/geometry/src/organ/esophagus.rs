@@ -18,7 +18,7 @@ const BEND_RADIUS: f64 = 0.17;
 /// What the wall widens by at an end, and over which length that fades.
 const HIATUS_FLARE: (f64, f64) = (0.001, 0.006);
 const CARDIA_FLARE: (f64, f64) = (0.004, 0.008);
-/// How much of each end is held.
+/// Length of each end that is fixed.
 const HELD_LENGTH: f64 = 0.004;
 
 /// Rows per radian of turn, against rows per radius of length: keeps the rims round.

@@ -79,7 +79,7 @@ impl Organ {
         }
     }
 
-    /// Its axes, origin, lengths and what holds it.
+    /// Its axes, origin, lengths and fixed part.
     pub fn description(self) -> OrganDescription {
         match self {
             Self::Esophagus => esophagus::description(),
@@ -94,7 +94,7 @@ impl Organ {
         }
     }
 
-    /// Number of triangles when none is asked for: enough to look smooth, few enough to be quick.
+    /// Default number of triangles: enough to look smooth, few enough to be quick.
     pub fn default_triangles(self) -> usize {
         match self {
             Self::Esophagus => 3_726,
@@ -151,8 +151,7 @@ impl Organ {
     /// The largest number of triangles that is made; beyond it no model here could use the mesh.
     pub const MOST_TRIANGLES: usize = 2_000_000;
 
-    /// What holds it when a scene does not say: a triangle is held when its centroid lies behind
-    /// any of these planes.
+    /// Its default anchor: a triangle is fixed when its centroid lies behind any of these planes.
     pub fn anchor(self) -> Vec<AnchorPlane> {
         match self {
             Self::Esophagus => esophagus::anchor(),

@@ -5,7 +5,7 @@ use crate::{NodeId, TetrahedronError, TetrahedronMesh, Vec3};
 
 pub(super) type Edge = [u32; 2];
 
-/// A tetrahedron that knows how it and its descendants are to be bisected.
+/// A tetrahedron with the edges at which it and its descendants are bisected.
 #[derive(Debug, Clone, Copy)]
 struct Marked {
     nodes: [u32; 4],
@@ -20,7 +20,7 @@ struct Marked {
     region: u32,
 }
 
-/// Tetrahedra under bisection. A child takes the place of its parent, the other comes last.
+/// Tetrahedra under bisection. One child replaces its parent, the other is appended.
 pub(super) struct Bisection {
     pub(super) vertices: Vec<Vec3>,
     tetrahedra: Vec<Marked>,
@@ -28,7 +28,7 @@ pub(super) struct Bisection {
     pub(super) around: Vec<Vec<u32>>,
     /// The vertex in the middle of an edge that was cut. Never walked over.
     middles: HashMap<Edge, u32>,
-    /// Vertices made on the boundary since they were last asked for, each with the ends of its edge.
+    /// Boundary vertices made since the last query, each with the ends of its edge.
     pub(super) new_on_boundary: Vec<(u32, Edge)>,
     pending: Vec<u32>,
 }

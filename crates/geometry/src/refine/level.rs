@@ -25,7 +25,7 @@ pub struct Level<'a> {
     pub boundary_only: bool,
 }
 
-/// What became of the edges that crossed a level.
+/// Result for the edges that crossed a level.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Resolved {
     /// Vertices that moved onto it.
@@ -38,11 +38,12 @@ pub struct Resolved {
     pub below: Vec<bool>,
 }
 
-/// Makes vertices lie on each of the `levels`, one after the other, so that no edge passes from one side to the other. What
-/// lies on one side is then a set of whole tetrahedra, or of whole triangles of the boundary. Vertices of the boundary stay
-/// on `surface`, if it is given, and vertices on a level stay on it.
+/// Makes vertices lie on each of the `levels`, one after the other, so that no edge passes from one side to the other. Each
+/// side is then a set of whole tetrahedra, or of whole triangles of the boundary. Vertices of the boundary stay on
+/// `surface`, if it is given, and vertices on a level stay on it.
 ///
-/// An edge that crosses gives its nearer end, when no tetrahedron suffers; else it is cut in two.
+/// The nearer end of a crossing edge moves to the level, unless a tetrahedron gets worse; else the
+/// edge is cut in two.
 ///
 /// # Errors
 /// When there come more tetrahedra than [`TetrahedronMesh::MOST_TETRAHEDRA`].
@@ -51,12 +52,12 @@ pub fn resolve_levels(
     surface: Option<&Surface>,
     levels: &[Level<'_>],
 ) -> Result<(TetrahedronMesh, Vec<Resolved>), TetrahedronError> {
-    let shell = surface.map(SearchedSurface::new);
+    let searched = surface.map(SearchedSurface::new);
     let mut mesh = mesh;
     let mut pinned = mesh.between_regions();
     let mut resolved: Vec<Resolved> = Vec::new();
     for level in levels {
-        let mut resolving = Resolving::new(mesh, shell.as_ref(), level, pinned);
+        let mut resolving = Resolving::new(mesh, searched.as_ref(), level, pinned);
         let done = resolving.resolve(&mut resolved);
         resolved.push(done);
         (mesh, pinned) = resolving.into_mesh()?;
@@ -70,7 +71,7 @@ struct Resolving<'a> {
     /// Edges of the boundary, in ascending order, and the normals of its triangles around each vertex.
     boundary: Vec<[NodeId; 2]>,
     normals: Vec<Vec<Vec3>>,
-    shell: Option<&'a SearchedSurface<'a>>,
+    searched: Option<&'a SearchedSurface<'a>>,
     level: &'a Level<'a>,
     /// Heights of the vertices over the level [m]; exactly zero on it.
     heights: Vec<f64>,
@@ -90,7 +91,7 @@ struct Move {
 impl<'a> Resolving<'a> {
     fn new(
         mesh: TetrahedronMesh,
-        shell: Option<&'a SearchedSurface<'a>>,
+        searched: Option<&'a SearchedSurface<'a>>,
         level: &'a Level<'a>,
         pinned: Vec<bool>,
     ) -> Self {
@@ -126,7 +127,7 @@ impl<'a> Resolving<'a> {
             regions,
             boundary,
             normals,
-            shell,
+            searched,
             level,
             pinned,
         };
@@ -158,7 +159,7 @@ impl<'a> Resolving<'a> {
         Ok((mesh.with_regions(self.regions)?, pinned))
     }
 
-    /// What became of the edges; the sides of `before`, the levels before this one, follow the cuts.
+    /// Result for the edges; the sides of `before`, the levels before this one, follow the cuts.
     fn resolve(&mut self, before: &mut [Resolved]) -> Resolved {
         let mut edges = match self.level.boundary_only {
             true => self.boundary.clone(),
@@ -235,10 +236,10 @@ impl<'a> Resolving<'a> {
             return false;
         }
         let [a, b] = edge.map(|node| self.net.vertices[node.index()]);
-        if let Some(shell) = self.shell {
+        if let Some(searched) = self.searched {
             let other = if edge[0] == node { b } else { a };
             let [own, others] =
-                [&self.net.vertices[node.index()], &other].map(|at| shell.facets_at(at));
+                [&self.net.vertices[node.index()], &other].map(|at| searched.facets_at(at));
             return own.len() < 2 || (own.len() == 2 && common(&own, &others) == own);
         }
         let along = (b - a).normalize();
@@ -291,9 +292,9 @@ impl<'a> Resolving<'a> {
     /// Where an edge crosses the level; on the surface, if both of its ends are. Nothing where that is not found, such as
     /// where surface and level are nearly parallel.
     fn crossing(&self, edge: [NodeId; 2]) -> Option<Vec3> {
-        let shell = self.shell.filter(|_| self.is_on_boundary(edge));
+        let searched = self.searched.filter(|_| self.is_on_boundary(edge));
         let [a, b] = edge.map(|node| self.net.vertices[node.index()]);
-        let onto = shell.map(|shell| shell.under_chord([&a, &b]));
+        let onto = searched.map(|searched| searched.under_chord([&a, &b]));
         let at = |part: f64| {
             let chord = a + part * (b - a);
             onto.as_ref().map_or(chord, |onto| onto(&chord))

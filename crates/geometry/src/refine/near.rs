@@ -13,13 +13,13 @@ const MOST_ROUNDS: usize = 100;
 /// Times that vertices inside are moved.
 const MOST_RELAXED: usize = 2;
 
-/// Bisects tetrahedra until none has an edge longer than what `longest_edge` [m] says at any of its
-/// corners [m] or at their centroid. Away from there they grow by themselves. New vertices of the boundary move onto
-/// `surface`, if it is given; without one the boundary keeps its shape. Regions keep their shapes.
+/// Bisects tetrahedra until none has an edge longer than `longest_edge` [m] at any of its corners [m] or at their
+/// centroid. Away from there they grow. New vertices of the boundary move onto `surface`, if it is given; without
+/// one the boundary keeps its shape. Regions keep their shapes.
 ///
 /// # Errors
 /// When there come more tetrahedra than [`TetrahedronMesh::MOST_TETRAHEDRA`], or the edge is not
-/// reached, as when the edge that is asked for somewhere is no positive length.
+/// reached, as when the requested edge is no positive length somewhere.
 pub fn refine_to(
     mesh: &TetrahedronMesh,
     surface: Option<&Surface>,
@@ -32,7 +32,7 @@ pub fn refine_to(
         longest > longest_edge.at(&centroid)
             || positions.iter().any(|p| longest > longest_edge.at(p))
     };
-    let shell = surface.map(SearchedSurface::new);
+    let searched = surface.map(SearchedSurface::new);
     let mut bisection = Bisection::new(mesh);
     let mut off_surface = Vec::new();
     let (mut rounds, mut relaxed) = (0, 0);
@@ -45,7 +45,7 @@ pub fn refine_to(
             if relaxed == MOST_RELAXED {
                 break;
             }
-            relax(&mut bisection, shell.as_ref());
+            relax(&mut bisection, searched.as_ref());
             relaxed += 1;
             continue;
         }
@@ -66,18 +66,18 @@ pub fn refine_to(
                 most: TetrahedronMesh::MOST_TETRAHEDRA,
             });
         }
-        if let Some(shell) = &shell {
+        if let Some(searched) = &searched {
             off_surface.append(&mut bisection.new_on_boundary);
-            off_surface.retain(|&(node, edge)| !pull(&mut bisection, shell, node, edge));
+            off_surface.retain(|&(node, edge)| !pull(&mut bisection, searched, node, edge));
         }
     }
     bisection.into_mesh()
 }
 
-/// Moves a vertex that halves an edge onto the surface. Whether it is there.
-fn pull(bisection: &mut Bisection, shell: &SearchedSurface<'_>, node: u32, edge: Edge) -> bool {
+/// Moves a vertex that halves an edge onto the surface. Returns whether it is there.
+fn pull(bisection: &mut Bisection, searched: &SearchedSurface<'_>, node: u32, edge: Edge) -> bool {
     let [a, b] = edge.map(|end| &bisection.vertices[end as usize]);
-    let target = shell.under_chord([a, b])(&bisection.vertices[node as usize]);
+    let target = searched.under_chord([a, b])(&bisection.vertices[node as usize]);
     let star: Vec<[u32; 4]> = bisection.around[node as usize]
         .iter()
         .map(|&t| bisection.nodes(t))

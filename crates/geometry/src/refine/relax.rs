@@ -1,14 +1,14 @@
-//! Vertices move where that opens the flattest tetrahedra; those of the boundary along the surface.
+//! Vertices move to improve the flattest tetrahedra; those of the boundary move along the surface.
 //!
-//! Bisection halves angles; a short search around each vertex of a flat tetrahedron wins most of
-//! that back. Small, plain and the same on every run: fixed directions, and a move is kept only when
+//! Bisection halves angles; a short search around each vertex of a flat tetrahedron recovers most of
+//! that. The result is the same on every run: directions are fixed, and a move is accepted only when
 //! the worst angle around the vertex grows.
 
 use super::bisection::Bisection;
 use super::shell::{SearchedSurface, dihedral_quality};
 use crate::Vec3;
 
-/// Tetrahedra less open than this are worked on [rad].
+/// Tetrahedra with a lower quality than this are improved [rad].
 pub(crate) const FLAT: f64 = 0.25;
 
 /// Sweeps over all flat tetrahedra.
@@ -17,8 +17,8 @@ pub(crate) const SWEEPS: usize = 6;
 /// Steps of the search, as parts of the shortest edge at the vertex [-].
 const STEPS: [f64; 4] = [0.3, 0.15, 0.07, 0.03];
 
-/// Without a shell the boundary stays.
-pub(super) fn relax(bisection: &mut Bisection, shell: Option<&SearchedSurface<'_>>) {
+/// Without a surface the boundary stays.
+pub(super) fn relax(bisection: &mut Bisection, searched: Option<&SearchedSurface<'_>>) {
     let on_boundary = bisection.on_boundary();
     // A vertex between regions would change their shapes.
     let between = bisection.between_regions();
@@ -26,15 +26,15 @@ pub(super) fn relax(bisection: &mut Bisection, shell: Option<&SearchedSurface<'_
         let mut nodes: Vec<u32> = (0..bisection.len() as u32)
             .filter(|&t| dihedral_quality(&bisection.positions(t)) < FLAT)
             .flat_map(|t| bisection.nodes(t))
-            .filter(|&node| shell.is_some() || !on_boundary[node as usize])
+            .filter(|&node| searched.is_some() || !on_boundary[node as usize])
             .filter(|&node| !between[node as usize])
             .collect();
         nodes.sort_unstable();
         nodes.dedup();
         let mut any = false;
         for node in nodes {
-            let shell = shell.filter(|_| on_boundary[node as usize]);
-            any |= open(bisection, node, shell);
+            let searched = searched.filter(|_| on_boundary[node as usize]);
+            any |= open(bisection, node, searched);
         }
         if !any {
             break;
@@ -42,20 +42,20 @@ pub(super) fn relax(bisection: &mut Bisection, shell: Option<&SearchedSurface<'_
     }
 }
 
-/// Moves one vertex to a better place nearby. Whether there was one.
-fn open(bisection: &mut Bisection, node: u32, shell: Option<&SearchedSurface<'_>>) -> bool {
+/// Moves one vertex to a better place nearby. Returns whether there was one.
+fn open(bisection: &mut Bisection, node: u32, searched: Option<&SearchedSurface<'_>>) -> bool {
     let star: Vec<[u32; 4]> = bisection.around[node as usize]
         .iter()
         .map(|&t| bisection.nodes(t))
         .collect();
     let start = bisection.vertices[node as usize];
     open_around(&mut bisection.vertices, node, &star, |target| {
-        shell.map_or(target, |shell| shell.slide(&start, &target))
+        searched.map_or(target, |searched| searched.slide(&start, &target))
     })
 }
 
-/// Moves `node` to where the flattest of the tetrahedra around it, `star`, is more open, on what `onto` takes a place to; whether
-/// there was such a place.
+/// Moves `node` to improve the flattest of the tetrahedra around it, `star`; `onto` projects candidate places. Returns whether
+/// there was a better one.
 pub(crate) fn open_around(
     vertices: &mut [Vec3],
     node: u32,

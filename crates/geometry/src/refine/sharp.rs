@@ -11,20 +11,20 @@ const ROUNDS: [(f64, f64); 3] = [(0.6, MOVED_FLOOR), (1.0, MOVED_FLOOR), (1.0, C
 
 /// Makes tetrahedra that fill `surface`, with their boundary vertices on it, follow its sharp edges, which a filling cuts off: corners
 /// get a vertex, and where an edge of the boundary crosses a sharp edge, an end of it moves there, or it gets a new vertex.
-/// Where a flat tetrahedron would come, the edge stays as it is. The regions of tetrahedra are left out. Where the surface has no sharp
+/// Where a flat tetrahedron would result, the edge stays as it is. Regions of tetrahedra are dropped. Where the surface has no sharp
 /// edges, the mesh stays as it is.
 ///
 /// # Errors
-/// When what comes is no mesh, which does not happen to a sound one.
+/// When the result is no mesh, which does not happen to a valid one.
 pub fn follow_sharp_edges(
     mesh: TetrahedronMesh,
     surface: &Surface,
 ) -> Result<TetrahedronMesh, TetrahedronError> {
-    let shell = SearchedSurface::new(surface);
-    let Some(facets) = &shell.facets else {
+    let searched = SearchedSurface::new(surface);
+    let Some(facets) = &searched.facets else {
         return Ok(mesh);
     };
-    let mut following = Following::new(mesh, &shell, facets);
+    let mut following = Following::new(mesh, &searched, facets);
     following.snap_corners();
     let mut edges = following.edges.clone();
     edges.retain(|edge| following.crosses(*edge));
@@ -36,7 +36,7 @@ pub fn follow_sharp_edges(
 }
 
 struct Following<'a> {
-    shell: &'a SearchedSurface<'a>,
+    searched: &'a SearchedSurface<'a>,
     facets: &'a Facets<'a>,
     net: SplitNet,
     /// Edges of the boundary.
@@ -55,7 +55,11 @@ struct Move {
 }
 
 impl<'a> Following<'a> {
-    fn new(mesh: TetrahedronMesh, shell: &'a SearchedSurface<'a>, facets: &'a Facets<'a>) -> Self {
+    fn new(
+        mesh: TetrahedronMesh,
+        searched: &'a SearchedSurface<'a>,
+        facets: &'a Facets<'a>,
+    ) -> Self {
         let boundary = mesh.boundary();
         let triangles: Vec<_> = boundary.iter().map(|(corners, _)| *corners).collect();
         let mut edges: Vec<[u32; 2]> = by_edge(&sides(&triangles))
@@ -69,12 +73,12 @@ impl<'a> Following<'a> {
         }
         let on = vertices.iter().zip(&on_boundary);
         let on = on.map(|(place, on_boundary)| match on_boundary {
-            true => shell.facets_at(place),
+            true => searched.facets_at(place),
             false => On::new(),
         });
         let tetrahedra = tetrahedra.iter().map(|corners| corners.map(|node| node.0));
         Self {
-            shell,
+            searched,
             facets,
             on: on.collect(),
             net: SplitNet::new(vertices, tetrahedra.collect()),
@@ -95,7 +99,7 @@ impl<'a> Following<'a> {
         let star = star.iter().copied();
         let moves = move_if_sound(&mut self.net.vertices, star, node, target, floor);
         if moves {
-            self.on[node as usize] = self.shell.facets_at(&target);
+            self.on[node as usize] = self.searched.facets_at(&target);
         }
         moves
     }
@@ -188,7 +192,7 @@ impl<'a> Following<'a> {
             .split_if_sound(edge, crossings, CUT_FLOOR)
             .is_some();
         if is_cut && let Some(place) = self.net.vertices.last() {
-            self.on.push(self.shell.facets_at(place));
+            self.on.push(self.searched.facets_at(place));
             self.on_boundary.push(true);
         }
         is_cut
@@ -208,9 +212,9 @@ impl<'a> Following<'a> {
             for node in nodes {
                 let star = self.net.star(node);
                 let start = self.net.vertices[node as usize];
-                let shell = self.on_boundary[node as usize].then_some(self.shell);
+                let searched = self.on_boundary[node as usize].then_some(self.searched);
                 any |= open_around(&mut self.net.vertices, node, &star, |target| {
-                    shell.map_or(target, |shell| shell.slide(&start, &target))
+                    searched.map_or(target, |searched| searched.slide(&start, &target))
                 });
             }
             if !any {

@@ -1,4 +1,4 @@
-//! Vertices of the boundary move, and no tetrahedron may suffer.
+//! Moves of boundary vertices that do not make tetrahedra worse.
 
 use super::facets::{Facets, On};
 use crate::mesh::tetrahedra::{dihedral_angles, six_fold_volume};
@@ -52,7 +52,8 @@ impl<'a> SearchedSurface<'a> {
         }
     }
 
-    /// Where a vertex at `start` comes that slides towards `target` [m]: it keeps to its facets.
+    /// New position of a vertex that slides from `start` towards `target` [m] and stays on its
+    /// facets.
     pub(super) fn slide(&self, start: &Vec3, target: &Vec3) -> Vec3 {
         let nearest = self.nearest(target);
         let own = self.facets_at(start);
@@ -63,8 +64,8 @@ impl<'a> SearchedSurface<'a> {
     }
 }
 
-/// How far its angles are from flat: the smallest of all angles between faces and of their
-/// supplements [rad]; negative when it is inverted.
+/// Dihedral quality: the smallest of all angles between faces and of their supplements [rad];
+/// negative when inverted.
 pub(crate) fn dihedral_quality(positions: &[Vec3; 4]) -> f64 {
     if six_fold_volume(positions) <= 0.0 {
         return -1.0;
@@ -75,8 +76,8 @@ pub(crate) fn dihedral_quality(positions: &[Vec3; 4]) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Moves `node` to `target` [m], unless one of the tetrahedra around it would then be less open than
-/// both `floor` [rad] and the worst of them before. Whether it moved.
+/// Moves `node` to `target` [m], unless a tetrahedron around it would then have a lower quality than
+/// both `floor` [rad] and the worst before. Returns whether it moved.
 pub(crate) fn move_if_sound<'a>(
     vertices: &mut [Vec3],
     star: impl Iterator<Item = [u32; 4]> + Clone + 'a,

@@ -63,7 +63,8 @@ impl SplitNet {
         sound.map(|place| self.split(edge, place))
     }
 
-    /// What becomes of a tetrahedron when an edge of it gets the vertex `middle`: the part at the edge's beginning, and that at its end.
+    /// The two halves of a tetrahedron when an edge of it gets the vertex `middle`: the part at the edge's beginning, and that at its
+    /// end.
     pub(crate) fn halves(&self, number: u32, [a, b]: [u32; 2], middle: u32) -> [[u32; 4]; 2] {
         let nodes = self.tetrahedra[number as usize];
         [b, a].map(|old| nodes.map(|node| if node == old { middle } else { node }))

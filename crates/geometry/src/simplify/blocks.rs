@@ -25,14 +25,15 @@ struct Block {
     high: Vec3,
 }
 
-/// What is left of the triangles of a block: their corners, by the numbers of the whole, and where these are [m].
+/// The remaining triangles of a block: their corners, by the numbers of the whole, and the positions of these
+/// [m].
 struct Left {
     triangles: Vec<[NodeId; 3]>,
     vertices: Vec<(NodeId, Vec3)>,
 }
 
-/// `mesh` with several times as many triangles as asked for; none where it is too small for that. `progress` hears the part
-/// of the work that is done [-], and may cancel.
+/// `mesh` with several times as many triangles as asked for; none where it is too small for that. `progress` receives the
+/// fraction of the work done [-], and may cancel.
 pub(super) fn simplify_in_blocks(
     mesh: &TriangleMesh,
     settings: &SimplifySettings,

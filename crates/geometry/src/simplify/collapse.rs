@@ -3,16 +3,16 @@ use std::collections::BinaryHeap;
 use std::ops::ControlFlow;
 
 use super::SimplifySettings;
-use super::guard::{Demands, Fresh, Guard, double_area};
+use super::guard::{Demands, Guard, NewTriangle, double_area};
 use super::net::Net;
 use super::quadric::Quadric;
 use crate::{SHARP_EDGE, Vec3};
 
-/// How much more the planes that stand on borders and sharp edges weigh than the surface [-].
+/// Weight of the planes that stand on borders and sharp edges relative to the surface [-].
 const EDGE_WEIGHT: f64 = 5.0;
 
-/// What is asked of a collapse, and how much dearer the next is that asks less [-]. To pass through
-/// something is the last resort.
+/// Demands on a collapse, and the cost factor of the next, weaker ones [-]. Self-intersection is
+/// the last resort.
 const DEMANDS: [(Demands, f64); 4] = [
     (demands(0.5, 0.7, true), 100.0),
     (demands(0.3, 0.5, true), 100.0),
@@ -29,7 +29,8 @@ const BETWEEN_CALLS: usize = 1000;
 
 /// Collapses edges, cheapest first, until no more triangles are left than asked for or nothing can
 /// go; the sooner the larger the `sizes` at their ends, if there are some. Returns which vertices stand on borders and
-/// sharp edges. `progress` hears the part of the triangles to go that are gone [-], and may cancel.
+/// sharp edges. `progress` receives the fraction of the surplus triangles removed [-], and may
+/// cancel.
 pub(super) fn collapse(
     net: &mut Net,
     settings: &SimplifySettings,
@@ -61,7 +62,7 @@ struct Run<'a> {
     quadrics: Vec<Quadric>,
     /// Area of the original that a vertex stands for [m²].
     areas: Vec<f64>,
-    /// What a cost weighs at a vertex [-]: costs are the fourth powers of lengths.
+    /// Weight of a cost at a vertex [-]: costs are the fourth powers of lengths.
     weights: Vec<f64>,
     /// On a border or a sharp edge.
     on_crease: Vec<bool>,
@@ -72,11 +73,11 @@ struct Run<'a> {
     has_border: bool,
     queue: BinaryHeap<Reverse<Candidate>>,
     evenness: f64,
-    /// What vertices that move stay in: between two corners [m].
+    /// The box that bounds moving vertices, by two corners [m].
     space: Option<[Vec3; 2]>,
 }
 
-/// An edge that may be collapsed. Millions wait at once, so it is small.
+/// An edge that may be collapsed. The queue has millions of them, so it is small.
 #[derive(Debug, Clone, Copy)]
 struct Candidate {
     /// Squared distance over an area, and what unevenness adds [m⁴].
@@ -130,8 +131,8 @@ impl<'a> Run<'a> {
     /// Planes that stand upright on the triangles at borders and sharp edges.
     fn add_creases(&mut self) {
         for [a, b] in self.net.edges() {
-            let beside: Vec<u32> = self.net.at_edge(a, b).collect();
-            let normals = beside.iter().map(|&t| double_area(&self.net.placed(t)));
+            let adjacent: Vec<u32> = self.net.at_edge(a, b).collect();
+            let normals = adjacent.iter().map(|&t| double_area(&self.net.placed(t)));
             let normals: Vec<_> = normals.filter_map(|n| n.try_normalize(0.0)).collect();
             if let [one, other] = normals[..]
                 && one.dot(&other) > SHARP_EDGE
@@ -305,13 +306,13 @@ impl<'a> Run<'a> {
             let corners = self.net.corners(t);
             !(corners.contains(&a) && corners.contains(&b))
         });
-        let new: Vec<Fresh> = left.map(|&t| self.moved(t, edge, position)).collect();
+        let new: Vec<NewTriangle> = left.map(|&t| self.moved(t, edge, position)).collect();
         // The last piece of something that branches must not vanish.
         !new.is_empty() && self.guard.admits(self.net, &old, &new, demands)
     }
 
     /// A triangle at one end of the edge after the collapse.
-    fn moved(&self, triangle: u32, edge: [u32; 2], position: &Vec3) -> Fresh {
+    fn moved(&self, triangle: u32, edge: [u32; 2], position: &Vec3) -> NewTriangle {
         let nodes = self.net.corners(triangle);
         let before = self.net.placed(triangle);
         let is_end = nodes.map(|v| edge.contains(&v));
@@ -321,7 +322,7 @@ impl<'a> Run<'a> {
         let name = |k: usize| {
             if is_end[k] { edge[0] } else { nodes[k] }
         };
-        Fresh {
+        NewTriangle {
             nodes: [0, 1, 2].map(name),
             corners: [0, 1, 2].map(pick),
             before: double_area(&before),
@@ -336,7 +337,7 @@ impl<'a> Run<'a> {
         self.areas[a] += self.areas[b];
         self.weights[a] = self.weights[a].max(self.weights[b]);
         self.on_crease[a] |= self.on_crease[b];
-        // One that is gone must never look current again.
+        // A removed one must never look current again.
         self.ages[b] = u32::MAX / 2;
         for &triangle in self.net.around(kept) {
             self.guard.note(triangle, &self.net.placed(triangle));

@@ -12,14 +12,14 @@ const CELL: f64 = 1.3;
 const THINNED: f64 = 0.25;
 
 /// A triangle as a change would leave it.
-pub(super) struct Fresh {
+pub(super) struct NewTriangle {
     pub(super) nodes: [u32; 3],
     pub(super) corners: [Vec3; 3],
-    /// Twice the area vector of what was there before [m²].
+    /// Twice the area vector of the triangle it replaces [m²].
     pub(super) before: Vec3,
 }
 
-/// What a change must keep to.
+/// Conditions on a change.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Demands {
     /// Least shape of the new triangles [-], unless there was a worse one; see [`shape`].
@@ -43,7 +43,7 @@ pub(super) fn double_area([a, b, c]: &[Vec3; 3]) -> Vec3 {
     (b - a).cross(&(c - a))
 }
 
-/// Says whether a change may be made, and knows which triangles are near.
+/// Checks whether a change is allowed, with a grid to find near triangles.
 pub(super) struct Guard {
     /// Triangles by cell; see [`key`]. Never walked over.
     cells: HashMap<u64, Vec<u32>, BuildHasherDefault<KeyHasher>>,
@@ -51,7 +51,7 @@ pub(super) struct Guard {
     live: usize,
     /// Lowest and highest corner of the box around each triangle as it is now [m].
     boxes: Vec<[Vec3; 2]>,
-    /// The last question in which each triangle was looked at.
+    /// The last query that visited each triangle.
     asked: Vec<u32>,
     question: u32,
 }
@@ -107,7 +107,7 @@ impl Guard {
         guard
     }
 
-    /// Notes where a triangle is now. Where it was before stays noted and does no harm.
+    /// Enters the current cells of a triangle. Its earlier cells stay entered, which is harmless.
     pub(super) fn note(&mut self, triangle: u32, corners: &[Vec3; 3]) {
         let [a, b, c] = corners;
         let cell = self.cell;
@@ -133,15 +133,15 @@ impl Guard {
         &mut self,
         net: &Net,
         old: &[u32],
-        new: &[Fresh],
+        new: &[NewTriangle],
         demands: Demands,
     ) -> bool {
         let before = old.iter().map(|&t| shape(&net.placed(t)));
         let least = before.fold(demands.shape, f64::min);
-        let fair = |fresh: &Fresh| {
+        let fair = |fresh: &NewTriangle| {
             let after = double_area(&fresh.corners);
             let turn = after.dot(&fresh.before);
-            // What had no area may turn as it likes.
+            // A triangle without area may turn freely.
             let upright = turn > demands.turn * after.norm() * fresh.before.norm()
                 || fresh.before == Vec3::zeros();
             upright && shape(&fresh.corners) >= least && after != Vec3::zeros()
@@ -150,7 +150,7 @@ impl Guard {
     }
 
     /// Whether a new triangle passes through another one, old ones left out.
-    fn meets(&mut self, net: &Net, old: &[u32], new: &[Fresh]) -> bool {
+    fn meets(&mut self, net: &Net, old: &[u32], new: &[NewTriangle]) -> bool {
         let new: Vec<Boxed> = new.iter().map(|f| Boxed::new(f.nodes, f.corners)).collect();
         let low = new.iter().fold(new[0].low, |low, one| low.inf(&one.low));
         let high = new

@@ -2,7 +2,7 @@ use crate::check::topology::fans;
 use crate::mesh::edges::{by_edge, sides};
 use crate::{Adjacency, NodeId, TriangleMesh, Vec3};
 
-/// A triangle that is gone.
+/// A removed triangle.
 const GONE: [u32; 3] = [u32::MAX; 3];
 
 /// A mesh whose edges can be collapsed and flipped. Numbers of vertices and triangles stay.
@@ -13,9 +13,9 @@ pub(super) struct Net {
     /// On an edge with one triangle.
     pub(super) on_border: Vec<bool>,
     /// Where the surface branches or a triangle is a line; nothing there is changed.
-    held: Vec<bool>,
+    pinned: Vec<bool>,
     live: usize,
-    /// The last question for which each vertex was marked.
+    /// The last query that marked each vertex.
     marks: Vec<u32>,
     question: u32,
 }
@@ -25,20 +25,22 @@ impl Net {
         let vertices = mesh.vertices().len();
         let adjacency = Adjacency::new(mesh);
         let mut on_border = vec![false; vertices];
-        let mut held = vec![false; vertices];
+        let mut pinned = vec![false; vertices];
         for edge in by_edge(&sides(mesh.triangles())) {
             for end in [edge[0].low, edge[0].high] {
                 on_border[end.index()] |= edge.len() == 1;
-                held[end.index()] |= edge.len() > 2;
+                pinned[end.index()] |= edge.len() > 2;
             }
         }
         for [a, b, c] in mesh.triangles() {
             if a == b || b == c || c == a {
-                [a, b, c].iter().for_each(|node| held[node.index()] = true);
+                [a, b, c]
+                    .iter()
+                    .for_each(|node| pinned[node.index()] = true);
             }
         }
         for node in (0..vertices as u32).map(NodeId) {
-            held[node.index()] |= fans(mesh, &adjacency, node) > 1;
+            pinned[node.index()] |= fans(mesh, &adjacency, node) > 1;
         }
         let around = (0..vertices as u32)
             .map(|v| adjacency.around(NodeId(v)).iter().map(|t| t.0).collect())
@@ -49,14 +51,14 @@ impl Net {
             triangles: triangles.map(|t| t.map(|node| node.0)).collect(),
             around,
             on_border,
-            held,
+            pinned,
             live: mesh.triangles().len(),
             marks: vec![0; vertices],
             question: 0,
         }
     }
 
-    /// What is left, in the order of the original.
+    /// The remaining mesh, in the order of the original.
     pub(super) fn mesh(&self) -> TriangleMesh {
         let left = self.triangles().map(|t| self.corners(t).map(NodeId));
         TriangleMesh::part_of(&self.positions, &left.collect::<Vec<_>>()).0
@@ -65,13 +67,13 @@ impl Net {
     /// Nothing changes at the corners of this triangle.
     pub(super) fn hold(&mut self, triangle: u32) {
         for v in self.corners(triangle) {
-            self.held[v as usize] = true;
+            self.pinned[v as usize] = true;
         }
     }
 
     /// Whether a vertex must stay: on a border, or where the surface branches.
     pub(super) fn is_held(&self, vertex: u32) -> bool {
-        self.held[vertex as usize] || self.on_border[vertex as usize]
+        self.pinned[vertex as usize] || self.on_border[vertex as usize]
     }
 
     /// How many triangles are left.
@@ -96,7 +98,7 @@ impl Net {
         self.corners(triangle).map(|v| self.positions[v as usize])
     }
 
-    /// The triangles that use a vertex; none when it is gone.
+    /// The triangles that use a vertex; none when it was removed.
     pub(super) fn around(&self, vertex: u32) -> &[u32] {
         &self.around[vertex as usize]
     }
@@ -131,13 +133,13 @@ impl Net {
     /// Whether the surface stays of the same kind when the edge shrinks to a point: the link
     /// condition [Dey et al. 1999].
     pub(super) fn can_collapse(&mut self, a: u32, b: u32) -> bool {
-        if self.held[a as usize] || self.held[b as usize] {
+        if self.pinned[a as usize] || self.pinned[b as usize] {
             return false;
         }
-        let beside = self.at_edge(a, b).count();
-        let inner = beside == 2;
+        let adjacent = self.at_edge(a, b).count();
+        let inner = adjacent == 2;
         // An inner edge between two places of a border would pinch the surface.
-        if beside == 0 || (inner && self.on_border[a as usize] && self.on_border[b as usize]) {
+        if adjacent == 0 || (inner && self.on_border[a as usize] && self.on_border[b as usize]) {
             return false;
         }
         // The last tetrahedron, and the last triangle of a piece.
@@ -170,11 +172,11 @@ impl Net {
                 false => fewest,
             };
             common += 1;
-            if common > beside || around[v as usize].len() < fewest {
+            if common > adjacent || around[v as usize].len() < fewest {
                 return false;
             }
         }
-        common == beside
+        common == adjacent
     }
 
     /// Two marks that no vertex has.
@@ -187,7 +189,7 @@ impl Net {
         [self.question - 1, self.question]
     }
 
-    /// Shrinks an edge to `position`; `kept` stays and `gone` goes. The caller has asked
+    /// Shrinks an edge to `position`; `kept` stays and `gone` is removed. The caller has checked
     /// [`Self::can_collapse`].
     pub(super) fn collapse(&mut self, kept: u32, gone: u32, position: Vec3) {
         let moved = std::mem::take(&mut self.around[gone as usize]);
@@ -212,8 +214,8 @@ impl Net {
     /// The two triangles at an inner edge that may be flipped, with the vertices opposite of it:
     /// `[(left, apex), (right, opposite)]`, where `left` runs from `a` to `b`.
     pub(super) fn diamond(&self, a: u32, b: u32) -> Option<[(u32, u32); 2]> {
-        let beside: Vec<u32> = self.at_edge(a, b).collect();
-        let [one, other] = beside[..] else {
+        let adjacent: Vec<u32> = self.at_edge(a, b).collect();
+        let [one, other] = adjacent[..] else {
             return None;
         };
         let runs = |t: u32| {
@@ -228,7 +230,7 @@ impl Net {
         let apex = |t: u32| self.corners(t).into_iter().find(|&v| v != a && v != b);
         let (apex, opposite) = (apex(left)?, apex(right)?);
         let four = [a, b, apex, opposite];
-        let free = !four.iter().any(|&v| self.held[v as usize])
+        let free = !four.iter().any(|&v| self.pinned[v as usize])
             && runs(left)
             && !runs(right)
             && apex != opposite

@@ -57,12 +57,12 @@ impl Quadric {
         value.max(0.0)
     }
 
-    /// Where the value is least, drawn a little to `middle` [m].
+    /// The minimum of the value, shifted slightly towards `middle` [m].
     pub(crate) fn least_near(&self, middle: &Vec3) -> Vec3 {
         let tether = TETHER * self.matrix.trace();
-        let held = self.matrix + Matrix3::from_diagonal_element(tether);
+        let tethered = self.matrix + Matrix3::from_diagonal_element(tether);
         let slope = self.matrix * middle + self.vector;
-        match held.cholesky() {
+        match tethered.cholesky() {
             Some(factor) => middle - factor.solve(&slope),
             None => *middle,
         }
@@ -83,7 +83,7 @@ mod tests {
         });
         let start = corner + Vec3::new(0.1, 0.1, -0.1);
         let found = quadric.least_near(&start);
-        // The tether holds back three thousandths of the way, on either of three equal planes.
+        // The tether shortens the move by three thousandths, on either of three equal planes.
         assert!((found - corner).norm() < 4e-3 * (start - corner).norm());
         assert!((quadric.at(&start) - 2.0 * 0.03).abs() < 1e-12);
         assert!(quadric.at(&corner) < 1e-15);

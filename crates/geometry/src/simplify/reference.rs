@@ -54,7 +54,8 @@ impl Reference<'_> {
         Some((area * mean, area))
     }
 
-    /// How far `point` is outside [m], for a surface that faces along `upright` there.
+    /// Signed distance of `point`, positive outside [m], for a surface that faces along `upright`
+    /// there.
     fn gap(&self, point: &Vec3, upright: &Vec3) -> Option<f64> {
         let nearest = self.tree.nearest(self.mesh, point);
         let facing = self.mesh.area_vector(nearest.triangle);

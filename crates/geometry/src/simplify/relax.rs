@@ -1,6 +1,6 @@
 use std::ops::ControlFlow;
 
-use super::guard::{Demands, Fresh, Guard, double_area, shape};
+use super::guard::{Demands, Guard, NewTriangle, double_area, shape};
 use super::net::Net;
 use super::reference::Reference;
 use crate::{SHARP_EDGE, Vec3};
@@ -53,7 +53,7 @@ fn flip_all(net: &mut Net, guard: &mut Guard) {
         if is_sharp || few {
             continue;
         }
-        let fresh = |nodes: [u32; 3]| Fresh {
+        let fresh = |nodes: [u32; 3]| NewTriangle {
             nodes,
             corners: nodes.map(|v| net.positions[v as usize]),
             before: areas[0] + areas[1],
@@ -117,7 +117,7 @@ fn try_to_move(net: &mut Net, guard: &mut Guard, vertex: u32, target: Vec3) -> b
     let fresh = |&triangle: &u32| {
         let nodes = net.corners(triangle);
         let before = net.placed(triangle);
-        Fresh {
+        NewTriangle {
             nodes,
             corners: [0, 1, 2].map(|k| {
                 if nodes[k] == vertex {
@@ -129,7 +129,7 @@ fn try_to_move(net: &mut Net, guard: &mut Guard, vertex: u32, target: Vec3) -> b
             before: double_area(&before),
         }
     };
-    let new: Vec<Fresh> = star.iter().map(fresh).collect();
+    let new: Vec<NewTriangle> = star.iter().map(fresh).collect();
     let demands = Demands {
         shape: 0.6,
         turn: TURN_OF_SLIDE,

@@ -1,4 +1,4 @@
-//! Tetrahedra whose edges are split, whose vertices move and whose faces part.
+//! Tetrahedra with operations to split edges, move vertices and separate faces.
 
 use std::collections::{HashMap, HashSet};
 
@@ -59,7 +59,7 @@ impl Net {
         single.into_iter()
     }
 
-    /// What is known of the boundary.
+    /// Data of the boundary.
     pub(super) fn boundary(&self) -> Boundary {
         let mut boundary = Boundary {
             normals: vec![Vec::new(); self.split.vertices.len()],

@@ -1,9 +1,9 @@
-//! The surface along which tissue is parted: below a path over the surface of a body, down to a depth.
+//! The surface of a slit: below a path over the surface of a body, down to a depth.
 
 use super::SlitPoint;
 use crate::Vec3;
 
-/// A limit of the sheet; what it says of a place is positive inside of it [m].
+/// A limit of the sheet; its value at a place is positive inside of it [m].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Limit {
     /// The beginning of the path.
@@ -159,8 +159,8 @@ impl Sheet {
                 .max(-self.above - at.below)
                 .max(0.0);
             let past = (part - inside) * length;
-            let beside = off - normal * off.dot(&normal);
-            let distance = beside.norm_squared() + outside.powi(2) + past.powi(2);
+            let lateral = off - normal * off.dot(&normal);
+            let distance = lateral.norm_squared() + outside.powi(2) + past.powi(2);
             if best.as_ref().is_none_or(|(least, _)| distance < *least) {
                 best = Some((distance, at));
             }

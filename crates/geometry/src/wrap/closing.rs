@@ -21,16 +21,17 @@ const LITTLE: f64 = 0.005;
 /// From a triangle to the middle of a voxel whose points all lie on one side of it [voxels]: half a diagonal.
 pub(super) const ONE_SIDE: f32 = 0.87;
 
-/// The distance of each voxel from a mesh, as far out as was asked, and what balls reach from the border.
+/// The distance of each voxel from a mesh, out to a requested distance, and the part that balls reach
+/// from the border.
 pub(super) struct Closing<'m> {
     pub(super) grid: &'m Grid,
     mesh: &'m TriangleMesh,
     /// Distance from the nearest triangle [m]; infinite beyond `known`.
     pub(super) distance: Vec<f32>,
     nearest: Vec<TriangleId>,
-    /// How far out distances are known [m].
+    /// Distance up to which distances are known [m].
     known: f64,
-    /// What a ball reaches from the border.
+    /// The part that a ball reaches from the border.
     pub(super) outside: Vec<bool>,
 }
 
@@ -97,7 +98,8 @@ impl<'m> Closing<'m> {
         self.known = reach;
     }
 
-    /// Finds what a ball of `radius` [m] reaches from the border, and whether something lies deeper than a skin.
+    /// Finds the part that a ball of `radius` [m] reaches from the border, and whether any voxel lies deeper
+    /// than a skin.
     pub(super) fn encloses(&mut self, radius: f64) -> bool {
         let skin = radius + SKIN * self.grid.spacing;
         self.reach_out(skin);
@@ -112,8 +114,9 @@ impl<'m> Closing<'m> {
         encloses
     }
 
-    /// What no ball of a `narrow` radius [m] covers, if that is the same body as for a `wide` one, which found what is outside: balls
-    /// reach no place where a wide one has room, and leave the body in one piece, but for a little. They then say what is outside.
+    /// The part that no ball of a `narrow` radius [m] covers, if that is the same body as for a `wide` one, which found the present
+    /// outside: narrow balls reach no place where a wide one has room, and leave the body in one piece, but for a little. They then
+    /// define the outside.
     pub(super) fn same_body(&mut self, narrow: f64, wide: f64) -> Option<LabelMap> {
         let outside = mem::take(&mut self.outside);
         if self.encloses(narrow) {
@@ -131,7 +134,7 @@ impl<'m> Closing<'m> {
         None
     }
 
-    /// What no ball of `radius` [m] covers, as label 1.
+    /// The part that no ball of `radius` [m] covers, as label 1.
     pub(super) fn inside(&self, radius: f64) -> LabelMap {
         within(self.grid, &self.outside, radius, false)
     }
@@ -170,7 +173,7 @@ fn squared_distances(grid: &Grid, set: &[bool]) -> Vec<f32> {
     all
 }
 
-/// Lines that lie beside one another are read and written together, as memory gives them.
+/// Adjacent lines are read and written together, in the order of memory.
 const TOGETHER: usize = 32;
 
 /// Lower envelopes along the lines of `length` numbers, each `stride` from the next, that fill `all`.

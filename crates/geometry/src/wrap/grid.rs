@@ -1,6 +1,6 @@
 use crate::{TriangleMesh, Vec3};
 
-/// Voxels between the triangles and the border of a grid, beside the closing's radius.
+/// Voxels between the triangles and the border of a grid, in addition to the closing's radius.
 const MARGIN: f64 = 3.0;
 
 /// A block of voxels around a mesh.

@@ -1,6 +1,6 @@
 //! Closed surfaces inside an envelope: of cavities and vessels, of parts, and inner walls.
 //!
-//! Triangles divide the inside into regions. One that is nowhere near the envelope has a surface of its own: that of its
+//! Triangles divide the inside into regions. A region away from the envelope has a surface of its own: that of its
 //! voxels, grown back to the triangles, with vertices moved to these.
 
 use std::mem;
@@ -11,7 +11,8 @@ use super::{WrapError, fit};
 use crate::flood::{Connectivity, flood};
 use crate::{AabbTree, IsosurfaceSettings, Surface, TriangleMesh, isosurface};
 
-/// Voxels between a region and the outside, at least, beside the closing's radius [-]: one is a wall that both share, the other tissue.
+/// Voxels between a region and the outside, at least, in addition to the closing's radius [-]: one is a wall that both share, the other
+/// tissue.
 const DEEP: f64 = 2.0;
 
 /// Voxels around those of a region [-].

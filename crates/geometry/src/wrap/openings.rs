@@ -1,6 +1,6 @@
 //! Openings of a body that are wider than its gaps: where they are capped.
 //!
-//! The widest ball that comes from outside to a place is as wide as the narrowest part of its way. Where a wider one would have room,
+//! The widest ball that reaches a place from outside is as wide as the narrowest part of its path. Where a wider one would have room,
 //! the place lies behind an opening. From there and from outside both sides grow into narrower and narrower places, and the
 //! cap lies where they meet: across an opening where it is narrowest, and flat where its rim is, as the watershed of the distance
 //! from the triangles [Meyer 1994].
@@ -12,13 +12,14 @@ use crate::{TriangleMesh, Vec3};
 /// Voxels across the longest side of the mesh, at most [-].
 const ACROSS: f64 = 100.0;
 
-/// Widths that are told apart in a voxel [-].
+/// Widths that are distinguished in a voxel [-].
 const LEVELS: f64 = 8.0;
 
-/// By how many voxels there is more room behind an opening than in it, at least [-]: beside an open sheet there is less.
+/// By how many voxels there is more room behind an opening than in it, at least [-]: next to an open sheet there is
+/// less.
 const ROOMIER: f64 = 3.0;
 
-/// What is behind openings has this part of the room of the roomiest, at least [-]: a narrower recess of the body stays open.
+/// Least width behind an opening as a part of the largest [-]: a narrower recess of the body stays open.
 const PART: f64 = 0.5;
 
 /// How often the sides are smoothed: over some four voxels.
@@ -32,7 +33,7 @@ enum Side {
     Inside,
 }
 
-/// What lies on both sides of the openings of a body.
+/// The two sides of the openings of a body.
 pub(super) struct Openings {
     grid: Grid,
     /// 1 outside, −1 inside and between them across a cap; none where a triangle is near [-].
@@ -78,8 +79,8 @@ impl Openings {
         Some(Self { grid, sides, width })
     }
 
-    /// Takes from the outside of `closing` what lies on the inner side of the openings, and a layer of `radius` [m] beyond, which balls
-    /// of this radius give back.
+    /// Removes from the outside of `closing` the inner side of the openings, and a layer of `radius` [m] beyond, which balls of this
+    /// radius restore.
     pub(super) fn shut(&self, closing: &mut Closing<'_>, radius: f64) {
         let grid = closing.grid;
         let places = closing.outside.iter().enumerate();
@@ -196,7 +197,8 @@ impl<'g> Widths<'g> {
         }
     }
 
-    /// Grows from `seeds`, widest ways first; `reached` hears of each voxel, how wide the way to it is, and of which seed it is.
+    /// Grows from `seeds`, widest paths first; `reached` receives each voxel, the width of the path to it, and the side of its
+    /// seed.
     fn grow(&self, seeds: &[(usize, Side)], mut reached: impl FnMut(usize, usize, Side)) {
         let widest = self.of.iter().copied().max().unwrap_or(0);
         let mut is_known = vec![false; self.of.len()];

@@ -5,12 +5,12 @@ use palpate_characterize::analyze::{
 
 use crate::{ReadRecording, Unusable};
 
-/// What recordings show, one by one and together; serialized as what `--json` prints.
+/// Results of an analysis, for each recording and pooled; serialized as `--json` prints it.
 #[derive(Debug)]
 pub struct Analyzed {
-    /// Each with what it shows.
+    /// Each recording with its results.
     pub recordings: Vec<(ReadRecording, Analysis)>,
-    /// What could not be read, and why.
+    /// Recordings that cannot be used, with the reason.
     pub unusable: Vec<Unusable>,
     /// Every hold.
     pub points: Vec<StaticPoint>,
@@ -66,14 +66,14 @@ impl Analyzed {
         organs
     }
 
-    /// Warnings, with what could not be read.
+    /// Warnings, including the recordings that cannot be used.
     pub fn warnings(&self) -> Vec<String> {
         let unusable = self.unusable.iter().map(Unusable::sentence);
         self.warnings.iter().cloned().chain(unusable).collect()
     }
 }
 
-/// Warnings about a recording, and about what it shows.
+/// Warnings about a recording and its results.
 pub fn warnings_of<'a>(
     read: &'a ReadRecording,
     analysis: &'a Analysis,

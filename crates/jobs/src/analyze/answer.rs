@@ -22,7 +22,7 @@ struct Answer<'a> {
     warnings: Vec<String>,
 }
 
-/// What one recording shows.
+/// Results of one recording.
 #[derive(Serialize)]
 struct FileAnswer<'a> {
     #[serde(serialize_with = "crate::lossy")]
@@ -56,7 +56,7 @@ struct HoldAnswer {
     n: usize,
 }
 
-/// What all recordings of an organ show.
+/// Results pooled over the recordings of an organ.
 #[derive(Serialize)]
 struct OrganAnswer<'a> {
     organ: Option<&'a str>,

@@ -1,4 +1,4 @@
-//! What recordings show, without a model.
+//! Analysis of recordings without a material model.
 
 mod analyzed;
 mod answer;

@@ -1,4 +1,4 @@
-//! What a law that was found gives at other depths, times or stretches.
+//! Evaluates a fitted law at other depths, times or stretches.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use super::Choice;
 use super::answer::{CovarianceAnswer, ElasticAnswer};
 use crate::Error;
 
-/// A law that was found, as its answer has it.
+/// A fitted law, as in its answer.
 #[derive(Debug, Deserialize)]
 pub struct FoundLaw {
     /// Its name in files.
@@ -33,7 +33,7 @@ pub struct FoundLaw {
     pub fibre_axis_angle_deg: Option<f64>,
 }
 
-/// A step of a derivative of a stress, over the parameter [-]: half the digits.
+/// Relative step of a finite-difference derivative of a stress [-]: half the digits.
 const STEP: f64 = 1e-6;
 
 impl FoundLaw {

@@ -8,7 +8,7 @@ use super::answer::{Specimen, former};
 use super::portrait::{DrawnFit, Portrait, all_samples};
 use crate::{Error, VERSION};
 
-/// One specimen with its recordings and all that was found.
+/// One specimen with its recordings and all results.
 pub(crate) struct Studied {
     pub(crate) files: Vec<PathBuf>,
     /// SHA-256 of the files.
@@ -17,20 +17,20 @@ pub(crate) struct Studied {
     pub(crate) found: Characterization,
 }
 
-/// What stays of a specimen.
+/// The stored results of a specimen.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct Finished {
     #[serde(serialize_with = "former::of_one")]
     pub(crate) specimen: Specimen,
     /// The text of its tissue file, or why there is none.
     pub(crate) tissue: Result<String, String>,
-    /// Whether there is none because of a failure, and not of the recordings.
+    /// Whether the tissue is missing because of a failure, and not because of the recordings.
     #[serde(default)]
     pub(crate) has_failed: bool,
-    /// What a report draws of it.
+    /// Plot data for a report.
     pub(crate) portrait: Portrait,
-    /// What was fitted of each recording, with its file, at every sample: not in a study's folder, which would grow
-    /// by a hundred times.
+    /// The fit of each recording, with its file, at every sample: not stored in a study's folder, which would grow a
+    /// hundredfold.
     #[serde(skip)]
     pub(crate) samples: Vec<(String, DrawnFit)>,
 }
@@ -59,7 +59,7 @@ impl Finished {
 }
 
 impl Studied {
-    /// The tissue of the law that is to be preferred.
+    /// The tissue of the preferred law.
     fn tissue(&self) -> Result<Tissue, palpate_characterize::Error> {
         let mut tissue = self.found.tissue(None)?;
         tissue.name.clone_from(&self.recordings[0].header.organ);

@@ -1,9 +1,9 @@
-//! A folder that keeps what is finished of a study, so that the study can be stopped and gone on with.
+//! The folder of a study: it stores each finished specimen, so that a stopped study can resume.
 //!
-//! Each specimen has two files, `liver-7.json` with all that was found and `liver-7.toml` with its tissue.
-//! The first names what it was found from, by a digest of recordings, meshes and settings. What does not fit, or cannot be
-//! read, is found again where files may be replaced, and refused otherwise. `.palpate-study` marks the folder of a
-//! study, whose tables are written anew.
+//! Each specimen has two files, `liver-7.json` with all results and `liver-7.toml` with its tissue. The first
+//! contains a digest of its inputs: recordings, meshes and settings. A file that does not match or cannot be read is
+//! recomputed if files may be replaced, and is an error otherwise. `.palpate-study` marks the folder of a study,
+//! whose tables are rewritten.
 
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ use super::answer::Specimen;
 use super::finished::Finished;
 use crate::{Error, ReadRecording, VERSION, Watch, hexadecimal, json_text};
 
-/// The folder of a study, for this program alone.
+/// The folder of a study, locked by this program.
 #[derive(Debug)]
 pub struct StudyFolder {
     path: PathBuf,
@@ -24,13 +24,13 @@ pub struct StudyFolder {
     _claim: Claim,
 }
 
-/// Where one specimen is kept.
+/// The files of one specimen.
 pub(crate) struct SpecimenFile {
     json: PathBuf,
     digest: String,
 }
 
-/// What marks the folder of a study.
+/// The file that marks the folder of a study.
 const MARK: &str = ".palpate-study";
 
 /// Tables of a whole study.
@@ -60,20 +60,20 @@ impl StudyFolder {
         })
     }
 
-    /// What is finished of the specimens `kept`. The folder is marked as that of a study.
+    /// The stored results of the specimens `files`. Marks the folder as that of a study.
     ///
     /// # Errors
     /// When the study would replace a file that is not its own, and may not, or the folder cannot be marked.
-    pub(crate) fn begin(&self, kept: &[SpecimenFile]) -> Result<Vec<Option<Finished>>, Error> {
+    pub(crate) fn begin(&self, files: &[SpecimenFile]) -> Result<Vec<Option<Finished>>, Error> {
         let mark = self.path.join(MARK);
-        let finished: Vec<_> = kept.iter().map(SpecimenFile::read).collect();
+        let finished: Vec<_> = files.iter().map(SpecimenFile::read).collect();
         if self.overwrite == Overwrite::Refused {
-            let missing = kept.iter().zip(&finished).filter(|(_, own)| own.is_none());
-            let missing: Vec<_> = missing.map(|(kept, _)| kept).collect();
-            let mut replaced: Vec<_> = missing.iter().map(|kept| kept.json.clone()).collect();
-            // A study that was stopped leaves a tissue without what was found, and old tables.
+            let missing = files.iter().zip(&finished).filter(|(_, own)| own.is_none());
+            let missing: Vec<_> = missing.map(|(file, _)| file).collect();
+            let mut replaced: Vec<_> = missing.iter().map(|file| file.json.clone()).collect();
+            // A stopped study leaves a tissue without results, and old tables.
             if !mark.exists() {
-                replaced.extend(missing.iter().map(|kept| kept.tissue()));
+                replaced.extend(missing.iter().map(|file| file.tissue()));
                 replaced.extend(TABLES.map(|table| self.path.join(table)));
             }
             if let Some(path) = replaced.into_iter().find(|path| path.exists()) {
@@ -84,8 +84,8 @@ impl StudyFolder {
         Ok(finished)
     }
 
-    /// Where the specimen at `place` of `groups` is kept.
-    pub(crate) fn kept(
+    /// The files of the specimen at `place` of `groups`.
+    pub(crate) fn specimen_file(
         &self,
         groups: &[Vec<ReadRecording>],
         place: usize,
@@ -113,7 +113,7 @@ impl StudyFolder {
 }
 
 impl SpecimenFile {
-    /// What was finished before of the same recordings, in the same way.
+    /// The stored results for the same recordings and settings.
     fn read(&self) -> Option<Finished> {
         let text = read_text(&self.json, MOST_OF_TABLE).ok()?;
         let document: Document<Finished> = serde_json::from_str(&text).ok()?;
@@ -140,7 +140,7 @@ impl SpecimenFile {
         if let Ok(tissue) = &finished.tissue {
             write_whole(self.tissue(), tissue.as_bytes())?;
         }
-        // Last, since it says that all is there.
+        // Last, because its existence marks the specimen as complete.
         Ok(write_whole(&self.json, text.as_bytes())?)
     }
 }
@@ -159,7 +159,7 @@ fn file_name(title: &str) -> String {
     }
 }
 
-/// What a specimen is found from: names, headers and samples of its recordings, and the settings.
+/// Digest of the inputs of a specimen: names, headers and samples of its recordings, and the settings.
 fn digest(group: &[ReadRecording], settings: &CharacterizeSettings) -> String {
     let mut hash = Sha256::new();
     hash.update(format!("{settings:?}"));
@@ -167,7 +167,7 @@ fn digest(group: &[ReadRecording], settings: &CharacterizeSettings) -> String {
         let clean = &read.clean;
         hash.update(format!("{}{:?}", read.path.display(), clean.header));
         if let Some(mesh) = read.mesh() {
-            // One that cannot be read is an error where it is used.
+            // A mesh that cannot be read is an error later, where it is used.
             hash.update(Sha256::digest(
                 read_bytes(&mesh, MOST_OF_TABLE).unwrap_or_default(),
             ));
@@ -191,7 +191,7 @@ mod tests {
         assert_eq!(file_name("../.."), "specimen");
     }
 
-    /// What was found on a mesh is not taken for what is found on another of the same name.
+    /// Results on one mesh are not reused for another mesh of the same name.
     #[test]
     fn a_changed_mesh_is_another_study() {
         let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! The tissue behind recordings, specimen by specimen, with how well it is known.
+//! Fits the tissue of each specimen to its recordings, with the uncertainty of every parameter.
 
 mod answer;
 mod evaluation;
@@ -30,20 +30,20 @@ pub use portrait::{
 
 use crate::{Error, Recordings, Unusable, Watch, nearest};
 
-/// What may be chosen, in the words of the command.
+/// Options of a characterization, named as in the command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Choice {
-    /// The only law that is sought; none: those of [`SoughtLaw::USUAL`].
+    /// The only law to fit; none: those of [`SoughtLaw::USUAL`].
     pub law: Option<SoughtLaw>,
-    /// Terms of the relaxation; none: as many as the recordings can tell.
+    /// Terms of the relaxation; none: as many as the recordings can resolve.
     pub terms: Option<usize>,
-    /// How often fits are repeated to see how well parameters are known: 0 for never, else [`LEAST_DRAWS`] or more.
+    /// Bootstrap samples for the uncertainty of parameters: 0 for none, otherwise [`LEAST_DRAWS`] or more.
     pub draws: usize,
-    /// The seed of these draws.
+    /// The seed of the bootstrap.
     pub seed: u64,
     /// Whether full viscoelastic runs of finite elements are solved in the loop of the fit, of one specimen and one law.
     pub in_loop: bool,
-    /// Whether only linear elastic contact and adhesion are fitted, in closed form, as a map of many curves needs it.
+    /// Whether only linear elastic contact and adhesion are fitted, in closed form, as for a map of many curves.
     pub closed_forms: bool,
 }
 
@@ -130,21 +130,21 @@ impl Choice {
     }
 }
 
-/// Specimens that were characterized.
+/// Characterized specimens.
 #[derive(Debug)]
 pub struct Characterized {
-    /// What `--json` prints.
+    /// The answer that `--json` prints.
     pub answer: Answer,
-    /// What is drawn of each specimen.
+    /// Plot data of each specimen.
     pub portraits: Vec<Portrait>,
-    /// What was fitted of each recording of each specimen, with its file: every sample, or of a study those that its
-    /// folder keeps.
+    /// The fit of each recording of each specimen, with its file: at every sample, or for a study at the samples
+    /// stored in its folder.
     pub samples: Vec<Vec<(String, DrawnFit)>>,
     /// The text of the tissue file of each specimen, or why there is none.
     pub tissues: Vec<Result<String, Error>>,
 }
 
-/// The specimens among `recordings` that can be used: what each is called, and its recordings; and what cannot be
+/// The usable specimens among `recordings`, each with its title and recordings, and the recordings that cannot be
 /// used.
 ///
 /// # Errors
@@ -164,11 +164,11 @@ pub fn specimens(recordings: &Recordings) -> Result<(Vec<NamedSpecimen>, Vec<Unu
     Ok((named.collect(), unusable))
 }
 
-/// What a specimen is called, and its recordings.
+/// The title of a specimen, and its recordings.
 pub type NamedSpecimen = (String, Vec<PathBuf>);
 
-/// Characterizes every specimen of `recordings`, as many at once as there are cores, in their order. What
-/// `folder` keeps already is taken from there, and what is finished goes there at once, tables of all at last.
+/// Characterizes every specimen of `recordings`, on all cores, and returns them in their order. Reads stored results
+/// from `folder` and writes each new result there at once, then the tables.
 ///
 /// # Errors
 /// When no recording can be used, or a file cannot be written.

@@ -8,11 +8,11 @@ use super::answer::Specimen;
 /// A number over the subjects of an organ in one condition.
 #[derive(Debug, Serialize)]
 pub struct Pooled {
-    /// The organ; none where no file says it.
+    /// The organ; none where no file states it.
     pub organ: Option<String>,
-    /// The condition; none where no file says it.
+    /// The condition; none where no file states it.
     pub condition: Option<String>,
-    /// What is pooled: `neo_hookean.c10_pa`, `mean_elastic_modulus`, `relaxation.sum_of_g`.
+    /// The pooled quantity: `neo_hookean.c10_pa`, `mean_elastic_modulus`, `relaxation.sum_of_g`.
     pub quantity: String,
     /// Subjects: each counts once, by the mean of its specimens; a specimen without a subject is one.
     pub n: usize,
@@ -22,19 +22,18 @@ pub struct Pooled {
     pub mean: f64,
     /// Between subjects; null for one.
     pub standard_deviation: Option<f64>,
-    /// What holds the mean of all such subjects with a probability of 95 %, by Student's distribution; null for
-    /// one.
+    /// 95 % confidence interval of the population mean, by Student's distribution; null for one.
     pub interval_95: Option<[f64; 2]>,
 }
 
 /// Of intervals [-].
 const LEVEL: f64 = 0.95;
 
-/// What is pooled together, by organ, condition and quantity.
+/// The group of a pooled value: organ, condition and quantity.
 type Key = (Option<String>, Option<String>, String);
 
-/// Every parameter of every law, the mean modulus and what relaxes, over the subjects that have it, by organ and
-/// condition: `liver.in_vivo.neo_hookean.c10_pa`. What no file says is left out of the name.
+/// Every parameter of every law, the mean modulus and the relaxing fraction, over the subjects that have it, by organ
+/// and condition: `liver.in_vivo.neo_hookean.c10_pa`. The name omits an organ or condition that no file states.
 pub(crate) fn of(specimens: &[Specimen]) -> BTreeMap<String, Pooled> {
     let mut values: BTreeMap<Key, Vec<(Option<&str>, f64)>> = BTreeMap::new();
     for specimen in specimens {
@@ -111,7 +110,7 @@ fn of_subjects(values: &[(Option<&str>, f64)]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Two sites of one animal are one animal; what names no animal is one each.
+    /// Two sites of one animal count as one animal; a specimen without a subject counts as one.
     #[test]
     fn a_subject_counts_once() {
         let values = [

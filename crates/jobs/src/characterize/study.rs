@@ -13,8 +13,8 @@ use super::finished::{Finished, Studied};
 use super::folder::StudyFolder;
 use crate::{Error, ReadRecording, Watch};
 
-/// Every specimen of `recordings`, as many at once as there are cores, in their order. What `folder` keeps
-/// already is taken from there, and what is finished goes there at once.
+/// Characterizes every specimen of `recordings`, on all cores, and returns them in their order. Reads stored results
+/// from `folder` and writes each new result there at once.
 pub(crate) fn of(
     recordings: Vec<ReadRecording>,
     settings: &CharacterizeSettings,
@@ -22,14 +22,14 @@ pub(crate) fn of(
     watch: &dyn Watch,
 ) -> Result<Vec<Finished>, Error> {
     let groups = grouped(recordings);
-    let kept = |folder: &StudyFolder| -> Vec<_> {
+    let files = |folder: &StudyFolder| -> Vec<_> {
         let places = 0..groups.len();
         places
-            .map(|place| folder.kept(&groups, place, settings))
+            .map(|place| folder.specimen_file(&groups, place, settings))
             .collect()
     };
-    let kept = folder.map(kept).unwrap_or_default();
-    let finished = folder.map_or(Ok(Vec::new()), |folder| folder.begin(&kept))?;
+    let files = folder.map(files).unwrap_or_default();
+    let finished = folder.map_or(Ok(Vec::new()), |folder| folder.begin(&files))?;
     let finished: Vec<_> = finished.into_iter().map(Mutex::new).collect();
     watch.at(0.0);
     let done = AtomicUsize::new(0);
@@ -44,9 +44,9 @@ pub(crate) fn of(
                     warnings_before(group).for_each(|warning| watch.warn(&warning));
                 }
                 let finished = finish(group, settings, &say);
-                let written = kept
+                let written = files
                     .get(place)
-                    .map_or(Ok(()), |kept| kept.write(&finished, watch));
+                    .map_or(Ok(()), |file| file.write(&finished, watch));
                 written.map(|()| finished)
             }
         };
@@ -57,7 +57,7 @@ pub(crate) fn of(
     collect_on_all_cores(&groups, work).into_iter().collect()
 }
 
-/// What is known of the recordings before their laws are sought.
+/// Warnings that are known before laws are fitted.
 fn warnings_before(group: &[ReadRecording]) -> impl Iterator<Item = String> {
     let cleaned = group.iter().flat_map(|own| {
         let named = |warning| format!("{}: {warning}", own.path.display());
@@ -82,7 +82,7 @@ fn grouped(recordings: Vec<ReadRecording>) -> Vec<Vec<ReadRecording>> {
     groups.into_iter().map(&mut take).collect()
 }
 
-/// What is found of one specimen; `say` hears what is being done.
+/// Characterizes one specimen; `say` receives the current step.
 fn finish(
     group: &[ReadRecording],
     settings: &CharacterizeSettings,

@@ -17,7 +17,7 @@ const CONTACT: [(&str, &str); 2] = [
     ("adhesion", "work_of_adhesion_j_per_m2"),
 ];
 
-/// The laws that have columns: the usual ones, and those that were found besides.
+/// The laws that have columns: the usual ones, and any others that were fitted.
 fn laws(answer: &Answer) -> Vec<LawName> {
     let has_column = |law: &LawName| {
         let mut found = answer.specimens.iter();
@@ -111,7 +111,7 @@ fn columns(laws: &[LawName]) -> Vec<String> {
     names
 }
 
-/// What stands in [`columns`] of a specimen.
+/// The values of [`columns`] for a specimen.
 fn row(specimen: &Specimen, laws: &[LawName]) -> Vec<String> {
     let named = |name: &Option<String>| name.clone().unwrap_or_default();
     let path = |path: &PathBuf| path.display().to_string();

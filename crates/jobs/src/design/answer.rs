@@ -11,17 +11,17 @@ use crate::VERSION;
 #[derive(Debug, Serialize)]
 pub struct Answer {
     palpate: &'static str,
-    /// What was made best: `minimax` or `d_optimal`.
+    /// The optimized criterion: `minimax` or `d_optimal`.
     pub criterion: &'static str,
-    /// How it is or was pressed without a design.
+    /// The presses without a design.
     pub before: PressesAnswer,
-    /// How to press.
+    /// The designed presses.
     pub designed: PressesAnswer,
-    /// What is expected of each parameter.
+    /// The expected uncertainty of each parameter.
     pub parameters: BTreeMap<String, ParameterEstimate>,
     /// The interval of the worst parameter at the worst guess: half of it over the value [-].
     pub worst: f64,
-    /// Protocols that were compared.
+    /// The number of compared protocols.
     pub compared: usize,
     /// Warnings.
     pub warnings: Vec<String>,
@@ -45,13 +45,13 @@ pub struct PressesAnswer {
 /// A parameter, in the unit of its name.
 #[derive(Debug, Serialize)]
 pub struct ParameterEstimate {
-    /// As guessed.
+    /// The guessed value.
     pub value: f64,
-    /// Whether the protocol was made for it.
+    /// Whether the protocol is optimized for it.
     pub wanted: bool,
-    /// The interval of 95 % that is expected without a design.
+    /// The expected 95 % interval without a design.
     pub interval_95_before: Option<[f64; 2]>,
-    /// The same with it.
+    /// The expected 95 % interval with the design.
     pub interval_95_expected: Option<[f64; 2]>,
 }
 
@@ -75,15 +75,15 @@ impl Answer {
         criterion: Criterion,
         wanted: &[String],
     ) -> Self {
-        let told = |own: &ExpectedParameter| {
+        let estimate = |own: &ExpectedParameter| {
             let earlier = before.iter().find(|earlier| earlier.name == own.name);
-            let told = ParameterEstimate {
+            let estimate = ParameterEstimate {
                 value: own.value,
                 wanted: wanted.contains(&own.name),
                 interval_95_before: earlier.and_then(interval),
                 interval_95_expected: interval(own),
             };
-            (own.name.clone(), told)
+            (own.name.clone(), estimate)
         };
         let warnings = vec![
             "intervals are expected to first order around the guess, of noise and steps of depth as stated or recorded; \
@@ -98,29 +98,29 @@ impl Answer {
             },
             before: presses.into(),
             designed: (&found.presses).into(),
-            parameters: found.expected.iter().map(told).collect(),
+            parameters: found.expected.iter().map(estimate).collect(),
             worst: found.worst,
             compared: found.compared,
             warnings,
         }
     }
 
-    /// What is expected, a line for each parameter.
+    /// The expected uncertainties, a line for each parameter.
     pub fn lines(&self) -> Vec<String> {
         let reach = |own: &Option<[f64; 2]>, value: f64| {
             own.map_or("unknown".to_owned(), |[low, high]| {
                 format!("± {:.1} %", 50.0 * (high - low) / value.abs())
             })
         };
-        let each = self.parameters.iter().map(|(name, told)| {
+        let each = self.parameters.iter().map(|(name, estimate)| {
             let unit = &name[without_unit(name).len()..];
             format!(
                 "{:<8} {:>12}   before {:>9}   expected {:>9}{}",
                 without_unit(name),
-                quantity(unit, told.value, None),
-                reach(&told.interval_95_before, told.value),
-                reach(&told.interval_95_expected, told.value),
-                if told.wanted { "   wanted" } else { "" }
+                quantity(unit, estimate.value, None),
+                reach(&estimate.interval_95_before, estimate.value),
+                reach(&estimate.interval_95_expected, estimate.value),
+                if estimate.wanted { "   wanted" } else { "" }
             )
         });
         each.collect()

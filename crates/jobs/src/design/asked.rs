@@ -7,7 +7,7 @@ use super::{Known, Request, Within};
 use crate::characterize::Choice;
 use crate::{Error, Recordings};
 
-/// What is asked for as JSON.
+/// A request as JSON.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RequestDocument {
@@ -20,21 +20,21 @@ struct RequestDocument {
 }
 
 impl Request {
-    /// What other programs ask for, as JSON.
+    /// The request of another program, as JSON.
     ///
     /// # Errors
-    /// When the text is none, or a law or a criterion is not known.
+    /// When the text is no request, or a law or a criterion is unknown.
     pub fn parse(text: &str) -> Result<Self, Error> {
-        let asked: RequestDocument = serde_json::from_str(text).map_err(Error::input)?;
-        let law = asked.law.as_deref();
+        let request: RequestDocument = serde_json::from_str(text).map_err(Error::input)?;
+        let law = request.law.as_deref();
         let law = law.map(|name| Choice::law_named(name, None)).transpose()?;
         Ok(Self {
-            known: match asked.tissue {
+            known: match request.tissue {
                 Some(path) => Known::Tissue(path),
-                None => Known::Recordings(asked.recordings, law),
+                None => Known::Recordings(request.recordings, law),
             },
-            parameters: asked.parameters,
-            criterion: match asked.criterion.as_str() {
+            parameters: request.parameters,
+            criterion: match request.criterion.as_str() {
                 "minimax" => Criterion::Minimax,
                 "d_optimal" => Criterion::Determinant,
                 other => {
@@ -43,7 +43,7 @@ impl Request {
                     )));
                 }
             },
-            within: asked.within,
+            within: request.within,
         })
     }
 }

@@ -44,7 +44,7 @@ pub(super) fn of_recordings(
     })
 }
 
-/// What was pressed: the depths, and the means of ramps and holds.
+/// The presses of the recordings: the depths, and the mean durations of ramps and holds.
 fn presses(recordings: &[&CleanRecording]) -> Result<Presses, Error> {
     let first = recordings
         .first()
@@ -73,8 +73,8 @@ fn presses(recordings: &[&CleanRecording]) -> Result<Presses, Error> {
             })?;
         let last = recording.time.len() - 1;
         let [begin, end] = [hold.first, hold.end].map(|place| recording.time[place.min(last)]);
-        let kept = &recording.depth[hold.first..hold.end];
-        depths.push(kept.iter().sum::<f64>() / kept.len().max(1) as f64);
+        let held_depths = &recording.depth[hold.first..hold.end];
+        depths.push(held_depths.iter().sum::<f64>() / held_depths.len().max(1) as f64);
         ramps += begin.max(1e-3);
         holds += end - begin;
     }
@@ -88,7 +88,7 @@ fn presses(recordings: &[&CleanRecording]) -> Result<Presses, Error> {
     })
 }
 
-/// Noise from one sample to the next, and the zeros as far as they are known.
+/// Noise from one sample to the next, and the uncertainty of the zeros.
 fn instrument(recordings: &[&CleanRecording]) -> Instrument {
     let (mut squares, mut count) = (0.0, 0.0);
     let mut zeros = ZeroErrors::default();
@@ -121,8 +121,8 @@ fn instrument(recordings: &[&CleanRecording]) -> Instrument {
     }
 }
 
-/// Intervals of `specimen` and those expected under the same presses: noise and zeros are multiplied by one factor until
-/// the two agree in the geometric mean, for noise that lasts tells more than that between two samples.
+/// Intervals of `specimen` and those expected for the same presses: one factor scales noise and zeros until the two
+/// agree in the geometric mean, because correlated noise matters more than that between two samples.
 fn noise_as_found(
     own: &Expecting,
     specimen: &Specimen,
@@ -155,7 +155,7 @@ fn noise_as_found(
     Ok(of((low * high).sqrt()))
 }
 
-/// Half of each interval that was found, over the value [-].
+/// Half of each fitted interval, over the value [-].
 fn found_reaches(specimen: &Specimen) -> Vec<(String, f64)> {
     let law = specimen.preferred().into_iter();
     let law = law.flat_map(|(_, law)| law.parameters.iter());
@@ -173,7 +173,7 @@ fn found_reaches(specimen: &Specimen) -> Vec<(String, f64)> {
     reach.filter(|(_, reach)| *reach > 0.0).collect()
 }
 
-/// By what moduli and times may be off: the widest of their intervals, at most that of a bare guess.
+/// Uncertainty factors of moduli and times: the widest of their intervals, at most that of a bare guess.
 fn factors(specimen: &Specimen) -> [f64; 2] {
     let reaches = found_reaches(specimen);
     let widest = |is: &dyn Fn(&str) -> bool| {

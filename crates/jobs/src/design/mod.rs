@@ -1,5 +1,5 @@
-//! How to press: a protocol from which the parameters of a tissue are expected to be known best, from a guess of the
-//! tissue or a first recording of it.
+//! Design of experiments: the protocol that is expected to determine the parameters of a tissue best, from a guess of
+//! the tissue or a first recording of it.
 
 mod answer;
 mod asked;
@@ -19,29 +19,29 @@ pub use answer::{Answer, ParameterEstimate, PressesAnswer};
 
 use crate::{Error, Recordings, VERSION, Watch};
 
-/// What is asked for.
+/// A request for a design.
 #[derive(Debug, Clone)]
 pub struct Request {
-    /// What is known of the tissue.
+    /// Prior knowledge of the tissue.
     pub known: Known,
-    /// The parameters that count, by their keys; empty: those of the law, and the times of the relaxation.
+    /// The parameters to determine, by their keys; empty: those of the law, and the times of the relaxation.
     pub parameters: Vec<String>,
-    /// What is made best.
+    /// The criterion to optimize.
     pub criterion: Criterion,
-    /// Within what.
+    /// The limits.
     pub within: Within,
 }
 
-/// What is known of a tissue.
+/// Prior knowledge of a tissue.
 #[derive(Debug, Clone)]
 pub enum Known {
     /// A guess: a tissue's file.
     Tissue(PathBuf),
-    /// First recordings of one specimen, and the law to be sought in them.
+    /// First recordings of one specimen, and the law to fit to them.
     Recordings(Recordings, Option<SoughtLaw>),
 }
 
-/// Limits of a protocol; what is not stated is that of the recordings, or of the default protocol.
+/// Limits of a protocol; one that is not given comes from the recordings, or from the default protocol.
 #[derive(Debug, Clone, Default, PartialEq, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Within {
@@ -57,46 +57,46 @@ pub struct Within {
     pub speed_m_per_s: Option<f64>,
     /// Most presses.
     pub presses: Option<usize>,
-    /// Radii of the indenters that there are [m].
+    /// Radii of the available indenters [m].
     pub radii_m: Vec<f64>,
 }
 
-/// A protocol that was found.
+/// A designed protocol.
 #[derive(Debug)]
 pub struct Designed {
-    /// What `--json` prints.
+    /// The answer that `--json` prints.
     pub answer: Answer,
     /// The text of the protocol's file.
     pub protocol: String,
 }
 
-/// The tissue as it was guessed, and how it was or would be pressed without a design.
+/// The guessed tissue, and the presses without a design.
 struct Start {
     tissue: Tissue,
     guess: Guess,
-    /// By what moduli and times may be off [-].
+    /// Uncertainty factors of moduli and times [-].
     factors: [f64; 2],
     before: Presses,
     instrument: Instrument,
 }
 
-/// Force that a protocol may reach if nobody states it [N]: three quarters of the rig's limit.
+/// Default force limit [N]: three quarters of the rig's limit.
 const FORCE: f64 = 1.5;
 /// Speed [m/s]: three quarters of the rig's.
 const SPEED: f64 = 0.045;
 /// Presses, as in the default protocol.
 const PRESSES: usize = 3;
-/// Radii that are tried if nobody states those that there are, over that of before [-].
+/// Default candidate radii, over the earlier radius [-].
 const RADII: [f64; 4] = [0.5, 1.0, 2.0, 3.0];
-/// What a bare guess may be off, up and down [-].
+/// Uncertainty factor of a bare guess, up and down [-].
 const BARE: f64 = 1.5;
-/// Radii of the indenter to which a force is known beforehand [-].
+/// Radii of the indenter for which a force is precomputed [-].
 const DEEPEST: f64 = 6.0;
 
-/// Finds the protocol.
+/// Designs the protocol.
 ///
 /// # Errors
-/// When the guess or a limit cannot be used, or no protocol keeps within the limits.
+/// When the guess or a limit cannot be used, or no protocol satisfies the limits.
 pub fn design(request: &Request, watch: &dyn Watch) -> Result<Designed, Error> {
     let start = match &request.known {
         Known::Tissue(path) => of_tissue(Tissue::read(path)?)?,
@@ -172,7 +172,7 @@ fn of_tissue(tissue: Tissue) -> Result<Start, Error> {
     })
 }
 
-/// A tissue as a fit sees it.
+/// A tissue, as a fit parametrizes it.
 fn guess(tissue: &Tissue) -> Result<Guess, Error> {
     let elasticity = &tissue.elasticity;
     let name = elasticity.law();
@@ -246,7 +246,7 @@ fn limits(within: &Within, start: &Start) -> Result<Limits, Error> {
     })
 }
 
-/// The text of a protocol that the rig carries out.
+/// The text of a protocol for the rig.
 fn protocol(tissue: &Tissue, presses: &Presses, limits: &Limits, answer: &Answer) -> String {
     let term =
         |term: &PronyTerm| format!("{{ g = {}, tau_s = {} }}", term.g.value, term.tau_s.value);
@@ -263,7 +263,7 @@ fn protocol(tissue: &Tissue, presses: &Presses, limits: &Limits, answer: &Answer
         .iter()
         .map(|depth| format!("{depth:.6}"))
         .collect();
-    // A contact is not met exactly.
+    // The detected contact is not exact.
     let depth_limit = limits.depth + 0.5e-3;
     let name = tissue
         .name

@@ -1,4 +1,4 @@
-//! What a document may say, from the declarations that its reader uses: a template to begin from, a JSON Schema for
+//! Documentation of the documents, from the declarations that their readers use: a template, a JSON Schema for
 //! editors, and the reference for people.
 
 mod reference;
@@ -18,7 +18,7 @@ pub use template::template;
 pub struct Kind {
     /// Its word.
     pub word: &'static str,
-    /// What it is, as a sentence.
+    /// A sentence that describes it.
     pub meaning: &'static str,
     /// Its keys, without `format`.
     pub keys: &'static [Key],
@@ -60,7 +60,7 @@ pub fn kind(word: &str) -> Option<Kind> {
     kinds().into_iter().find(|kind| kind.word == word)
 }
 
-/// What a key holds, with the units that its name may end in.
+/// The values of a key, with the units that its name may end in.
 fn holds(key: &Key) -> String {
     let list =
         |domain: palpate_files::Domain, what: &str| format!("{what}, each {}", domain.expected());
@@ -93,7 +93,7 @@ fn holds(key: &Key) -> String {
     }
 }
 
-/// What a document means that leaves a key out.
+/// The default of a key.
 fn omitted(key: &Key) -> String {
     match key.omitted {
         Omitted::Refused => "required".to_owned(),
@@ -108,7 +108,7 @@ fn meaning(key: &Key) -> String {
     key.meaning.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Whether what a key holds is written under a header of its own.
+/// Whether the value of a key is written under a header of its own.
 fn is_table(key: &Key) -> bool {
     matches!(
         key.holds,

@@ -14,8 +14,8 @@ pub fn reference() -> String {
     );
     for kind in kinds() {
         page += &format!("\n## {}\n\n{}\n", kind.word, kind.meaning);
-        let mut told = Vec::new();
-        table(&mut page, kind.keys, "", &mut told);
+        let mut described = Vec::new();
+        table(&mut page, kind.keys, "", &mut described);
     }
     page += "\n## recording\n\nThe comments above a recording's table, each `# key = value`; all may be left out.\n\n";
     page += "| key | holds | meaning |\n|---|---|---|\n";
@@ -30,21 +30,22 @@ pub fn reference() -> String {
     page
 }
 
-/// The keys of a table and of the tables in it; `told` are those that the page has already, with their names.
+/// The keys of a table and of the tables in it; `described` lists the tables that the page already has, with their
+/// names.
 fn table(
     page: &mut String,
     keys: &'static [Key],
     name: &str,
-    told: &mut Vec<(&'static [Key], String)>,
+    described: &mut Vec<(&'static [Key], String)>,
 ) {
     if !name.is_empty() {
         *page += &format!("\n### {name}\n");
     }
-    if let Some((_, before)) = told.iter().find(|(own, _)| *own == keys) {
+    if let Some((_, before)) = described.iter().find(|(own, _)| *own == keys) {
         *page += &format!("\nAs `{before}`.\n");
         return;
     }
-    told.push((keys, name.to_owned()));
+    described.push((keys, name.to_owned()));
     *page += "\n| key | holds | where it is left out | meaning |\n|---|---|---|---|\n";
     for key in keys {
         *page += &format!(
@@ -64,7 +65,7 @@ fn table(
             "" => inner,
             name => format!("{name}.{inner}"),
         };
-        table(page, key.keys(), &inner, told);
+        table(page, key.keys(), &inner, described);
     }
 }
 

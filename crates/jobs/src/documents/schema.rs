@@ -6,8 +6,8 @@ use serde_json::{Map, Value, json};
 
 use super::{Kind, is_table, meaning, omitted};
 
-/// The JSON Schema (draft 2020-12) of a kind of document, by which editors complete and check it. What depends on several
-/// keys is checked by the reader alone.
+/// The JSON Schema (draft 2020-12) of a kind of document, with which editors complete and check it. Only the reader
+/// checks rules that involve several keys.
 pub fn schema(kind: &Kind) -> String {
     let mut writer = Writer {
         can_draw: kind.can_draw,
@@ -54,7 +54,7 @@ struct Writer {
 }
 
 impl Writer {
-    /// A reference to the schema of a table, which is written where it is met first.
+    /// A reference to the schema of a table, which is written at its first use.
     fn reference(&mut self, keys: &'static [Key]) -> Value {
         let number = self.tables.iter().position(|(other, _)| *other == keys);
         let number = number.unwrap_or_else(|| {

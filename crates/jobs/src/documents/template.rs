@@ -5,8 +5,8 @@ use super::{Kind, holds, is_table, meaning, omitted};
 /// Characters of a line of prose at most.
 const WIDTH: usize = 100;
 
-/// A document of a kind that says every key: those that have to be there with an example, the others in comments that
-/// begin without a space. `schema` is where its JSON Schema lies, if anywhere.
+/// A document of a kind with every key: required keys with an example, the others in comments that begin without a
+/// space. `schema` is the path of its JSON Schema, if any.
 pub fn template(kind: &Kind, schema: Option<&str>) -> String {
     Writer::of(kind, schema, false)
 }
@@ -14,7 +14,7 @@ pub fn template(kind: &Kind, schema: Option<&str>) -> String {
 /// A template being written.
 struct Writer {
     text: String,
-    /// Whether keys and tables are written rather than commented out where that changes nothing.
+    /// Whether keys and tables that change nothing are written rather than commented out.
     with_defaults: bool,
 }
 
@@ -122,7 +122,7 @@ mod tests {
         [false, true].map(|with_defaults| Writer::of(&kind, None, with_defaults))
     }
 
-    /// Judge: the readers, which have their defaults in their own code.
+    /// Judge: the readers, which define the defaults in their own code.
     #[test]
     fn a_template_is_read_and_its_defaults_change_nothing() {
         let [plain, full] = texts("scene");
@@ -143,8 +143,7 @@ mod tests {
         }
     }
 
-    /// The keys of the tables of a document that are there only if somebody wants them: each of their examples is
-    /// read, too.
+    /// The keys of the optional tables of a document: each of their examples is read, too.
     #[test]
     fn every_example_is_what_its_key_holds() {
         fn check(keys: &[Key]) {

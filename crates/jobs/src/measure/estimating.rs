@@ -11,7 +11,7 @@ use crate::Watch;
 const FIRST: f64 = 0.25;
 const LATER: f64 = 0.2;
 
-/// The tissue as it is estimated while a stimulus is pressed.
+/// Online estimation of the tissue during a stimulus.
 #[derive(Debug)]
 pub(super) struct Estimating {
     online: OnlineEstimator,
@@ -49,7 +49,7 @@ impl Estimating {
         })
     }
 
-    /// Takes a sample; whether the tissue is known well enough.
+    /// Adds a sample and returns whether the estimate meets the target.
     pub(super) fn take(&mut self, sample: &RigSample, watch: &dyn Watch) -> bool {
         let Some(depth_m) = sample.depth else {
             return false;
@@ -69,7 +69,7 @@ impl Estimating {
         self.is_enough()
     }
 
-    /// Whether the tissue is known as well as the protocol asks.
+    /// Whether the estimate is as accurate as the protocol asks.
     pub(super) fn is_enough(&self) -> bool {
         let known = self.last.as_ref().zip(self.target);
         known.is_some_and(|(estimate, target)| estimate.is_enough(target))

@@ -5,7 +5,7 @@ use palpate_files::{Claim, Overwrite};
 use super::Measuring;
 use crate::Error;
 
-/// Where recordings go.
+/// Destination of recordings.
 #[derive(Debug, Clone, Copy)]
 pub struct Out<'a> {
     /// A folder, or the file of an only recording.
@@ -14,7 +14,7 @@ pub struct Out<'a> {
     pub overwrite: Overwrite,
 }
 
-/// A file for each recording, which this program alone writes until it is dropped.
+/// A file for each recording, locked by this program until it is dropped.
 #[derive(Debug)]
 pub struct Files {
     /// In the order of the recordings.
@@ -62,7 +62,7 @@ pub fn files(measuring: &Measuring, out: Out<'_>) -> Result<Files, Error> {
     })
 }
 
-/// The folder of recordings, which is made, for this program alone.
+/// The folder of recordings, created if missing and locked by this program.
 ///
 /// # Errors
 /// When it cannot be made, or another program writes there.

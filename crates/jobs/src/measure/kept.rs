@@ -1,4 +1,4 @@
-//! Specimens that took a minute to solve are kept by their content:
+//! Content-addressed cache of specimens that take a minute to solve:
 //!
 //! ```text
 //! palpate specimen 1
@@ -8,7 +8,7 @@
 //! <SHA-256 of all that stands before, 64 hexadecimal digits>
 //! ```
 //!
-//! A file that does not fit, or is damaged, is made again.
+//! A file that does not match or is damaged is written again.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -22,11 +22,10 @@ use sha2::{Digest, Sha256};
 
 use crate::preparation;
 
-/// Change with the equations, so that what was kept before is solved anew.
+/// Change this with the equations, to invalidate the cache.
 const METHOD: &str = "finite elements under a punch 2";
 
-/// A specimen of `tissue` under a punch of a radius [m], down to a depth [m]; from its file when it was solved
-/// before.
+/// A specimen of `tissue` under a punch of a radius [m], down to a depth [m]; from the cache if it is there.
 pub(crate) fn of_tissue(
     tissue: &Tissue,
     radius: f64,
@@ -48,17 +47,17 @@ pub(crate) fn of_tissue(
     }
     let specimen = VirtualSpecimen::of_tissue(tissue, radius, deepest, at_step)?;
     if let Some(curve) = specimen.solved() {
-        keep(&file, &print(&key, curve));
+        write(&file, &print(&key, curve));
     }
     Ok(specimen)
 }
 
-/// Writes what can always be made again, if that is possible.
-fn keep(file: &Path, text: &str) {
+/// Writes a file of the cache, ignoring errors: it can always be computed again.
+fn write(file: &Path, text: &str) {
     if let Some(folder) = file.parent()
         && fs::create_dir_all(folder).is_ok()
     {
-        // Without it the next time takes a minute again.
+        // Without it the next run solves for a minute again.
         let _ = write_whole(file, text.as_bytes());
     }
 }
@@ -76,15 +75,15 @@ fn read(file: &Path, key: &str) -> Option<IndentationCurve> {
     parse(&read_text(file, MOST_OF_DOCUMENT).ok()?, key)
 }
 
-/// The curve in `text`; none when it is another's or not whole.
+/// The curve in `text`; none when it belongs to another key or is incomplete.
 fn parse(text: &str, key: &str) -> Option<IndentationCurve> {
     let before = text.strip_suffix('\n')?;
     let (_, checksum) = before.rsplit_once('\n')?;
-    let said = text.strip_suffix(&format!("{checksum}\n"))?;
+    let body = text.strip_suffix(&format!("{checksum}\n"))?;
     let head = format!("palpate specimen 1\nkey = {key}\ndepth_m,force_n\n");
-    let rows = said
+    let rows = body
         .strip_prefix(&head)
-        .filter(|_| digest(said) == checksum)?;
+        .filter(|_| digest(body) == checksum)?;
     let number = |text: &str| text.parse::<f64>().ok();
     let points = rows.lines().map(|line| {
         let (depth, force) = line.split_once(',')?;
@@ -104,7 +103,7 @@ fn digest(text: &str) -> String {
 mod tests {
     use super::*;
 
-    /// What is read back is what was kept, to the bit; any change of a byte is seen.
+    /// A cached curve is read back to the bit; any changed byte is detected.
     #[test]
     fn a_curve_comes_back_or_not_at_all() {
         let curve = IndentationCurve::through(&[1e-4, 1.1e-3, 0.0043], &[1.0 / 3.0, 0.7, 1.9]);

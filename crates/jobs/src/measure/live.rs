@@ -1,5 +1,5 @@
-//! A protocol on a device that is there: the rig runs on its own thread and another one writes, as in the window, so that
-//! neither the disk nor a number that is formatted delays a tick.
+//! A protocol on a real device: the rig runs on its own thread and another thread writes, as in the window, so that
+//! neither the disk nor the formatting of numbers delays a tick.
 
 use std::path::Path;
 use std::sync::mpsc::RecvTimeoutError;
@@ -12,17 +12,17 @@ use palpate_measure::{DepthTrajectory, Ended, Phase, Recorded, Rig};
 use super::estimating::Estimating;
 use crate::{Error, Watch};
 
-/// How often it is looked whether somebody asks to stop.
+/// Polling interval for a request to stop.
 const LOOK: Duration = Duration::from_millis(1);
 
-/// A rig on a device that is there.
+/// A rig on a real device.
 pub(super) struct LiveMeasuring {
     live: LiveRig,
     header: RecordingHeader,
     number: u64,
 }
 
-/// How an order ended, and what was recorded meanwhile.
+/// How a command ended, with its recording.
 struct Done {
     ended: Ended,
     recorded: Option<Recorded>,
@@ -39,12 +39,12 @@ impl LiveMeasuring {
         })
     }
 
-    /// What recordings say of specimen, indenter and sensor.
+    /// Facts on specimen, indenter and sensor for the header of a recording.
     pub(super) fn header(&self) -> &RecordingHeader {
         &self.header
     }
 
-    /// One order. To stop takes all forces off at once, for a hand may be on the device.
+    /// Runs one command. A stop takes all forces off at once, because a hand may be on the device.
     pub(super) fn carry_out(
         &mut self,
         order: RigCommand,
@@ -55,7 +55,7 @@ impl LiveMeasuring {
             .map(|done| done.ended)
     }
 
-    /// One stimulus; none when it was stopped before anything was recorded.
+    /// Runs one stimulus; none when it was stopped before any sample.
     pub(super) fn record(
         &mut self,
         trajectory: &DepthTrajectory,
@@ -65,7 +65,7 @@ impl LiveMeasuring {
         watch: &dyn Watch,
     ) -> Result<Option<Recorded>, Error> {
         self.number += 1;
-        // The tissue rests from what was done to it, then from being looked for.
+        // The tissue recovers from the previous stimulus, then from the search for contact.
         for order in [RigCommand::Rest, RigCommand::Approach, RigCommand::Rest] {
             if self.carry_out(order, watch)? == Ended::Stopped {
                 return Ok(None);
@@ -128,13 +128,13 @@ impl LiveMeasuring {
                 ConsoleEvent::Dropped(dropped) if dropped == order => Ended::Stopped,
                 _ => continue,
             };
-            // What was asked for while the last tick of an order was made counts for the order, too.
+            // A stop that is requested during the last tick of a command applies to that command.
             let ended = if is_stopped { Ended::Stopped } else { ended };
             return Ok(Done { ended, recorded });
         }
     }
 
-    /// A device that hangs is an error at once: its rig says nothing any more.
+    /// A device that hangs gives an error at once: its rig sends nothing more.
     fn check_device(&self) -> Result<(), Error> {
         self.live
             .hung_device()

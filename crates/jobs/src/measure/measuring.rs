@@ -14,31 +14,32 @@ use super::live::LiveMeasuring;
 use super::plan::{OnRig, Plan};
 use crate::{Error, Watch};
 
-/// A recording that was made, and the tissue as it was estimated meanwhile.
+/// A recording, and the online estimate of the tissue.
 #[derive(Debug)]
 pub struct Measured {
-    /// What the stimulus is called.
+    /// The name of the stimulus.
     pub stimulus: String,
     /// The recording.
     pub recorded: Recorded,
-    /// The last estimate; none of a stimulus that is not held, or of a specimen whose force over depth is not tabulated.
+    /// The last estimate; none of a stimulus without a hold, or of a specimen whose force over depth is not
+    /// tabulated.
     pub estimate: Option<OnlineEstimate>,
-    /// Whether it was ended because the estimate was good enough.
+    /// Whether the press ended early because the estimate met its target.
     pub is_enough: bool,
 }
 
-/// A protocol that is carried out without a window.
+/// A running protocol without a window.
 pub struct Measuring {
     plan: Plan,
     specimens: Vec<OnRig>,
-    /// Each with what it is called and which repetition it is.
+    /// The stimuli, each with its name and repetition.
     stimuli: Vec<(String, u64, DepthTrajectory)>,
     /// Warnings.
     pub warnings: Vec<String>,
 }
 
 impl Measuring {
-    /// Refuses, before anything moves, what goes beyond a limit.
+    /// Rejects, before any motion, a protocol that exceeds a limit.
     pub fn of(plan: Plan, watch: &dyn Watch) -> Result<Self, Error> {
         plan.check()?;
         let mut warnings = plan.warnings.clone();
@@ -47,10 +48,10 @@ impl Measuring {
         }
         let mut specimens = Vec::new();
         for place in 0..plan.specimens.len() {
-            let (found, said) = plan.specimen(place, &mut |part| {
+            let (found, specimen_warnings) = plan.specimen(place, &mut |part| {
                 watch.say(&format!("solving the specimen, {:.0} %", 100.0 * part));
             })?;
-            warnings.extend(said);
+            warnings.extend(specimen_warnings);
             specimens.push(found);
         }
         let repeated = plan.stimuli.iter().flat_map(|(trajectory, repeats)| {
@@ -65,7 +66,7 @@ impl Measuring {
         })
     }
 
-    /// What the recordings are called, in their order; each once.
+    /// The unique names of the recordings, in their order.
     pub fn names(&self) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
         for (place, specimen) in (1..).zip(&self.specimens) {
@@ -77,7 +78,7 @@ impl Measuring {
         names
     }
 
-    /// Carries the protocol out, into the `files` of its recordings, until it is done or somebody presses Ctrl-C.
+    /// Runs the protocol and writes the `files` of its recordings, until it ends or the user presses Ctrl-C.
     pub fn run(&self, files: &Files, watch: &dyn Watch) -> Result<Vec<Measured>, Error> {
         let mut recorded = Vec::new();
         let count = files.paths.len();
@@ -128,7 +129,7 @@ impl Measuring {
 }
 
 impl Measuring {
-    /// Moves to the place of a specimen, and measures the normal there if the protocol says so.
+    /// Moves to the place of a specimen, and measures the normal there if the protocol asks for it.
     fn go_to_place(
         &self,
         rig: &mut AnyRig,
@@ -145,7 +146,7 @@ impl Measuring {
     }
 }
 
-/// A rig that measures: in the calling thread as fast as the machine can, or on a device that is there.
+/// A rig: simulated in the calling thread as fast as the machine can, or on a real device.
 enum AnyRig {
     Virtual(Box<Rig>),
     Live(Box<LiveMeasuring>),
@@ -176,7 +177,7 @@ impl AnyRig {
     }
 }
 
-/// `name`, or with a number behind it when it is among `taken`.
+/// `name`, with a number appended if it is among `taken`.
 fn unique(name: String, taken: &[String]) -> String {
     let numbered = (2..).map(|number| format!("{name}-{number}"));
     let mut all = std::iter::once(name.clone()).chain(numbered);
@@ -184,7 +185,7 @@ fn unique(name: String, taken: &[String]) -> String {
         .expect("numbers do not end")
 }
 
-/// One stimulus; none when Ctrl-C came before it.
+/// Runs one stimulus; none when Ctrl-C came before it.
 fn record(
     rig: &mut Rig,
     trajectory: &DepthTrajectory,
@@ -194,7 +195,7 @@ fn record(
     watch: &dyn Watch,
 ) -> Result<Option<Recorded>, Error> {
     let go_on = &mut |_: &RigSample| !watch.is_asked_to_stop();
-    // The tissue rests from what was done to it, then from being looked for.
+    // The tissue recovers from the previous stimulus, then from the search for contact.
     for rests in [true, false] {
         let rested = rig.recover(go_on)?;
         if rested == Ended::Stopped || rests && rig.approach(go_on)? == Ended::Stopped {
@@ -221,7 +222,7 @@ fn record(
     if let Some(error) = unwritten {
         return Err(error.into());
     }
-    // What was recorded is kept, however it ended.
+    // Save the samples, however the stimulus ended.
     let recorded = recorder.finish(&ended)?;
     ended?;
     Ok(Some(recorded))
@@ -259,9 +260,9 @@ mod tests {
         assert_eq!(once.len(), 8, "{names:?}");
     }
 
-    /// The command's way from a document to a file: the rig goes beside the top of a ball, measures the normal there and
-    /// presses along it. Judge: the ball's own normal at that place, asin(8/50); without the normal, what is felt
-    /// sideways is above a twentieth of the force.
+    /// The command's path from a document to a file: the rig goes to a point off the top of a ball, measures the
+    /// normal there and presses along it. Judge: the ball's own normal at that point, asin(8/50); without the normal,
+    /// the lateral force is above a twentieth of the force.
     #[test]
     fn a_curved_specimen_is_measured_along_its_normal_on_six_axes() {
         let text = |more: &str| {

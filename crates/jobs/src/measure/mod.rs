@@ -1,4 +1,4 @@
-//! The rig carries a protocol out, and makes a recording of each stimulus.
+//! Runs a protocol on the rig, and makes a recording of each stimulus.
 
 mod answer;
 mod estimating;
@@ -15,5 +15,5 @@ pub use files::{Files, Out, files, folder};
 pub use measuring::{Measured, Measuring};
 pub use plan::{OnRig, Plan};
 
-/// What is measured without a protocol, with every key explained.
+/// The default protocol, with every key explained.
 pub const DEFAULT: &str = include_str!("protocol.toml");

@@ -12,14 +12,14 @@ use super::sensor::RealSensor;
 use super::specimen;
 use crate::Error;
 
-/// Beyond this depth [m] and this frequency [Hz] an answer deserves warning.
+/// Beyond this depth [m] and this frequency [Hz] an answer gets a warning.
 const TRUSTED: [f64; 2] = [0.010, 8.0];
 
-/// How much deeper than asked for a tip can come [m]: the contact is not met exactly, and a heart moves it.
+/// How much deeper than commanded a tip can come [m]: the detected contact is not exact, and a heart moves it.
 const MISSED: f64 = 0.3e-3;
 const BEATING: f64 = 1e-3;
 
-/// What a protocol asks for.
+/// A checked protocol.
 #[derive(Debug, Clone)]
 pub struct Plan {
     /// The rig's limits and speeds.
@@ -32,24 +32,24 @@ pub struct Plan {
     pub target: Option<f64>,
     /// Warnings.
     pub warnings: Vec<String>,
-    /// A device that is there; none for one that is not.
+    /// The real device; none for a virtual one.
     device: Option<(Kind, Places)>,
-    /// A force sensor that is there; none for a virtual one.
+    /// The real force sensor; none for a virtual one.
     sensor: Option<RealSensor>,
     seed: u64,
 }
 
-/// What lies under the indenter.
+/// The material under the indenter.
 #[derive(Debug, Clone)]
 pub enum OnRig {
     /// A virtual specimen.
     Virtual(Box<VirtualSpecimen>),
-    /// A real one, with what recordings say of it.
+    /// A real one, with its entries for the header of recordings.
     Real(Box<RecordingHeader>),
 }
 
 impl OnRig {
-    /// What its recordings say of it.
+    /// The specimen's entries for the header of its recordings.
     pub fn header(&self) -> &RecordingHeader {
         match self {
             Self::Virtual(specimen) => &specimen.header,
@@ -58,7 +58,7 @@ impl OnRig {
     }
 }
 
-/// What a protocol calls a device that is there.
+/// The name of a real device in a protocol.
 fn kind(device: RigDevice) -> Option<Kind> {
     match device {
         RigDevice::Virtual => None,
@@ -69,7 +69,7 @@ fn kind(device: RigDevice) -> Option<Kind> {
 }
 
 impl Plan {
-    /// What `protocol` asks for, with the seed of all chance.
+    /// Checks `protocol`; `seed` sets all random numbers.
     pub fn of(protocol: Protocol, seed: u64) -> Result<Self, Error> {
         let breathes = protocol.specimens.iter().any(|own| own.alive);
         let settings = RigSettings {
@@ -124,7 +124,7 @@ impl Plan {
         })
     }
 
-    /// Refuses, before anything moves, what goes beyond a limit; a window says it on the stimulus's button.
+    /// Rejects, before any motion, a stimulus that exceeds a limit; a window shows this on the stimulus's button.
     pub fn check(&self) -> Result<(), Error> {
         self.open_device()?;
         for measured in &self.specimens {
@@ -141,8 +141,8 @@ impl Plan {
         Ok(checked.try_for_each(|one| one)?)
     }
 
-    /// The specimen at `place` of the protocol, and warnings about it. A nonlinear law is solved
-    /// before, which takes a minute the first time; `at_step` hears the part that is done [-].
+    /// The specimen at `place` of the protocol, and warnings about it. A nonlinear law is solved first, which takes a
+    /// minute the first time; `at_step` receives the completed fraction [-].
     pub fn specimen(
         &self,
         place: usize,
@@ -167,19 +167,19 @@ impl Plan {
         Ok((OnRig::Virtual(Box::new(found)), warnings))
     }
 
-    /// Whether a device that is there carries the indenter.
+    /// Whether a real device carries the indenter.
     pub fn has_device(&self) -> bool {
         self.device.is_some()
     }
 
-    /// The device that is there, if the protocol names one.
+    /// The real device, if the protocol names one.
     pub fn open_device(&self) -> Result<Option<Box<dyn Device>>, Error> {
         let device = self.device.as_ref();
         let opened = device.map(|(kind, places)| kind.open(0, places));
         Ok(opened.transpose()?)
     }
 
-    /// Where a rig without a window has its time from: a device that is there lives in the machine's.
+    /// The clock of a rig without a window: a real device uses the machine's.
     pub fn clock(&self) -> Clock {
         match self.device {
             Some(_) => Clock::real(),

@@ -1,4 +1,4 @@
-//! From the words of a protocol to a force sensor.
+//! Opens the force sensor of a protocol.
 
 use nalgebra::Matrix3;
 use palpate_devices::force_sensor::{
@@ -11,7 +11,7 @@ use palpate_servo::ForceTorque;
 
 use crate::Error;
 
-/// A sensor that is there, and where it is.
+/// A real sensor, and its address.
 #[derive(Debug, Clone)]
 pub(super) struct RealSensor {
     format: SensorFormat,
@@ -21,7 +21,7 @@ pub(super) struct RealSensor {
 }
 
 impl RealSensor {
-    /// What `plan` asks for, found by the environment; none for a virtual one.
+    /// The sensor of `plan`, located by the environment; none for a virtual one.
     pub(super) fn of(plan: &SensorPlan) -> Result<Option<Self>, Error> {
         let format = match &plan.source {
             SensorSource::Virtual => return Ok(None),

@@ -43,7 +43,7 @@ pub(crate) fn of(
     Ok((specimen, warnings))
 }
 
-/// What recordings say of a real specimen of a protocol.
+/// The header entries for a real specimen of a protocol.
 pub(crate) fn real(measured: &Measured) -> RecordingHeader {
     let mut header = RecordingHeader {
         indenter_shape: Some(IndenterShape::Flat),
@@ -64,8 +64,7 @@ fn describe(measured: &Measured, header: &mut RecordingHeader) {
     header.condition = measured.condition;
 }
 
-/// An organ that answers with the mean forces of table 5-1 when it has been held, and relaxes as its built-in
-/// tissue does.
+/// An organ whose static force is the mean of table 5-1, and which relaxes as its built-in tissue does.
 fn published(organ: PublishedOrgan, radius: f64) -> Result<(VirtualSpecimen, Vec<String>), Error> {
     let (builtin, relaxation) = match organ {
         PublishedOrgan::Liver => (BuiltinTissue::PigLiver, "that of table 6-3"),

@@ -1,4 +1,4 @@
-//! What is drawn of an answer, as plain data; drawing is for those who show it.
+//! Plots of an answer, as plain data; the caller draws them.
 
 mod thinned;
 
@@ -6,18 +6,18 @@ use serde::Serialize;
 
 pub use thinned::kept;
 
-/// What is drawn.
+/// A plot.
 #[derive(Debug, Serialize, Clone, Default)]
 pub struct Plot {
-    /// Above it.
+    /// The title.
     pub title: String,
-    /// With its unit in brackets.
+    /// Label of the x axis, with its unit in brackets.
     pub x_label: String,
-    /// With its unit in brackets.
+    /// Label of the y axis, with its unit in brackets.
     pub y_label: String,
-    /// How the lower axis divides.
+    /// Scale of the x axis.
     pub x_axis: Axis,
-    /// How the left axis divides.
+    /// Scale of the y axis.
     pub y_axis: Axis,
     /// In the order of the legend; a single one needs no name.
     pub series: Vec<Series>,
@@ -27,7 +27,7 @@ pub struct Plot {
     pub shades: Vec<Shade>,
 }
 
-/// What lies between two curves.
+/// The area between two curves.
 #[derive(Debug, Serialize, Clone)]
 pub struct Band {
     /// x, and the lower and the upper y; what is not finite is left out.
@@ -45,14 +45,14 @@ pub struct Shade {
     pub color: usize,
 }
 
-/// How an axis divides.
+/// The scale of an axis.
 #[derive(Debug, Serialize, Clone, Copy, Default, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Axis {
     /// Evenly.
     #[default]
     Linear,
-    /// By whole numbers, for what is counted.
+    /// By whole numbers, for counts.
     Counted,
     /// By decades; values that are not positive are left out.
     Logarithmic,
@@ -76,11 +76,11 @@ pub struct Series {
 #[derive(Debug, Serialize, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Style {
-    /// A line through them.
+    /// A solid line.
     Line,
-    /// Of what trembles.
+    /// For noisy data.
     FineLine,
-    /// Of what others lie on; it has no color of its own.
+    /// For data under other lines; it has no color of its own.
     BroadLine,
     /// A broken line.
     DashedLine,
@@ -128,7 +128,7 @@ impl Band {
 }
 
 impl Axis {
-    /// Whether a value can stand on it.
+    /// Whether the scale can show a value.
     pub fn shows(self, value: f64) -> bool {
         value.is_finite() && (self != Self::Logarithmic || value > 0.0)
     }

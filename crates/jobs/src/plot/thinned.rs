@@ -3,9 +3,9 @@ use std::collections::BTreeSet;
 /// Buckets of each clock; each keeps three samples at most.
 const BUCKETS: usize = 100;
 
-/// Places of some samples, 900 at most, that draw the same lines as all: over time, over depth, and over the
-/// logarithm of the time since a hold began. In each of as many buckets of each of these the first sample
-/// and the least and largest of `drawn` are kept, so that no peak is lost.
+/// Indices of at most 900 samples that draw the same lines as all samples: over time, over depth, and over the
+/// logarithm of the time since a hold began. Each bucket of each of these axes contributes its first sample and the
+/// least and largest of `drawn`, so that no peak is lost.
 pub fn kept(time: &[f64], depth: &[f64], drawn: &[f64]) -> Vec<usize> {
     let samples = time.len().min(depth.len()).min(drawn.len());
     if samples <= 3 * BUCKETS {
@@ -25,12 +25,12 @@ pub fn kept(time: &[f64], depth: &[f64], drawn: &[f64]) -> Vec<usize> {
             [time[i] - time[0], travelled, held]
         })
         .collect();
-    let mut kept = BTreeSet::from([0, samples - 1]);
+    let mut chosen = BTreeSet::from([0, samples - 1]);
     for clock in 0..3 {
         let ticks: Vec<f64> = clocks.iter().map(|of| of[clock]).collect();
-        keep(&buckets(&ticks, clock == 2), drawn, &mut kept);
+        add_extremes(&buckets(&ticks, clock == 2), drawn, &mut chosen);
     }
-    kept.into_iter().collect()
+    chosen.into_iter().collect()
 }
 
 /// The bucket of each tick: of even width, or of a logarithm.
@@ -53,8 +53,8 @@ fn buckets(ticks: &[f64], logarithmic: bool) -> Vec<usize> {
         .collect()
 }
 
-/// Keeps the first of each run of a bucket, its least and its largest.
-fn keep(buckets: &[usize], drawn: &[f64], kept: &mut BTreeSet<usize>) {
+/// Adds the first, the least and the largest sample of each bucket.
+fn add_extremes(buckets: &[usize], drawn: &[f64], chosen: &mut BTreeSet<usize>) {
     let mut first = [None; BUCKETS];
     let (mut least, mut largest) = (first, first);
     for (i, &bucket) in buckets.iter().enumerate() {
@@ -70,7 +70,7 @@ fn keep(buckets: &[usize], drawn: &[f64], kept: &mut BTreeSet<usize>) {
         }
     }
     let all = first.into_iter().chain(least).chain(largest);
-    kept.extend(all.flatten());
+    chosen.extend(all.flatten());
 }
 
 #[cfg(test)]
@@ -85,20 +85,21 @@ mod tests {
         let mut force: Vec<f64> = depth.iter().map(|d| d.powi(2)).collect();
         force[12_345] = 2.0;
         force[17_000] = -1.0;
-        let kept = kept(&time, &depth, &force);
-        assert!(kept.len() <= 900, "{}", kept.len());
+        let chosen = kept(&time, &depth, &force);
+        assert!(chosen.len() <= 900, "{}", chosen.len());
         for place in [0, 12_345, 17_000, 19_999] {
-            assert!(kept.contains(&place), "{place}");
+            assert!(chosen.contains(&place), "{place}");
         }
         // The ramp is 0.25 % of the time, and drawn all the same; so is the beginning of the hold.
-        assert!(kept.iter().filter(|place| **place <= 50).count() >= 50);
+        assert!(chosen.iter().filter(|place| **place <= 50).count() >= 50);
         assert!(
-            kept.iter()
+            chosen
+                .iter()
                 .filter(|place| (51..150).contains(*place))
                 .count()
                 >= 20
         );
-        assert!(kept.is_sorted());
+        assert!(chosen.is_sorted());
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Simulations are made from what was prepared before where there is such.
+//! Makes simulations, from cached results if there are any.
 
 mod precompute;
 
@@ -13,10 +13,10 @@ pub use precompute::{Precomputed, precompute};
 
 use crate::{Error, Watch, memory};
 
-/// The variable that names the folder of prepared responses.
+/// The variable that names the cache of prepared responses.
 pub const FOLDER_VARIABLE: &str = "PALPATE_CACHE";
 
-/// The folder for what takes minutes and can be made again.
+/// The cache folder, for results that take minutes and can be computed again.
 pub fn folder() -> Option<PathBuf> {
     let named = std::env::var_os(FOLDER_VARIABLE).filter(|name| !name.is_empty());
     named
@@ -24,8 +24,7 @@ pub fn folder() -> Option<PathBuf> {
         .or_else(|| Some(dirs::cache_dir()?.join("palpate")))
 }
 
-/// What this machine offers: its folder for what can be made again, and most of the memory that is left, see
-/// [`memory::offered`].
+/// The resources of this machine: its cache folder, and most of the available memory, see [`memory::offered`].
 pub fn resources() -> Resources {
     Resources {
         responses: folder(),
@@ -35,10 +34,10 @@ pub fn resources() -> Resources {
     }
 }
 
-/// The same, with the places of haptic devices that the environment names.
+/// The same, with the addresses of haptic devices from the environment.
 ///
 /// # Errors
-/// When the environment names no place.
+/// When an address in the environment is invalid.
 pub fn resources_with_devices() -> Result<Resources, Error> {
     Ok(Resources {
         devices: Places::from_environment()?,
@@ -46,17 +45,17 @@ pub fn resources_with_devices() -> Result<Resources, Error> {
     })
 }
 
-/// Makes the simulation of `scene`, and tells `watch` how far it is, which may break it off.
+/// Makes the simulation of `scene` and reports progress to `watch`, which may cancel it.
 ///
 /// # Errors
-/// When the scene describes none, memory does not suffice, or it was cancelled.
+/// When the scene is invalid, memory does not suffice, or the job was cancelled.
 pub fn simulation(
     scene: &Scene,
     resources: &Resources,
     watch: &dyn Watch,
 ) -> Result<Simulation, Error> {
     watch.say("preparing the organ and its model");
-    // Whoever keeps a session draws before; to look at an organ any variant will do.
+    // A caller that records a session draws the variant before; to view an organ any variant will do.
     let scene = &palpate_simulate::draw_variant(scene, 0)?;
     let mut last = None;
     let made = Simulation::prepare(scene, resources, &mut |progress| {

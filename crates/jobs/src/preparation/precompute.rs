@@ -8,31 +8,31 @@ use serde::Serialize;
 
 use crate::{Error, VERSION, Watch};
 
-/// What `precompute --json` prints.
+/// The answer that `precompute --json` prints.
 #[derive(Debug, Serialize)]
 pub struct Precomputed {
     palpate: &'static str,
     triangles: usize,
-    /// That the organ is solved on.
+    /// Triangles with mechanics.
     pub mechanical_triangles: usize,
     /// How they are solved.
     pub method: &'static str,
-    /// That have an answer.
+    /// Triangles that tools may touch.
     pub touchable_triangles: usize,
     /// Of the answers.
     pub memory_bytes: usize,
-    /// Whether it had been made before.
+    /// Whether it came from the cache.
     pub was_kept: bool,
-    /// Where it is kept.
+    /// Its file in the cache.
     #[serde(serialize_with = "crate::lossy")]
     pub file: Option<PathBuf>,
-    /// That it took [s].
+    /// Duration [s].
     pub seconds: f64,
     /// Warnings.
     pub warnings: Vec<String>,
 }
 
-/// Makes the whole organ's response of `scene`, and keeps it where `resources` say.
+/// Computes the global response of `scene` and stores it in the cache of `resources`.
 ///
 /// # Errors
 /// As [`super::simulation`].

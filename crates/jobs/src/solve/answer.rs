@@ -2,14 +2,14 @@ use serde::Serialize;
 
 use super::solution::Solution;
 
-/// What `solve --json` prints.
+/// The answer that `solve --json` prints.
 #[derive(Debug, Serialize)]
 pub struct Answer {
     pub(super) palpate: &'static str,
     pub(super) kind: &'static str,
-    /// What was found.
+    /// The solution.
     #[serde(flatten)]
     pub solution: Solution,
-    /// That the solution took [s].
+    /// Duration of the solution [s].
     pub seconds: f64,
 }

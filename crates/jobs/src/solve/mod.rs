@@ -1,4 +1,4 @@
-//! The finite element reference on a described problem.
+//! Solves a described problem with the finite element reference.
 
 mod answer;
 mod problem;

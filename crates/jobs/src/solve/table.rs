@@ -9,11 +9,11 @@ use super::problem::Problem;
 #[derive(Debug, Default)]
 pub(crate) struct Table {
     columns: Vec<(String, Vec<String>)>,
-    /// A row that is shown whatever is left out.
-    kept: Option<usize>,
+    /// A row that is always shown.
+    always: Option<usize>,
 }
 
-/// More rows are thinned out; the JSON object has them all.
+/// Longer tables are thinned out; the JSON object has all rows.
 const MOST_ROWS: usize = 24;
 
 impl Table {
@@ -32,16 +32,16 @@ impl Table {
         self
     }
 
-    /// With the row of the largest of `values` shown whatever is left out.
-    pub(crate) fn keeping_the_peak(mut self, values: &[f64]) -> Self {
-        self.kept = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b]));
+    /// Always shows the row of the largest of `values`.
+    pub(crate) fn with_peak_shown(mut self, values: &[f64]) -> Self {
+        self.always = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b]));
         self
     }
 
     fn text(&self) -> String {
         let rows = self.columns.first().map_or(0, |(_, texts)| texts.len());
         let mut text = self.line(|(name, _)| name);
-        for row in shown(rows, self.kept) {
+        for row in shown(rows, self.always) {
             text += &self.line(|(_, texts)| texts.get(row).map_or("", String::as_str));
         }
         if rows > MOST_ROWS {
@@ -61,13 +61,13 @@ impl Table {
     }
 }
 
-/// The rows that are shown: all, or some, evenly, ends included, and the one that is `kept`.
-fn shown(rows: usize, kept: Option<usize>) -> Vec<usize> {
+/// The rows to show: all, or some, evenly, ends included, and the row `always`.
+fn shown(rows: usize, always: Option<usize>) -> Vec<usize> {
     if rows <= MOST_ROWS {
         return (0..rows).collect();
     }
     let even = (0..MOST_ROWS).map(|k| k * (rows - 1) / (MOST_ROWS - 1));
-    let mut shown: Vec<usize> = even.chain(kept).collect();
+    let mut shown: Vec<usize> = even.chain(always).collect();
     shown.sort_unstable();
     shown.dedup();
     shown

@@ -4,14 +4,14 @@ use palpate_mechanics::finite_elements::estimate;
 
 use crate::Watch;
 
-/// Tells who waits how far a solver is.
-pub(crate) struct Telling<'a> {
+/// Reports the progress of a solver to a [`Watch`].
+pub(crate) struct ProgressReporter<'a> {
     watch: &'a dyn Watch,
-    /// The mesh that is being solved.
+    /// The mesh that the solver is working on.
     mesh: Cell<Option<usize>>,
 }
 
-impl<'a> Telling<'a> {
+impl<'a> ProgressReporter<'a> {
     pub(crate) fn to(watch: &'a dyn Watch) -> Self {
         watch.say("preparing the mesh");
         Self {
@@ -20,7 +20,7 @@ impl<'a> Telling<'a> {
         }
     }
 
-    /// What a solver tells.
+    /// Reports a step of the solver.
     pub(crate) fn at(&self, progress: estimate::Progress) {
         if self.mesh.replace(Some(progress.mesh)) != Some(progress.mesh) {
             self.watch.say(&match progress.mesh {

@@ -5,46 +5,46 @@ use palpate_servo::{Supervisor, Vec3, log};
 
 use crate::DepthTrajectory;
 
-/// What a rig is asked to do.
+/// A command to a rig.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RigCommand {
-    /// To go by so much in the rig's axes [m].
+    /// Move by a vector in the rig's axes [m].
     Jog(Vec3),
-    /// To go to a place in the rig's axes [m].
+    /// Move to a position in the rig's axes [m].
     GoTo(Vec3),
-    /// To go along a direction in the rig's axes for as long as the command is repeated within a sixth of a second.
+    /// Move along a direction in the rig's axes for as long as the command is repeated within a sixth of a second.
     Drive(Vec3),
-    /// To approach along a direction out of the tissue from now on.
+    /// Set the approach normal, a direction out of the tissue.
     Face(Vec3),
-    /// To touch the surface around the place, and to approach along the normal that is measured.
+    /// Measure the normal by touching the surface around the position, and approach along it.
     MeasureNormal,
-    /// To find where the tissue begins.
+    /// Find the first contact.
     Approach,
-    /// To press a course, and what number its recording has.
+    /// Press a trajectory; the number is that of its recording.
     Press(DepthTrajectory, u64),
-    /// To leave the tissue.
+    /// Leave the tissue.
     Withdraw,
-    /// To let the tissue rest.
+    /// Let the tissue rest.
     Rest,
 }
 
-/// The end from which a rig is operated.
+/// The operator's end of a live rig.
 pub struct Console {
     commands: log::Writer<StampedCommand>,
     switches: Switches,
     supervisor: Supervisor,
-    /// Whether its end takes all forces off at once: a hand may be on the device.
+    /// Whether the device is real; dropping the rig then takes all forces off at once: a hand may be on the device.
     is_real: bool,
 }
 
-/// A command, and how often everything was stopped before it.
+/// A command, and the number of stops before it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StampedCommand {
     pub(super) stops: u64,
     pub(super) command: RigCommand,
 }
 
-/// What both ends see at once.
+/// Atomics that the console and the rig share.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Switches {
     stops: Arc<AtomicU64>,
@@ -53,15 +53,15 @@ pub(super) struct Switches {
     end: Arc<AtomicBool>,
 }
 
-/// Orders that may wait: a long protocol.
-const ORDERS: usize = 8192;
+/// Capacity of the command ring: a long protocol.
+const COMMANDS: usize = 8192;
 
 impl Console {
     pub(super) fn new(
         supervisor: Supervisor,
         is_real: bool,
     ) -> (Self, log::Reader<StampedCommand>, Switches) {
-        let (commands, reader) = log::ring(ORDERS);
+        let (commands, reader) = log::ring(COMMANDS);
         let switches = Switches::default();
         let console = Self {
             commands,
@@ -78,7 +78,7 @@ impl Console {
         self.commands.add(StampedCommand { stops, command });
     }
 
-    /// Ends what is being done, out of the tissue, and drops the queued commands.
+    /// Ends the running command, out of the tissue, and drops the queued commands.
     pub fn stop(&self) {
         self.switches.stop();
     }
@@ -88,7 +88,7 @@ impl Console {
         self.switches.enough.store(number, Ordering::Relaxed);
     }
 
-    /// No force at once, until a person arms again; the queued commands are dropped.
+    /// Takes all forces off at once, until a person arms again, and drops the queued commands.
     pub fn emergency_stop(&self) {
         self.supervisor.trip();
         self.switches.stop();

@@ -11,27 +11,27 @@ use super::log_writer::LogWriter;
 use super::{Commission, Console, ConsoleEvent, Operated, RigCommand};
 use crate::{DepthTrajectory, Error, Rig, RigSample};
 
-/// A rig that runs, and what is seen of it. Dropping it withdraws the indenter and ends its threads.
+/// A running rig with its console, samples and events. Dropping it withdraws the indenter and ends its threads.
 pub struct LiveRig {
-    /// From where it is operated.
+    /// The console that operates the rig.
     pub console: Console,
-    /// Every sample, for as long as somebody reads.
+    /// Every sample; samples that nobody reads in time are lost.
     pub samples: log::Reader<RigSample>,
-    /// What happened.
+    /// Events of the rig and of its recordings.
     pub news: Receiver<ConsoleEvent>,
     commissions: Sender<Commission>,
     threads: Vec<JoinHandle<()>>,
     watch: WatchThread,
-    /// What is told of who operates a device that is there, and when.
+    /// Supervisor that receives the sign of life of the operator; none without a real device.
     supervisor: Option<Supervisor>,
     clock: Clock,
 }
 
-/// Samples that wait for a window: a quarter of a minute.
+/// Capacity of the sample ring to the window: a quarter of a minute.
 const SAMPLES: usize = 1 << 14;
 
-/// How often what was told is written.
-const CLERK_RESTS: Duration = Duration::from_millis(5);
+/// Interval at which the log writer reads events.
+const WRITE_INTERVAL: Duration = Duration::from_millis(5);
 
 impl LiveRig {
     /// Starts `rig`, which shall have a real clock.
@@ -42,23 +42,23 @@ impl LiveRig {
         Self::start_until(rig, || false)
     }
 
-    /// The same for a program that `is_ended` says shall end: a device that is there has no force then.
+    /// The same; a real device has no force once `is_ended` says that the program ends.
     ///
     /// # Errors
     /// As for [`start`](Self::start).
     pub fn start_until(rig: Rig, is_ended: fn() -> bool) -> Result<Self, Error> {
-        // Over tissue that is not there nobody can be hurt, and the indenter withdraws in good order.
+        // Over virtual tissue nobody can be hurt, and the indenter withdraws in good order.
         let ends = if rig.is_real() { is_ended } else { || false };
         let watch = Watch::new(rig.supervisor(), vec![rig.watched()], ends);
         let clock = rig.clock();
         let watch = WatchThread::start(watch, clock)?;
         let supervisor = rig.is_real().then(|| rig.supervisor());
-        let (operated, console, told) = Operated::new(rig);
+        let (operated, console, events) = Operated::new(rig);
         let (samples, samples_reader) = log::ring(SAMPLES);
         let (news, news_reader) = mpsc::channel();
         let (commissions, commissioned) = mpsc::channel();
         let log_writer = LogWriter {
-            told,
+            events,
             commissions: commissioned,
             samples,
             news,
@@ -82,23 +82,23 @@ impl LiveRig {
         Ok(live)
     }
 
-    /// Has a course pressed and recorded.
+    /// Queues a press of `trajectory` and its recording.
     pub fn press(&mut self, trajectory: DepthTrajectory, commission: Commission) {
         let number = commission.number;
-        // A clerk that has gone says so by `is_running`.
+        // `is_running` reports a log writer that has ended.
         let _ = self.commissions.send(commission);
         self.console.send(RigCommand::Press(trajectory, number));
     }
 
-    /// Says that who operates it is alive. A device that is there has no force any more when that is not said again within
-    /// [`SILENCE`](palpate_servo::supervisor::SILENCE); who never says it need not.
+    /// Reports that the operator is alive. After the first report, a real device loses its force when none follows within
+    /// [`SILENCE`](palpate_servo::supervisor::SILENCE).
     pub fn report_alive(&self) {
         if let Some(supervisor) = &self.supervisor {
             supervisor.report(self.clock.now());
         }
     }
 
-    /// What a person has to know of a device that does not answer any more.
+    /// Warning about a device that does not answer any more.
     pub fn hung_device(&self) -> Option<String> {
         self.watch.watch().warning()
     }
@@ -138,12 +138,12 @@ fn run(mut operated: Operated, ended: &AtomicBool) {
 
 fn write(mut log_writer: LogWriter, ended: &AtomicBool) {
     loop {
-        // Asked first, so that nothing is told after the last reading.
+        // Loaded first, so that no event follows the last reading.
         let last = ended.load(Ordering::Acquire);
         log_writer.read();
         if last {
             return;
         }
-        std::thread::sleep(CLERK_RESTS);
+        std::thread::sleep(WRITE_INTERVAL);
     }
 }

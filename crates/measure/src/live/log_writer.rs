@@ -13,13 +13,13 @@ use crate::{Axes, Ended, Error, Phase, Recorded, Recorder, RigSample};
 pub struct Commission {
     /// Its number in [`RigCommand::Press`].
     pub number: u64,
-    /// Where it shall be.
+    /// Its file.
     pub file: PathBuf,
-    /// What stands at its top.
+    /// Its header.
     pub header: RecordingHeader,
 }
 
-/// What happened.
+/// An event for the console.
 #[derive(Debug)]
 pub enum ConsoleEvent {
     /// The rig begins a command.
@@ -28,27 +28,27 @@ pub enum ConsoleEvent {
     Ended(RigCommand, Result<Ended, Error>),
     /// It dropped a stale command.
     Dropped(RigCommand),
-    /// Something happened while it waited.
+    /// The rig failed while it waited.
     Disturbed(Error),
     /// Forces are off.
     Faulted(Fault),
     /// Forces are on again.
     Armed,
-    /// A recording is there, by its number, with its samples.
+    /// A recording is complete: its number, the recording and its samples.
     Recorded(u64, Recorded, Vec<RecordingRow>),
     /// A recording could not be written; the rig was stopped.
     Unwritten(Box<Unwritten>),
 }
 
-/// A recording that could not be written. What was pressed until then is in memory, as that of every recording that
-/// is made is for its plots.
+/// A recording that could not be written. Its samples until then are in memory, as are those of every recording, for
+/// its plots.
 #[derive(Debug)]
 pub struct Unwritten {
-    /// What was to be recorded.
+    /// The commission of the recording.
     pub commission: Commission,
     /// Its samples.
     pub rows: Vec<RecordingRow>,
-    /// Why.
+    /// Why it could not be written.
     pub error: palpate_files::Error,
 }
 
@@ -68,9 +68,9 @@ impl Unwritten {
     }
 }
 
-/// Writes what the rig says, and passes it on.
+/// Writes the recordings from the events of the rig, and forwards the events to the console.
 pub(super) struct LogWriter {
-    pub(super) told: log::Reader<RigEvent>,
+    pub(super) events: log::Reader<RigEvent>,
     pub(super) commissions: Receiver<Commission>,
     pub(super) samples: log::Writer<RigSample>,
     pub(super) news: Sender<ConsoleEvent>,
@@ -81,16 +81,16 @@ pub(super) struct LogWriter {
 /// The recording that is being made.
 pub(super) struct Open {
     commission: Commission,
-    /// None before its first sample: what is refused leaves no file.
+    /// None before the first sample: a refused command leaves no file.
     recorder: Option<Recorder>,
     rows: Vec<RecordingRow>,
 }
 
 impl LogWriter {
-    /// Takes what has been told so far.
+    /// Reads all events so far.
     pub(super) fn read(&mut self) {
-        while let Some(told) = self.told.next_value() {
-            match told {
+        while let Some(event) = self.events.next_value() {
+            match event {
                 RigEvent::Sample(sample) => self.take(&sample),
                 RigEvent::Begun(command) => {
                     self.begin(command);
@@ -109,7 +109,7 @@ impl LogWriter {
     }
 
     fn pass_on(&self, news: ConsoleEvent) {
-        // A window that is gone hears nothing; its recordings are written all the same.
+        // Recordings are written even when the window is closed.
         let _ = self.news.send(news);
     }
 
@@ -203,7 +203,7 @@ mod tests {
 
     struct TestBench {
         log_writer: LogWriter,
-        told: Writer<RigEvent>,
+        events: Writer<RigEvent>,
         news: Receiver<ConsoleEvent>,
         commissions: Sender<Commission>,
         samples: log::Reader<RigSample>,
@@ -211,12 +211,12 @@ mod tests {
     }
 
     fn test_bench() -> TestBench {
-        let (told, told_reader) = log::ring(100);
+        let (events, events_reader) = log::ring(100);
         let (samples, samples_reader) = log::ring(4);
         let (news, news_reader) = channel();
         let (commissions, commissioned) = channel();
         let log_writer = LogWriter {
-            told: told_reader,
+            events: events_reader,
             commissions: commissioned,
             samples,
             news,
@@ -230,7 +230,7 @@ mod tests {
         });
         TestBench {
             log_writer,
-            told,
+            events,
             news: news_reader,
             commissions,
             samples: samples_reader,
@@ -268,12 +268,12 @@ mod tests {
 
         /// Thirty samples on the way and thirty of a stimulus, which then `ended`.
         fn press(&mut self, command: RigCommand, ended: Result<Ended, Error>) {
-            self.told.add(RigEvent::Begun(command));
+            self.events.add(RigEvent::Begun(command));
             for tick in 0..60 {
                 let phase = [Phase::Waiting, Phase::Pressing][usize::from(tick >= 30)];
-                self.told.add(RigEvent::Sample(sample(tick, phase)));
+                self.events.add(RigEvent::Sample(sample(tick, phase)));
             }
-            self.told.add(RigEvent::Ended(command, ended));
+            self.events.add(RigEvent::Ended(command, ended));
             self.log_writer.read();
         }
     }
@@ -325,16 +325,16 @@ mod tests {
         });
         let mut test_bench = test_bench();
         let command = test_bench.ask(1, file);
-        test_bench.told.add(RigEvent::Begun(command));
+        test_bench.events.add(RigEvent::Begun(command));
         test_bench
-            .told
+            .events
             .add(RigEvent::Sample(sample(0, Phase::Pressing)));
         test_bench.log_writer.read();
         reader.join().unwrap();
         // Rows are brought to the disk at least every 200.
         for tick in 1..300 {
             test_bench
-                .told
+                .events
                 .add(RigEvent::Sample(sample(tick, Phase::Pressing)));
             test_bench.log_writer.read();
         }
@@ -369,9 +369,9 @@ mod tests {
         let unwritten = test_bench.news.try_iter().find_map(said).unwrap();
         assert!(unwritten.error.to_string().contains("missing"));
         let refused = test_bench.ask(2, folder.path().join("two.csv"));
-        test_bench.told.add(RigEvent::Begun(refused));
-        let told = RigEvent::Ended(refused, Err(Error::NotApproached));
-        test_bench.told.add(told);
+        test_bench.events.add(RigEvent::Begun(refused));
+        let event = RigEvent::Ended(refused, Err(Error::NotApproached));
+        test_bench.events.add(event);
         test_bench.log_writer.read();
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }

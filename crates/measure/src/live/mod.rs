@@ -12,8 +12,8 @@
 //!
 //! *How we know*: `live::…` on a virtual clock, with [`Operated`] in the thread of the test.
 //!
-//! *Limits*: the thread is as punctual as the operating system lets it be. Over tissue that is not there the rig's
-//! time waits with it.
+//! *Limits*: the operating system decides how punctual the thread is. Over virtual tissue the rig's time waits with the
+//! thread.
 
 mod console;
 mod live_rig;

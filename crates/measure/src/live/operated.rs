@@ -4,18 +4,18 @@ use super::console::{StampedCommand, Switches};
 use super::{Console, RigCommand};
 use crate::{Ended, Error, Rig, RigSample};
 
-/// What a rig says.
+/// An event of a rig.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RigEvent {
-    /// What is seen, at every tick.
+    /// The sample of a tick.
     Sample(RigSample),
-    /// It begins a command.
+    /// The rig begins a command.
     Begun(RigCommand),
-    /// It has ended a command.
+    /// The rig has ended a command.
     Ended(RigCommand, Result<Ended, Error>),
-    /// It dropped a command from before a stop.
+    /// The rig dropped a command from before a stop.
     Dropped(RigCommand),
-    /// Something happened while it waited.
+    /// The rig failed while it waited.
     Disturbed(Error),
     /// Forces are off.
     Faulted(Fault),
@@ -29,31 +29,31 @@ pub struct Operated {
     commands: log::Reader<StampedCommand>,
     /// A command that was read while another was carried out.
     next: Option<StampedCommand>,
-    told: log::Writer<RigEvent>,
+    events: log::Writer<RigEvent>,
     switches: Switches,
     fault: Option<Fault>,
-    limp: bool,
+    is_force_off: bool,
 }
 
-/// What may be told before somebody reads it: half a minute.
-const TOLD: usize = 1 << 15;
+/// Capacity of the event ring: half a minute.
+const EVENTS: usize = 1 << 15;
 
-/// How long it drives on without being told so again [s].
-const DRIVEN: f64 = 0.16;
+/// Time after which a drive stops unless its command is repeated [s].
+const DRIVE_TIMEOUT: f64 = 0.16;
 
 impl Operated {
-    /// `rig`, from where it is operated, and what it says.
+    /// `rig` as an operated rig, its console and the reader of its events.
     pub fn new(rig: Rig) -> (Self, Console, log::Reader<RigEvent>) {
         let (console, commands, switches) = Console::new(rig.supervisor(), rig.is_real());
-        let (told, reader) = log::ring(TOLD);
+        let (events, reader) = log::ring(EVENTS);
         let operated = Self {
             rig,
             commands,
             next: None,
-            told,
+            events,
             switches,
             fault: None,
-            limp: false,
+            is_force_off: false,
         };
         (operated, console, reader)
     }
@@ -63,20 +63,20 @@ impl Operated {
         &mut self.rig
     }
 
-    /// Carries out the next command, or waits for a tick; false when that was the last. `watch` hears every sample
-    /// before anybody else.
+    /// Carries out the next command, or waits for a tick; false when that was the last. `watch` receives every sample
+    /// first.
     pub fn turn(&mut self, watch: &mut dyn FnMut(&RigSample)) -> bool {
         if self.switches.is_ending() {
-            // One on a device that is there has no force any more, which moves nothing.
-            if !self.limp && !self.rig.is_real() {
-                // Nobody is there any more who could be told that this failed.
+            // A real device has no force any more and cannot move the indenter.
+            if !self.is_force_off && !self.rig.is_real() {
+                // Nobody reads a failure any more.
                 let _ = self.rig.withdraw(&mut |_| true);
             }
             return false;
         }
-        if self.limp {
-            self.rest_limp(watch);
-        } else if let Some(given) = self.next_order() {
+        if self.is_force_off {
+            self.wait_without_force(watch);
+        } else if let Some(given) = self.next_command() {
             self.carry_out(given, watch);
         } else {
             self.wait(watch);
@@ -84,42 +84,42 @@ impl Operated {
         true
     }
 
-    fn next_order(&mut self) -> Option<StampedCommand> {
+    fn next_command(&mut self) -> Option<StampedCommand> {
         loop {
             let given = self.next.take().or_else(|| self.commands.next_value())?;
             if given.stops == self.switches.stops() {
                 return Some(given);
             }
-            self.told.add(RigEvent::Dropped(given.command));
+            self.events.add(RigEvent::Dropped(given.command));
         }
     }
 
     fn carry_out(&mut self, given: StampedCommand, watch: &mut dyn FnMut(&RigSample)) {
         let command = given.command;
-        self.told.add(RigEvent::Begun(command));
+        self.events.add(RigEvent::Begun(command));
         let Self {
             rig,
-            told,
+            events,
             switches,
             commands,
             next,
             ..
         } = self;
-        let mut heard = |sample: &RigSample| {
-            told.add(RigEvent::Sample(*sample));
+        let mut on_sample = |sample: &RigSample| {
+            events.add(RigEvent::Sample(*sample));
             watch(sample);
             switches.stops() == given.stops && !switches.is_ending()
         };
         let ended = match command {
-            RigCommand::Jog(way) => rig.jog(&way, &mut heard),
-            RigCommand::GoTo(place) => rig.go_to(&place, &mut heard),
+            RigCommand::Jog(way) => rig.jog(&way, &mut on_sample),
+            RigCommand::GoTo(place) => rig.go_to(&place, &mut on_sample),
             RigCommand::Face(normal) => rig.face(&normal).map(|()| Ended::Whole),
-            RigCommand::MeasureNormal => rig.measure_normal(&mut heard),
+            RigCommand::MeasureNormal => rig.measure_normal(&mut on_sample),
             RigCommand::Drive(direction) => {
-                let mut told_at = None;
+                let mut repeated_at = None;
                 rig.drive(&mut |sample| {
-                    let goes_on = heard(sample);
-                    let mut since = *told_at.get_or_insert(sample.time);
+                    let goes_on = on_sample(sample);
+                    let mut since = *repeated_at.get_or_insert(sample.time);
                     if next.is_none()
                         && let Some(more) = commands.next_value()
                     {
@@ -128,19 +128,20 @@ impl Operated {
                             false => *next = Some(more),
                         }
                     }
-                    told_at = Some(since);
-                    let held = goes_on && next.is_none() && sample.time < since + DRIVEN;
-                    match held {
+                    repeated_at = Some(since);
+                    let continues =
+                        goes_on && next.is_none() && sample.time < since + DRIVE_TIMEOUT;
+                    match continues {
                         true => direction,
                         false => Vec3::zeros(),
                     }
                 })
             }
-            RigCommand::Approach => rig.approach(&mut heard),
+            RigCommand::Approach => rig.approach(&mut on_sample),
             RigCommand::Press(trajectory, number) => {
                 let mut is_enough = false;
                 let ended = rig.press_and_tell(&trajectory, &mut |sample| {
-                    let goes_on = heard(sample);
+                    let goes_on = on_sample(sample);
                     is_enough = goes_on && switches.is_enough(number);
                     goes_on && !is_enough
                 });
@@ -149,63 +150,63 @@ impl Operated {
                     ended => ended,
                 })
             }
-            RigCommand::Withdraw => rig.withdraw(&mut heard),
-            RigCommand::Rest => rig.recover(&mut heard),
+            RigCommand::Withdraw => rig.withdraw(&mut on_sample),
+            RigCommand::Rest => rig.recover(&mut on_sample),
         };
         let failed = ended.is_err();
-        self.told.add(RigEvent::Ended(command, ended));
+        self.events.add(RigEvent::Ended(command, ended));
         if failed {
             self.fail();
         }
     }
 
     fn wait(&mut self, watch: &mut dyn FnMut(&RigSample)) {
-        let Self { rig, told, .. } = self;
+        let Self { rig, events, .. } = self;
         let waited = rig.wait_one_tick(&mut |sample| {
-            told.add(RigEvent::Sample(*sample));
+            events.add(RigEvent::Sample(*sample));
             watch(sample);
             true
         });
         if let Err(error) = waited {
-            self.told.add(RigEvent::Disturbed(error));
+            self.events.add(RigEvent::Disturbed(error));
             self.fail();
         }
     }
 
-    /// What waits was planned for a rig that did not fail.
+    /// Stops, which drops the queued commands: they were planned for a rig that did not fail.
     fn fail(&mut self) {
         self.switches.stop();
         self.notice_fault();
-        self.limp = self.fault.is_some();
+        self.is_force_off = self.fault.is_some();
     }
 
     fn notice_fault(&mut self) {
         let fault = self.rig.fault();
         if let Some(fault) = fault.filter(|_| fault != self.fault) {
-            // Whoever asked to arm did not know of this one.
+            // The operator asked to arm before this fault.
             self.switches.take_arming();
-            self.told.add(RigEvent::Faulted(fault));
+            self.events.add(RigEvent::Faulted(fault));
         }
         self.fault = fault;
     }
 
-    fn rest_limp(&mut self, watch: &mut dyn FnMut(&RigSample)) {
+    fn wait_without_force(&mut self, watch: &mut dyn FnMut(&RigSample)) {
         if self.switches.take_arming() {
             self.rig.arm();
         }
-        let Self { rig, told, .. } = self;
+        let Self { rig, events, .. } = self;
         let live = rig.limp(&mut |sample| {
-            told.add(RigEvent::Sample(*sample));
+            events.add(RigEvent::Sample(*sample));
             watch(sample);
             true
         });
         if live == Ok(true) {
-            self.limp = false;
-            self.told.add(RigEvent::Armed);
+            self.is_force_off = false;
+            self.events.add(RigEvent::Armed);
         }
         self.notice_fault();
         while let Some(given) = self.commands.next_value() {
-            self.told.add(RigEvent::Dropped(given.command));
+            self.events.add(RigEvent::Dropped(given.command));
         }
     }
 }

@@ -4,7 +4,7 @@ use super::rigid_body::after;
 use super::{Joints, RigidBody};
 use palpate_servo::Vec3;
 
-/// The three joints with rotors that drive them through cables and links that give way, each a spring: what
+/// The three joints with rotors that drive them through compliant cables and links, each a spring. This compliance
 /// keeps a real machine from rendering the stiffness that its friction would allow [Díaz and Gil 2010].
 ///
 /// ```text

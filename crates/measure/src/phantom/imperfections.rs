@@ -1,4 +1,4 @@
-/// What keeps a machine from being its equations.
+/// Deviations of a machine from its equations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Imperfections {
     /// Step of the encoders, at the handle [m]; zero for none.
@@ -45,13 +45,13 @@ impl Imperfections {
         }
     }
 
-    /// What the amplifiers make of a wanted `force` [N].
+    /// Force of the amplifiers for a commanded `force` [N].
     pub(crate) fn amplified(&self, force: f64) -> f64 {
         let within = force.clamp(-self.peak_force, self.peak_force);
         to_steps(within, self.force_step)
     }
 
-    /// What the encoders see of a `place` [m].
+    /// Encoder reading of a `place` [m].
     pub(crate) fn encoded(&self, place: f64) -> f64 {
         to_steps(place, self.encoder_step)
     }

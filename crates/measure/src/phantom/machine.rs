@@ -24,7 +24,7 @@ pub struct Machine {
     step: f64,
 }
 
-/// What a machine remembers: place [m] and velocity [m/s] of the handle, then what is inside.
+/// State of a machine: position [m] and velocity [m/s] of the handle, then internal states.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MachineState(pub SVector<f64, STATES>);
 

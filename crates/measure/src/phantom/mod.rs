@@ -1,4 +1,4 @@
-//! A PHANTOM that is simulated: mechanics with encoders, amplifiers, friction and delay, as a device for a servo loop.
+//! A simulated PHANTOM: mechanics with encoders, amplifiers, friction and delay, as a device for a servo loop.
 //!
 //! [`Machine`] is one linear axis, such as the two masses of the source's figure 7-6 ([`TwoMass`]), exact between two
 //! changes of a force. [`RigidBody`] is the three-jointed machine itself [Çavuşoğlu, Feygin and Tendick 2002],

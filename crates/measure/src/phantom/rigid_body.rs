@@ -64,7 +64,7 @@ impl RigidBody {
         Matrix3::new(m11, 0.0, 0.0, 0.0, m22, m23, 0.0, m23, m33)
     }
 
-    /// How much of M₁₁ goes with cos 2 q₂, cos 2 q₃ and cos q₂ sin q₃ [kg m²].
+    /// Coefficients of cos 2 q₂, cos 2 q₃ and cos q₂ sin q₃ in M₁₁ [kg m²].
     fn waves(&self) -> [f64; 3] {
         let [l1, l2, l3, ..] = self.linkage.lengths;
         let [ma, mc, ..] = self.linkage.masses;

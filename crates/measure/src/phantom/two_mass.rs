@@ -1,4 +1,4 @@
-/// A link that a hand holds, on a spring to a rotor that is held lightly: the source's figure 7-6, and its
+/// A link in the hand, on a spring to a rotor that a weak spring fixes to ground: the source's figure 7-6, and its
 /// figure 5-6.
 ///
 /// ```text
@@ -15,7 +15,7 @@ pub struct TwoMass {
     pub structure_stiffness: f64,
     /// b_s [N s/m].
     pub structure_damping: f64,
-    /// k, of what holds the rotor [N/m].
+    /// k, between rotor and ground [N/m].
     pub stiffness: f64,
     /// b [N s/m].
     pub damping: f64,

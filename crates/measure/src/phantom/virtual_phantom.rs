@@ -1,12 +1,12 @@
-//! A PHANTOM that is not there: the mechanics of [`crate::phantom`] with encoders, amplifiers, friction and
-//! delay, between a loop and whatever touches the handle.
+//! A virtual PHANTOM: the mechanics of [`crate::phantom`] with encoders, amplifiers, friction and
+//! delay, between a loop and a hand or specimen at the handle.
 //!
-//! Between two exchanges the motors keep their force, and the machine moves in steps of 50 µs under it and under
-//! what touches it: a hand, or a specimen under the tip.
+//! Between two exchanges the motors keep their force, and the machine moves in steps of 50 µs under that force and
+//! the force of the hand, or of the specimen under the tip.
 //!
 //! *How we know*: `phantom::…`: tracking, a rendered wall at the edge of stability, sticking friction.
 //!
-//! *Limits*: the axes of a linear machine do not know one another; steps of encoders are taken at the handle.
+//! *Limits*: the axes of a linear machine are independent; steps of encoders are taken at the handle.
 
 use palpate_servo::{Capabilities, Command, Device, DeviceState, Disabled, Fault, Vec3};
 
@@ -33,7 +33,7 @@ pub struct VirtualPhantom {
     exchanges: usize,
 }
 
-/// What moves.
+/// The mechanics.
 enum Mechanics {
     /// Three axes alike.
     Axes(Box<Machine>, [MachineState; 3]),
@@ -80,7 +80,7 @@ impl VirtualPhantom {
         }
     }
 
-    /// The same with something that touches its handle.
+    /// The same, where a function gives the contact force on its handle.
     pub fn touched_by(mut self, touch: Touch) -> Self {
         self.touch = touch;
         self

@@ -4,7 +4,7 @@ use super::{Ended, Line, Listener, Phase, Reference, Rig, RigSample};
 use crate::Error;
 use crate::rig_settings::check_within;
 
-/// What rounding may make of a way [m].
+/// Rounding error of a way [m].
 const ROUNDED: f64 = 1e-9;
 
 impl Rig {
@@ -115,9 +115,9 @@ impl Rig {
     /// Whether a way [m] is not along the normal.
     fn leads_sideways(&self, way: &Vec3) -> bool {
         let normal = self.line.normal;
-        let beside = way - normal * normal.dot(way);
-        // What is no number is refused as out of reach.
-        beside.norm() > ROUNDED * way.norm().max(1.0)
+        let tangential = way - normal * normal.dot(way);
+        // A way that is not a number is refused as out of reach.
+        tangential.norm() > ROUNDED * way.norm().max(1.0)
     }
 
     /// Sideways it goes only above the tissue.
@@ -130,7 +130,7 @@ impl Rig {
         }
     }
 
-    /// Where the tissue begins is not known any more; it is withdrawn as high as before, or to where it is.
+    /// Forgets the first contact; the indenter withdraws as high as before, or stays at its height.
     pub(super) fn forget_contact(&mut self) {
         let above = self
             .contact

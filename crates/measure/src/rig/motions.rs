@@ -9,7 +9,7 @@ use crate::{DepthTrajectory, Error, RigSettings};
 const MOST_ROOM: usize = 4_000_000;
 
 impl Rig {
-    /// Goes down until tissue is met, finds where that was and waits above it.
+    /// Goes down until contact, finds the first contact and waits above it.
     ///
     /// # Errors
     /// When there is none, or a force is too large; the indenter is withdrawn all the same.
@@ -69,8 +69,8 @@ impl Rig {
         mean(last) - mean(&forces[..resting]) > self.settings.contact_force
     }
 
-    /// Presses `course` from first contact and withdraws. `listener` hears what is to be recorded: it begins
-    /// half a second before, above the tissue.
+    /// Presses `trajectory` from first contact and withdraws. `listener` receives the samples to record, which begin
+    /// half a second before contact, above the tissue.
     ///
     /// # Errors
     /// When it goes beyond a limit, which is known before it begins, or the force does.
@@ -84,7 +84,7 @@ impl Rig {
         })
     }
 
-    /// The same, where `listener` also hears the way there and back; what is to be recorded has the phase
+    /// The same, but `listener` also receives the samples of the way there and back; samples to record have the phase
     /// [`Phase::Pressing`].
     ///
     /// # Errors
@@ -150,7 +150,7 @@ impl Rig {
     /// Waits for `time` [s] where it is.
     ///
     /// # Errors
-    /// When the device fails, or what is under the indenter comes up against it: it is withdrawn then.
+    /// When the device fails, or the tissue rises against the indenter, which is withdrawn then.
     pub fn wait(&mut self, time: f64, listener: Listener<'_>) -> Result<Ended, Error> {
         let waited = self.stay(time, listener);
         self.withdraw_unless(waited, listener)
@@ -199,14 +199,14 @@ impl Rig {
         self.go(above, speed, Phase::Withdrawing, listener)
     }
 
-    /// What was done, with the indenter out of the tissue when that failed.
+    /// Returns `done`; withdraws the indenter first when it is an error.
     pub(super) fn withdraw_unless(
         &mut self,
         done: Result<Ended, Error>,
         listener: Listener<'_>,
     ) -> Result<Ended, Error> {
         if done.is_err() {
-            // The reason to withdraw says more than one why that failed too.
+            // The first error says more than that of the withdrawal.
             let _ = self.withdraw(listener);
         }
         done

@@ -1,5 +1,5 @@
-//! The rig on a device that is there: over tissue that is not, whose force the device displays on the tip besides what
-//! drives it, or over real tissue with a force sensor.
+//! The rig on a real device: over virtual tissue, whose force the device displays on the tip in addition to the driving
+//! force, or over real tissue with a force sensor.
 //!
 //! Height is up at the device, its y, from where the handle is at first.
 //!
@@ -18,7 +18,7 @@ use crate::sensing::{MountedSensor, Source};
 use crate::{Error, Indenter, Reference, RigSettings, VirtualSpecimen};
 
 impl Rig {
-    /// A rig whose indenter `device` carries, over a specimen that is not there.
+    /// A rig whose indenter `device` carries, over a virtual specimen.
     ///
     /// # Errors
     /// When a setting is out of range.
@@ -33,19 +33,19 @@ impl Rig {
         let mut specimen = specimen;
         specimen.indenter_axis = settings.indenter_axis.normalize();
         let (header, breath_held) = (specimen.header.clone(), specimen.breath_held());
-        let (feel, felt) = latest::channel(&ForceTorque::zero());
+        let (load_sender, tip_load) = latest::channel(&ForceTorque::zero());
         let (indenter, reference) = Indenter::new(settings.gains, Reference::at_rest());
         let pressed = Pressed {
             indenter,
             specimen,
-            feel,
+            load_sender,
         };
         let (controller, rest) = Upright::new(pressed);
         let mut rig = Self::new(Parts {
             device,
             controller: Box::new(controller),
             reference,
-            sensor: Source::of_virtual(felt, seed, &settings),
+            sensor: Source::of_virtual(tip_load, seed, &settings),
             header,
             breath_held,
             settings,
@@ -55,8 +55,8 @@ impl Rig {
         Ok(rig)
     }
 
-    /// A rig whose indenter `device` carries over tissue that is there, with a sensor between them. `header` says what
-    /// recordings say of specimen and indenter. Nothing may touch the indenter for the first half second, in which the
+    /// A rig whose indenter `device` carries over real tissue, with a sensor between them. `header` describes specimen
+    /// and indenter for recordings. Nothing may touch the indenter for the first half second, in which the
     /// sensor's zero is taken.
     ///
     /// # Errors
@@ -77,7 +77,7 @@ impl Rig {
             reference,
             sensor: Source::Real(sensor),
             header,
-            // Who holds a real breath is told by the window.
+            // The window asks a person to hold the breath.
             breath_held: Arc::default(),
             settings,
             clock,
@@ -91,13 +91,13 @@ impl Rig {
 struct Pressed {
     indenter: Indenter,
     specimen: VirtualSpecimen,
-    feel: latest::Sender<ForceTorque>,
+    load_sender: latest::Sender<ForceTorque>,
 }
 
 impl Controller for Pressed {
     fn update(&mut self, state: &DeviceState, dt: f64) -> Vec3 {
         let on_tip = self.specimen.touch(state.time, &state.position, dt);
-        self.feel.send(on_tip);
+        self.load_sender.send(on_tip);
         self.indenter.update(state, dt) + on_tip.force
     }
 

@@ -1,9 +1,9 @@
 use palpate_servo::{ForceTorque, SensorFault, Vec3};
 
-/// What the rig does.
+/// The phase of the rig.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Phase {
-    /// It waits where it is, or goes to where it begins.
+    /// It waits, or moves to its start.
     Waiting,
     /// It is moved by hand.
     Jogging,
@@ -17,24 +17,24 @@ pub enum Phase {
     Limp,
 }
 
-/// What is seen at a tick.
+/// The state of the rig at a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigSample {
-    /// On the rig's clock [s].
+    /// Time on the rig's clock [s].
     pub time: f64,
-    /// What it does.
+    /// Phase of the rig.
     pub phase: Phase,
-    /// Height of the tip along the normal as the encoders say [m].
+    /// Height of the tip along the normal by the encoders [m].
     pub height: f64,
-    /// How deep that is from first contact [m]; none before there was one.
+    /// Depth of the tip from first contact [m]; none before there was one.
     pub depth: Option<f64>,
-    /// What the sensor shows along the normal [N], positive on the tissue.
+    /// Force reading along the normal [N], positive on the tissue.
     pub force: f64,
-    /// The tip in the rig's axes as the encoders say [m].
+    /// Position of the tip in the rig's axes by the encoders [m].
     pub position: Vec3,
     /// The direction out of the tissue along which it approaches, in the rig's axes [-].
     pub normal: Vec3,
-    /// What the sensor shows in the indenter's axes, about the sensor's origin; none for a sensor of one axis.
+    /// Reading of all axes in the indenter's frame, about the sensor's origin; none for a sensor of one axis.
     pub axes: Option<ForceTorque>,
     /// Why force and axes are those of an earlier tick.
     pub sensor_fault: Option<SensorFault>,
@@ -55,13 +55,13 @@ impl RigSample {
 /// How a stimulus ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ended {
-    /// With its last sample.
+    /// It ended with its last sample.
     Whole,
-    /// Before, as whoever listened said; the indenter is withdrawn.
+    /// The listener stopped it; the indenter is withdrawn.
     Stopped,
-    /// Before, because what was asked for is known well enough; the indenter is withdrawn.
+    /// It ended early because the parameters are known well enough; the indenter is withdrawn.
     Enough,
 }
 
-/// Whoever listens to samples; false to stop. A rig that withdraws goes on with that.
+/// Callback for samples; false stops the motion, except a withdrawal.
 pub type Listener<'a> = &'a mut dyn FnMut(&RigSample) -> bool;

@@ -1,7 +1,7 @@
-//! What a bonded flat punch feels of a curved and tilted surface, on six axes.
+//! Force and torque of a curved and tilted surface on a bonded flat punch.
 //!
 //! Along the surface's normal m under the tip, the law's force F(d) at depth d. Across it the punch carries the surface
-//! with it: −κ F/d u, where u is how far the tip has gone across since first contact and κ the ratio of tangential to
+//! with it: −κ F/d u, where u is the tangential displacement of the tip since first contact and κ the ratio of tangential to
 //! normal stiffness of a bonded punch, [8 G a / (2 − ν)] / [4 G a ln(3 − 4ν) / (1 − 2ν)], two thirds for ν = ½
 //! [Mindlin 1949, Spence 1968]. A face that is not parallel to the surface is pressed on more on one side: a torque
 //! F e about the tip with e = ⅔ a² sin θ / d, that of a punch that rocks on a half-space [Johnson 1985], and not beyond

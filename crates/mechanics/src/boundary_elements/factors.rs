@@ -25,7 +25,7 @@ pub(super) struct Factors<T> {
 }
 
 impl<T: Precision> Factors<T> {
-    /// Of `matrix`, column by column, on all cores. `progress` hears the part that is done [-] and may
+    /// Of `matrix`, column by column, on all cores. `progress` receives the part done [-] and may
     /// cancel.
     pub(super) fn new(
         size: usize,

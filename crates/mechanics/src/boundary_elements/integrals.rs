@@ -44,7 +44,7 @@ pub fn integrate(kelvin: &Kelvin, panel: &Panel, x: &Vec3, place: Place) -> Pane
     }
 }
 
-/// Where a place is, seen from a panel.
+/// A place relative to a panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
     /// On the panel, inside its edges.

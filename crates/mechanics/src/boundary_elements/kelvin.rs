@@ -2,7 +2,7 @@ use nalgebra::Matrix3;
 
 use crate::{LinearElastic, Vec3};
 
-/// Kelvin's solution: what a unit force in an endless solid does.
+/// Kelvin's solution: a unit force in an infinite solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kelvin {
     shear_modulus: f64,

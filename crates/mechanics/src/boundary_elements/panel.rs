@@ -5,7 +5,7 @@ use crate::Vec3;
 pub struct Panel {
     /// Corners [m], counterclockwise seen from outside.
     pub corners: [Vec3; 3],
-    /// Where its equations are collocated [m].
+    /// The collocation point of its equations [m].
     pub centroid: Vec3,
     /// Outward unit normal [-].
     pub normal: Vec3,

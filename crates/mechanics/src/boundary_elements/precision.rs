@@ -1,6 +1,6 @@
 use faer::traits::RealField;
 
-/// The numbers that a large matrix is kept in: `f32`, or `f64` for tests.
+/// The number type of a large matrix: `f32`, or `f64` for tests.
 pub trait Precision: RealField + Copy + Into<f64> + Send + Sync + 'static {
     /// The nearest one to `value`.
     fn of(value: f64) -> Self;

@@ -9,7 +9,7 @@ use super::rotations::TractionColumns;
 use crate::surface_response::{ResponseParts, Sampling, SurfaceResponse, TouchableTriangle, zeros};
 use crate::{Error, LinearElastic};
 
-/// A linear solid that is held in some triangles of its surface and can be touched in others.
+/// A linear solid that is fixed in some triangles of its surface and can be touched in others.
 #[derive(Debug, Clone, Copy)]
 pub struct BoundaryProblem<'a> {
     /// Its surface.
@@ -18,16 +18,16 @@ pub struct BoundaryProblem<'a> {
     pub poissons_ratio: f64,
     /// Triangles that cannot move.
     pub held: &'a [TriangleId],
-    /// Triangles that a contact may load, ascending; none of them held.
+    /// Triangles that a contact may load, ascending; none of them fixed.
     pub touchable: &'a [TriangleId],
 }
 
-/// What a solution takes.
+/// Memory that a solution takes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ResponseMemory {
-    /// What stays: the response itself [bytes].
+    /// The response itself [bytes].
     pub response: usize,
-    /// The most that is held at a time, the response included [bytes].
+    /// The peak, the response included [bytes].
     pub most: usize,
 }
 
@@ -41,11 +41,11 @@ pub enum Stage {
     Assembly,
     /// The factors of their matrix.
     Factors,
-    /// What each touchable triangle does.
+    /// The columns of the touchable triangles.
     Columns,
 }
 
-/// How far a solution has come.
+/// The progress of a solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// What is being done.
@@ -55,8 +55,8 @@ pub struct Progress {
 }
 
 impl BoundaryProblem<'_> {
-    /// What a solution in `T` takes: with n triangles, t of them touchable, 9 n t numbers for the response
-    /// and 9 n² for the factors.
+    /// Memory that a solution in `T` takes: with n triangles, t of them touchable, 9 n t numbers for the
+    /// response and 9 n² for the factors.
     pub fn memory<T: Precision>(&self) -> ResponseMemory {
         let (n, t) = (self.size(), 3 * self.touchable.len());
         let response = t * n * size_of::<T>();
@@ -66,8 +66,8 @@ impl BoundaryProblem<'_> {
         }
     }
 
-    /// Solves for a unit force on each touchable triangle in each direction. `memory` [bytes] is what may
-    /// be used. On all cores.
+    /// Solves for a unit force on each touchable triangle in each direction. `memory` [bytes] is the
+    /// limit. On all cores.
     ///
     /// # Errors
     /// Before the first large matrix: when the memory does not suffice, nothing is fixed or touchable, a triangle is
@@ -79,7 +79,7 @@ impl BoundaryProblem<'_> {
     ) -> Result<SurfaceResponse<T>, Error> {
         let law = LinearElastic::new(1.0, self.poissons_ratio)?;
         let triangles = self.surface.mesh().triangles().len();
-        let held = held_triangles(triangles, self.held, self.touchable)?;
+        let fixed = fixed_triangles(triangles, self.held, self.touchable)?;
         let needed = self.memory::<T>().most;
         if needed > memory {
             return Err(Error::NotEnoughMemory { needed, memory });
@@ -94,7 +94,7 @@ impl BoundaryProblem<'_> {
                 area: panel.area,
             }
         });
-        // Both before the long work, so that it is not for nothing.
+        // Both before the long work, so that it fails early.
         let mut parts = ResponseParts::zeros(
             self.poissons_ratio,
             touchable.collect(),
@@ -103,7 +103,7 @@ impl BoundaryProblem<'_> {
             Sampling::Centroids,
         )?;
         let system = zeros(self.size() * self.size())?;
-        let solved = self.fill(&influences, &held, system, &mut parts, progress);
+        let solved = self.fill(&influences, &fixed, system, &mut parts, progress);
         match solved {
             ControlFlow::Continue(()) => SurfaceResponse::new(parts),
             ControlFlow::Break(()) => Err(Error::BrokenOff),
@@ -114,11 +114,11 @@ impl BoundaryProblem<'_> {
         3 * self.surface.mesh().triangles().len()
     }
 
-    /// Fills the response in, by way of the `system`, which comes as zeros.
+    /// Computes the response by the `system`, which is zero on entry.
     fn fill<T: Precision>(
         &self,
         influences: &Influences<'_>,
-        held: &[bool],
+        fixed: &[bool],
         mut system: Vec<T>,
         parts: &mut ResponseParts<T>,
         progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
@@ -128,22 +128,22 @@ impl BoundaryProblem<'_> {
         let assembly = 400.0 / 9.0 * size.powi(2);
         let factors = size.powi(3) / 3.0;
         let columns = size.powi(2) * 3.0 * self.touchable.len() as f64;
-        let mut told = |stage, work: f64| {
+        let mut report = |stage, work: f64| {
             let part = work / (assembly + factors + columns);
             progress(Progress { stage, part })
         };
-        assemble(influences, held, &mut system, &mut |part| {
-            told(Stage::Assembly, part * assembly)
+        assemble(influences, fixed, &mut system, &mut |part| {
+            report(Stage::Assembly, part * assembly)
         })?;
         influences.free_rotations(TractionColumns {
             columns: &mut system,
-            fixed: held,
+            fixed,
         });
         let factored = Factors::new(self.size(), system, &mut |part| {
-            told(Stage::Factors, assembly + part * factors)
+            report(Stage::Factors, assembly + part * factors)
         })?;
         self.columns(influences, &factored, parts, &mut |part| {
-            told(Stage::Columns, assembly + factors + part * columns)
+            report(Stage::Columns, assembly + factors + part * columns)
         })
     }
 
@@ -160,14 +160,14 @@ impl BoundaryProblem<'_> {
         while solved < self.touchable.len() {
             let many = (AT_ONCE * cores()).min(self.touchable.len() - solved);
             let loaded = self.touchable[solved..solved + many].chunks(AT_ONCE);
-            let kept = parts.displacements[3 * rows * solved..].chunks_mut(3 * rows * AT_ONCE);
-            on_all_cores(loaded.zip(kept), |(loaded, kept)| {
-                let kept = &mut kept[..3 * rows * loaded.len()];
-                load(influences, loaded, kept);
-                factors.solve(kept);
+            let columns = parts.displacements[3 * rows * solved..].chunks_mut(3 * rows * AT_ONCE);
+            on_all_cores(loaded.zip(columns), |(loaded, columns)| {
+                let columns = &mut columns[..3 * rows * loaded.len()];
+                load(influences, loaded, columns);
+                factors.solve(columns);
                 for triangle in self.held {
-                    for column in kept.chunks_exact_mut(rows) {
-                        // What was found of it is a traction.
+                    for column in columns.chunks_exact_mut(rows) {
+                        // Its unknowns are tractions.
                         column[3 * triangle.index()..][..3].fill(T::of(0.0));
                     }
                 }
@@ -181,15 +181,15 @@ impl BoundaryProblem<'_> {
 
 /// Whether each of so many triangles is fixed. Refuses numbers that the surface does not have and an order that
 /// [`SurfaceResponse`] would refuse after the factorization.
-pub(crate) fn held_triangles(
+pub(crate) fn fixed_triangles(
     triangles: usize,
-    held: &[TriangleId],
+    fixed: &[TriangleId],
     touchable: &[TriangleId],
 ) -> Result<Vec<bool>, Error> {
-    if held.is_empty() {
+    if fixed.is_empty() {
         return Err(Error::NothingHeld);
     }
-    for (what, numbers) in [("fixed", held), ("touchable", touchable)] {
+    for (what, numbers) in [("fixed", fixed), ("touchable", touchable)] {
         if let Some(stray) = numbers.iter().find(|t| t.index() >= triangles) {
             return Err(Error::TriangleOutOfRange {
                 what,
@@ -207,22 +207,22 @@ pub(crate) fn held_triangles(
             before: pair[0].index(),
         });
     }
-    let mut is_held = vec![false; triangles];
-    for triangle in held {
-        is_held[triangle.index()] = true;
+    let mut is_fixed = vec![false; triangles];
+    for triangle in fixed {
+        is_fixed[triangle.index()] = true;
     }
-    let both = touchable.iter().filter(|t| is_held[t.index()]).count();
+    let both = touchable.iter().filter(|t| is_fixed[t.index()]).count();
     if both > 0 {
         return Err(Error::TouchableIsHeld { triangles: both });
     }
-    Ok(is_held)
+    Ok(is_fixed)
 }
 
-/// [½ 1 + T of free panels, −U of held ones]. The unknowns of held panels are tractions over E and the
-/// size of a panel, so that all are of like size.
+/// [½ 1 + T of free panels, −U of fixed ones]. The unknowns of fixed panels are tractions over E and
+/// the size of a panel, so that all are of like size.
 fn assemble<T: Precision>(
     influences: &Influences<'_>,
-    held: &[bool],
+    fixed: &[bool],
     system: &mut [T],
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
@@ -234,7 +234,7 @@ fn assemble<T: Precision>(
         let sources = columns.chunks_exact_mut(9 * count).enumerate();
         on_all_cores(sources, |(source, columns)| {
             let source = k * share + source;
-            if held[source] {
+            if fixed[source] {
                 influences.displacement_columns(source, -scale, columns);
             } else {
                 influences.traction_columns(source, columns);
@@ -245,7 +245,7 @@ fn assemble<T: Precision>(
     ControlFlow::Continue(())
 }
 
-/// Fills the columns of unit forces on `loaded`: what they would do if nothing else moved.
+/// Fills the columns of unit forces on `loaded`: their effect if nothing else moved.
 fn load<T: Precision>(influences: &Influences<'_>, loaded: &[TriangleId], columns: &mut [T]) {
     let size = 3 * influences.panels.len();
     for (columns, source) in columns.chunks_exact_mut(3 * size).zip(loaded) {

@@ -25,7 +25,7 @@ use super::assembly::Influences;
 use super::precision::Precision;
 use crate::Vec3;
 
-/// Columns of ½ 1 + T, in which those of fixed panels stand for something else.
+/// Columns of ½ 1 + T, in which the columns of fixed panels have another meaning.
 pub(super) struct TractionColumns<'a, T> {
     /// Three for each panel, one after the other.
     pub(super) columns: &'a mut [T],

@@ -5,7 +5,7 @@ use super::interpolation::{Interpolation, SurfacePoint};
 use super::weights::Weights;
 use crate::Vec3;
 
-/// Points that a coarse surface carries with it. What it takes to move them is found once.
+/// Points that are embedded in a coarse surface. Their weights are computed once.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Carrier {
     places: Vec<Vec3>,
@@ -37,7 +37,7 @@ impl Carrier {
         carrier
     }
 
-    /// Where the points are at rest [m].
+    /// Positions of the points at rest [m].
     pub fn places(&self) -> &[Vec3] {
         &self.places
     }

@@ -3,21 +3,21 @@ use super::press::{Dimple, Press};
 use super::weights::Weights;
 use crate::Vec3;
 
-/// Sweeps over the presses until each has its own depth beside the others: two flat tips side by side give
-/// each other a third, so that the error falls by nine in each.
+/// Sweeps over the presses until each has its own depth together with the others: two flat tips side by
+/// side give each other a third, so that the error falls by nine in each.
 const SWEEPS: usize = 16;
 
-/// The displacement of a coarse surface at one instant, ready to be read anywhere on it.
+/// The displacement of a coarse surface at one instant, which can be evaluated anywhere on it.
 #[derive(Debug, Clone, Default)]
 pub struct SurfaceField {
-    /// What the dimples leave of each centroid's displacement [m].
+    /// Displacement of each centroid less that of the dimples [m].
     residual: Vec<Vec3>,
     dimples: Vec<(Dimple, Vec3)>,
     rows: Weights,
 }
 
 impl SurfaceField {
-    /// Zero, with room for any `presses` at a time: to take them allocates nothing from the first time on.
+    /// Zero, with room for `presses` at a time, which then allocate nothing.
     pub fn with_room(interpolation: &Interpolation, presses: usize) -> Self {
         Self {
             residual: Vec::with_capacity(interpolation.nodes().len()),

@@ -99,7 +99,7 @@ impl Interpolation {
         &self.surface
     }
 
-    /// Where a point is at rest [m].
+    /// Position of a point at rest [m].
     pub fn place(&self, at: &SurfacePoint) -> Vec3 {
         blend(&self.surface.mesh().positions(at.triangle), &at.barycentric)
     }

@@ -9,19 +9,19 @@ use crate::{Error, Vec3};
 /// More subdivisions would make more than 4096 triangles of one.
 pub const MOST_LEVELS: usize = 6;
 
-/// A coarse surface, the one that is seen, and how it is enhanced.
+/// A coarse surface, the displayed one, and the settings of the enhancement.
 #[derive(Debug, Clone)]
 pub struct EnhancementModel {
     interpolation: Interpolation,
     /// A finer surface of the same organ, with the boxes around the coarse one.
     finer: Option<(Surface, AabbTree)>,
-    /// Of the surface that is seen.
+    /// Of the displayed surface.
     pub(super) normals: CornerNormals,
     settings: Enhancement,
 }
 
 impl EnhancementModel {
-    /// For the coarse `surface`, which is seen.
+    /// For the coarse `surface`, which is displayed.
     ///
     /// # Errors
     /// When there are more than [`MOST_LEVELS`].
@@ -31,7 +31,7 @@ impl EnhancementModel {
         Self::with_parts(interpolation, None, normals, settings)
     }
 
-    /// For a coarse surface that carries `finer`, which is seen.
+    /// For a coarse surface that carries `finer`, which is displayed.
     ///
     /// # Errors
     /// When there are more than [`MOST_LEVELS`].
@@ -80,7 +80,7 @@ impl EnhancementModel {
         &self.interpolation
     }
 
-    /// The surface that is seen.
+    /// The displayed surface.
     pub fn surface(&self) -> &Surface {
         match &self.finer {
             Some((finer, _)) => finer,
@@ -88,17 +88,17 @@ impl EnhancementModel {
         }
     }
 
-    /// Whether the coarse surface is not the one that is seen.
+    /// Whether the displayed surface is finer than the coarse one.
     pub fn is_finer(&self) -> bool {
         self.finer.is_some()
     }
 
-    /// What was chosen.
+    /// The settings.
     pub fn settings(&self) -> &Enhancement {
         &self.settings
     }
 
-    /// All vertices that are seen.
+    /// All displayed vertices.
     pub fn carrier(&self) -> Carrier {
         match &self.finer {
             Some((finer, _)) => Carrier::of_surface(&self.interpolation, finer),
@@ -106,7 +106,7 @@ impl EnhancementModel {
         }
     }
 
-    /// Where on the coarse surface a point follows that lies over `at` of the one that is seen, at rest at
+    /// The point of the coarse surface that moves a point over `at` of the displayed one, at rest at
     /// `place` [m].
     pub(super) fn site(&self, at: &SurfacePoint, place: &Vec3) -> SurfacePoint {
         let Some((finer, tree)) = &self.finer else {

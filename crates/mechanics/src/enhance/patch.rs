@@ -8,8 +8,8 @@ use super::neighborhood::Neighborhood;
 use super::pn_triangle::PnTriangle;
 use crate::Vec3;
 
-/// The finer triangles around some contacts, and those of the seen surface whose place they take. Built anew,
-/// into the same buffers, when a contact comes to another triangle.
+/// The finer triangles around some contacts, and those of the displayed surface that they replace. Rebuilt in
+/// the same buffers when a contact moves to another triangle.
 ///
 /// Its first points are vertices of that surface, and move as [`EnhancementModel::carrier`] moves those, to
 /// the last bit: the surface has no cracks, at rest or moved.
@@ -119,8 +119,8 @@ impl EnhancedPatch {
         for triangle in self.replaced() {
             gone[triangle.index()] = true;
         }
-        let kept = seen.triangle_ids().filter(|id| !gone[id.index()]);
-        let mut triangles: Vec<_> = kept.map(|id| seen.corners(id)).collect();
+        let remaining = seen.triangle_ids().filter(|id| !gone[id.index()]);
+        let mut triangles: Vec<_> = remaining.map(|id| seen.corners(id)).collect();
         let number = |point: u32| match self.corners.get(point as usize) {
             Some(node) => *node,
             None => NodeId((old + point as usize - shared) as u32),

@@ -5,7 +5,7 @@ use crate::Vec3;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PnTriangle {
     corners: [Vec3; 3],
-    /// Per edge from corner k to the next: the control points beside its ends [m].
+    /// Per edge from corner k to the next: the control points next to its ends [m].
     edges: [[Vec3; 2]; 3],
     middle: Vec3,
 }
@@ -15,7 +15,7 @@ impl PnTriangle {
     /// bulge.
     pub(super) fn new(corners: [Vec3; 3], normals: &[Vec3; 3], straight: [bool; 3]) -> Self {
         // b210 and its like: a third of the way, put down on the tangent plane of the near end.
-        let beside = |near: usize, far: usize, straight: bool| {
+        let control_point = |near: usize, far: usize, straight: bool| {
             let way = corners[far] - corners[near];
             let height = if straight {
                 0.0
@@ -24,8 +24,12 @@ impl PnTriangle {
             };
             corners[near] + (way - height * normals[near]) / 3.0
         };
-        let edges = [(0, 1), (1, 2), (2, 0)]
-            .map(|(k, next)| [beside(k, next, straight[k]), beside(next, k, straight[k])]);
+        let edges = [(0, 1), (1, 2), (2, 0)].map(|(k, next)| {
+            [
+                control_point(k, next, straight[k]),
+                control_point(next, k, straight[k]),
+            ]
+        });
         let of_edges = edges.iter().flatten().sum::<Vec3>() / 6.0;
         let of_corners = corners.iter().sum::<Vec3>() / 3.0;
         Self {

@@ -12,7 +12,7 @@ const REACH: f64 = 2.0;
 /// How far over a coarse triangle a curved or finer surface may lie, in radii of influence [-].
 const CURVED: f64 = 0.25;
 
-/// A tip in contact: where, of which form, and where it has taken the surface.
+/// A tip in contact: its contact point, shape and displacement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Press {
     /// The contact point at rest.
@@ -21,7 +21,7 @@ pub struct Press {
     pub tip: Tip,
     /// Displacement of the contact point [m].
     pub displacement: Vec3,
-    /// What of it a half-space would yield [m]: the dimple's part, which no coarse triangle shows.
+    /// Its half-space part [m]: the dimple, which the coarse triangles do not resolve.
     pub own: Vec3,
 }
 
@@ -51,7 +51,7 @@ pub(super) struct Dimple {
     /// Nothing is left at this distance from the contact [m].
     reach: f64,
     /// A point this far below or above the contact is still at it [m].
-    leeway: f64,
+    height_tolerance: f64,
 }
 
 impl Dimple {
@@ -65,7 +65,7 @@ impl Dimple {
             tip: press.tip,
             radius,
             reach: REACH * (influence + radius),
-            leeway: radius.hypot(CURVED * influence),
+            height_tolerance: radius.hypot(CURVED * influence),
         }
     }
 
@@ -80,14 +80,14 @@ impl Dimple {
         profile(&self.tip, self.radius, distance)
             * quartic(beyond)
             * alike(normal, &self.normal)
-            * self.beside(&away)
+            * self.same_side(&away)
     }
 
-    /// Whether a point lies beside the contact rather than below it, as the far side of a lumen does, which
-    /// faces the same way: one up to 30° down, zero from 60° on [-].
-    fn beside(&self, away: &Vec3) -> f64 {
+    /// Whether a point lies on the same side as the contact rather than below it, as the far side of a
+    /// lumen does, which faces the same way: one up to 30° down, zero from 60° on [-].
+    fn same_side(&self, away: &Vec3) -> f64 {
         let down = away.dot(&self.normal);
-        let square = away.norm_squared() + self.leeway.powi(2);
+        let square = away.norm_squared() + self.height_tolerance.powi(2);
         smooth_step(1.5 - 2.0 * down * down / square)
     }
 }

@@ -5,7 +5,7 @@ use crate::Vec3;
 /// Φ of (4.10): for each of some points, weights over the triangles of a coarse mesh; a sparse matrix.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Weights {
-    /// Where each row ends.
+    /// The end of each row.
     ends: Vec<u32>,
     triangles: Vec<TriangleId>,
     values: Vec<f64>,

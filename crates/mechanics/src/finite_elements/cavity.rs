@@ -3,14 +3,14 @@
 //! The work of a constant pressure is p ΔV, so its force is p ∂V/∂u and its tangent p ∂²V/∂u², both
 //! symmetric. A body of small strain is loaded in its shape at rest. V = ∫ π r² dz over the meridian of
 //! an axisymmetric wall, and V = ⅓ ∫ x · n da over a solid's: the same as the force of the pressure
-//! wherever the edge of the wall is held or lies in a plane of symmetry through the origin.
+//! wherever the edge of the wall is fixed or lies in a plane of symmetry through the origin.
 //!
 //! A fluid that keeps its volume V₁ makes stationary Π − p (V − V₁) with its pressure p as an unknown of its own, whose row of
 //! the matrix carries −ε V₀/μ for the reason given in `assembly`.
 //!
 //! *How we know*: `tube::lame`, `tube::follows_the_closed_form`, `hexahedra::pressed_ring_is_lames`, `cavities::…`.
 //!
-//! *Limits*: an edge of the wall that is free to move off those planes would feel a wrong force; `pressed_faces` is for
+//! *Limits*: the force is wrong at an edge of the wall that is free to move off those planes; `pressed_faces` is for
 //! such parts of a boundary.
 
 use std::sync::LazyLock;
@@ -61,7 +61,7 @@ impl Cavity {
         self.enclosed(model, &vec![0.0; model.size()])
     }
 
-    /// What the displacements add to it [m³]; to the first order where strain is small.
+    /// Change of the volume by the displacements [m³]; to the first order where strain is small.
     pub(super) fn growth(&self, model: &FiniteElementModel, unknowns: &[f64]) -> f64 {
         if is_small(model) {
             let mut gradient = vec![0.0; unknowns.len()];
@@ -177,7 +177,7 @@ pub(super) fn is_small(model: &FiniteElementModel) -> bool {
     model.law.volume().strain == Strain::Small
 }
 
-/// Where `nodes` are with these `unknowns` [m].
+/// Positions of `nodes` with these `unknowns` [m].
 pub(super) fn moved(model: &FiniteElementModel, unknowns: &[f64], nodes: &[u32]) -> Vec<Vec3> {
     let dimension = model.dimension();
     let each = nodes.iter().map(|&node| {
@@ -322,8 +322,8 @@ pub(super) fn triangle_point(([x, y], weight): ([f64; 2], f64)) -> SidePoint<6> 
     }
 }
 
-/// What the volume V = ⅓ ∫ x · (x_ξ × x_η) dξ dη at a side of N nodes is made of. It is cubic in their places, so that its third
-/// derivative is constant:
+/// Coefficients T of the volume V = ⅓ ∫ x · (x_ξ × x_η) dξ dη at a side of N nodes. It is cubic in their places, so that its
+/// third derivative is constant:
 ///
 /// ```text
 /// c_ab = Σ_c T_abc x_c,   ∂²V/∂x_a ∂x_b: d_b ↦ d_b × c_ab,   ∂V/∂x_a = ½ Σ_b x_b × c_ab,   V = ⅓ Σ_a x_a · ∂V/∂x_a

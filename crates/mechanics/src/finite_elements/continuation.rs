@@ -1,4 +1,4 @@
-//! Continuation: one equilibrium after the other along a path, in steps as long as they converge easily.
+//! Continuation: a sequence of equilibria along a path, with steps that grow while they converge easily.
 
 use std::ops::ControlFlow;
 
@@ -6,11 +6,11 @@ use super::newton::Failure;
 
 /// A body that follows a path of supports and loads.
 pub(super) trait Increments {
-    /// How far it is, in any unit.
+    /// The place reached, in any unit.
     fn reached(&self) -> f64;
 
-    /// Finds the equilibrium at `goal`, which is from then on where it is; on failure it stays where it was. Answers the
-    /// number of solutions of the linear system that this took.
+    /// Finds the equilibrium at `goal` and moves there; on failure it stays. Returns the number of solutions of the
+    /// linear system.
     fn advance(&mut self, goal: f64) -> Result<usize, Failure>;
 }
 
@@ -29,7 +29,7 @@ pub(super) struct Steps {
 }
 
 impl Steps {
-    /// The next step when `left` are left; two equal steps rather than one and a crumb.
+    /// The next step when `left` are left; two equal steps rather than a long and a tiny one.
     pub(super) fn step(&self, left: f64) -> f64 {
         match left <= self.next {
             true => left,
@@ -56,7 +56,7 @@ impl Steps {
     }
 }
 
-/// Goes on to `end`; `at_step` hears of each equilibrium on the way, and may end it there.
+/// Continues to `end`; `at_step` receives each equilibrium on the path, and may end it there.
 pub(super) fn continue_to<R: Increments>(
     run: &mut R,
     steps: &mut Steps,
@@ -92,7 +92,7 @@ pub(super) struct Reached<'a> {
     pub(super) unknowns: &'a [f64],
 }
 
-/// The unknowns at `goal` of a body that goes on as it did from `before` to `now`.
+/// The unknowns at `goal`, extrapolated linearly from `before` and `now`.
 pub(super) fn extrapolated(now: Reached<'_>, before: Option<Reached<'_>>, goal: f64) -> Vec<f64> {
     let mut ahead = now.unknowns.to_vec();
     if let Some(before) = before {

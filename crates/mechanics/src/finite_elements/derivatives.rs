@@ -1,4 +1,4 @@
-//! Energy, residual and tangent of deformed bodies against one another.
+//! Energy, residual and tangent of deformed bodies, compared with one another.
 //!
 //! Judge: central differences, whose error falls with the square of the step.
 

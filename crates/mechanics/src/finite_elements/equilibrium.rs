@@ -3,7 +3,7 @@ use super::newton::{self, Equilibrium};
 use super::supports::Supports;
 use crate::Error;
 
-/// Brings `state` into equilibrium with `supports`. Where no equilibrium is found `state` is where the iteration stood.
+/// Brings `state` into equilibrium with `supports`. Where no equilibrium is found `state` is the last iterate.
 ///
 /// # Errors
 /// Before any work: when supports, state or workspace are not those of `model`. Later: when there is no equilibrium to

@@ -9,18 +9,18 @@
 //! observed order above the expected one p₀ is not used: with a part of the error that falls faster, the
 //! slower part is still to come. The order counts as observed where the changes have one sign and p is in
 //! [p₀/2, p₁], p₁ being the smaller of 2 p₀ and that of (h₂/h₁)^p₁ − 1 = 3 ((h₂/h₁)^p₀ − 1): at p₁ the index
-//! is 3.75 times the error or less, and at p₀/2 it is about that of two meshes. Elsewhere the error is an upper figure, and a warning
-//! says so.
+//! is 3.75 times the error or less, and at p₀/2 it is about that of two meshes. Elsewhere the error is
+//! an upper figure, with a warning.
 //!
 //! *How we know*: `tests` (sequences with known limits), `orders::…` (closed forms, much finer meshes).
 //!
-//! *Limits*: knows nothing of what all the meshes share.
+//! *Limits*: does not see errors that all meshes share.
 
 use std::fmt::Write as _;
 
 use crate::Error;
 
-/// An answer and how far it is from the true one.
+/// An answer and its error.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimated<T> {
     /// The answer on the finest mesh.
@@ -34,7 +34,7 @@ pub struct Estimated<T> {
     pub warnings: Vec<String>,
 }
 
-/// How far a solver is.
+/// Progress of a solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// Part of the present stage that is done [-].
@@ -43,10 +43,10 @@ pub struct Progress {
     pub mesh: usize,
 }
 
-/// A part of an answer whose error is asked for.
+/// A part of an answer whose error is estimated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantity {
-    /// What a message calls it.
+    /// Its name in messages.
     pub name: &'static str,
     /// Its values [any unit], as many on every mesh.
     pub values: Vec<f64>,
@@ -78,14 +78,14 @@ const SOLVED_TO: f64 = 1e-6;
 /// From this accuracy on, two meshes suffice where their error, with its safety factor, is within it [-].
 const COARSE: f64 = 0.05;
 
-/// Highest order that is told apart [-].
+/// Highest order that is distinguished [-].
 const HIGHEST_ORDER: f64 = 16.0;
 
 /// Solves on ever finer `meshes` until the error is at most `accuracy` [-]: on three of them at least, or
-/// on two where little is asked for. `solve` answers for the number of a mesh with the answer and its
-/// quantities, or with `None` where that mesh is beyond the machine. The first mesh may be too coarse for
-/// an equilibrium; the others then do without it. Where a mesh fails after two that did not, the answer is
-/// theirs, with a warning.
+/// on two where little is asked for. `solve` gets the number of a mesh and returns the answer and its
+/// quantities, or `None` where that mesh is beyond the machine. The first mesh may be too coarse for an
+/// equilibrium; it is then left out. Where a mesh fails after two that did not, the answer is theirs,
+/// with a warning.
 ///
 /// # Errors
 /// Those of `solve`, on the first two meshes.
@@ -138,7 +138,7 @@ struct Solved {
     quantities: Vec<Quantity>,
 }
 
-/// What the meshes say about the finest of them.
+/// Error estimate of the finest mesh.
 #[derive(Debug)]
 struct Estimate {
     error: f64,
@@ -164,7 +164,7 @@ fn estimate(solved: &[Solved], expected: f64) -> Estimate {
     }
 }
 
-/// What the last meshes show of the order of a quantity.
+/// Observed order of a quantity on the last meshes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum ObservedOrder {
     /// Not all meshes have it.
@@ -329,7 +329,7 @@ fn norm(values: &[f64]) -> f64 {
     values.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// What the changes between three meshes of these sizes, the coarsest first, show.
+/// Observed order from the changes between three meshes of these sizes, the coarsest first.
 fn observe(sizes: [f64; 3], first: &Changes, last: &Changes, expected: f64) -> ObservedOrder {
     if first.largest.max(last.largest) <= SOLVED_TO {
         return ObservedOrder::Solved;

@@ -124,8 +124,8 @@ mod tests {
     ) -> Vec<f64> {
         newton::assemble(model, supports, unknowns, workspace).unwrap();
         let mut equations = workspace.residual.clone();
-        for (equation, held) in equations.iter_mut().zip(&supports.held) {
-            if held.is_some() {
+        for (equation, prescribed) in equations.iter_mut().zip(&supports.held) {
+            if prescribed.is_some() {
                 *equation = 0.0;
             }
         }
@@ -190,7 +190,7 @@ mod tests {
         let mut workspace = FiniteElementWorkspace::new(&model).unwrap();
         let start: Vec<f64> = (0..model.size())
             .map(|i| match supports.held[i] {
-                Some(held) => held,
+                Some(prescribed) => prescribed,
                 None => 0.01 * (1.7 * i as f64).sin(),
             })
             .collect();

@@ -1,4 +1,4 @@
-//! How far a step of Newton's method goes.
+//! The length of a step of Newton's method.
 
 use super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
 use super::newton::{Failure, SolverControls, assemble, size_of_residual};
@@ -15,8 +15,8 @@ const SHORTEST_AT_TOOLS: f64 = 0.02;
 /// The whole step is taken if the residual falls. If it does not and there are tools, the step is taken as far as the energy
 /// falls; otherwise it is halved until the residual falls.
 ///
-/// The residual jumps where tissue meets or leaves a tool, so that its size says little about a step. The energy of tissue and
-/// tools, with their multipliers held, is convex where that of the tissue is.
+/// The residual jumps where tissue meets or leaves a tool, so that its size is no measure of a step. The energy of tissue and
+/// tools, at constant multipliers, is convex where that of the tissue is.
 pub(super) struct LineSearch<'a> {
     pub(super) model: &'a FiniteElementModel,
     pub(super) supports: &'a Supports<'a>,

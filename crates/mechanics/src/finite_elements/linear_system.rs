@@ -3,10 +3,10 @@ use super::newton::{self, Failure};
 use super::supports::Supports;
 use crate::Error;
 
-/// The linear system of one step of Newton's method, for those who time its parts or take it to another
-/// code. [`super::equilibrate`] does the same by itself.
+/// The linear system of one step of Newton's method, to time its parts or to export it to another code.
+/// [`super::equilibrate`] does the same by itself.
 ///
-/// Held unknowns stay in it, each alone in its row. Sliding nodes are not turned.
+/// Prescribed unknowns stay in it, each alone in its row. Sliding nodes are not turned.
 #[derive(Debug)]
 pub struct LinearSystem<'a> {
     model: &'a FiniteElementModel,
@@ -31,9 +31,9 @@ impl<'a> LinearSystem<'a> {
             .map_err(|failure| Error::NotInEquilibrium { failure })?;
         workspace.supported.copy_from_slice(&workspace.tangent);
         workspace.step.fill(0.0);
-        let is_held = newton::held_rows(model, supports);
+        let is_prescribed = newton::prescribed_rows(model, supports);
         let mut right = vec![0.0; model.size()];
-        newton::eliminate(model, &is_held, workspace, &mut right);
+        newton::eliminate(model, &is_prescribed, workspace, &mut right);
         Ok(Self { model, workspace })
     }
 

@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use super::mesh::ElementMesh;
 use crate::{Error, Vec3};
 
-/// What integration over a mesh needs.
+/// Data for integration over a mesh.
 #[derive(Debug)]
 pub(crate) struct Mapping {
     /// Points of integration per element.

@@ -115,7 +115,7 @@ pub enum Mismatch {
         /// The value given [-].
         edge: f64,
     },
-    /// Half a ball that ends beside its punch.
+    /// Half a ball that ends next to its punch.
     #[error(
         "the half ball has {radius} times the radius of its punch; give a number of at least 3"
     )]

@@ -1,7 +1,7 @@
-//! Finite elements: the reference that the other methods are judged by.
+//! Finite elements: the reference for the other methods.
 //!
-//! An [`ElementMesh`] and a law make a [`FiniteElementModel`]; [`Supports`] hold and load it; and
-//! [`equilibrate`] finds the [`FiniteElementState`] in which nothing is left over.
+//! An [`ElementMesh`] and a law make a [`FiniteElementModel`]; [`Supports`] fix and load it; and
+//! [`equilibrate`] finds the [`FiniteElementState`] without a residual.
 
 mod assembly;
 mod cavity;

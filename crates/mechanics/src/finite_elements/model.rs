@@ -21,7 +21,7 @@ pub enum Formulation {
 /// Largest Poisson's ratio [-] at which elements without a pressure field are still good for a force.
 const LOCKING: f64 = 0.49;
 
-/// A body, cut into elements: all that does not change with its displacement.
+/// A body divided into elements: all that does not change with its displacement.
 #[derive(Debug)]
 pub struct FiniteElementModel {
     pub(crate) mesh: ElementMesh,
@@ -120,7 +120,8 @@ impl FiniteElementModel {
         self.with_couplings(cavities, std::iter::empty())
     }
 
-    /// As [`Self::with_fluids`], with displacements of `coupled` nodes that something beside the elements couples.
+    /// As [`Self::with_fluids`], with displacements of `coupled` nodes that something other than the elements
+    /// couples.
     pub(super) fn with_couplings<'n>(
         mut self,
         cavities: Vec<Cavity>,
@@ -178,7 +179,7 @@ impl FiniteElementModel {
         self.shared_law(index).as_ref()
     }
 
-    /// The same, which tells laws from one another.
+    /// The same, shared, so that laws can be compared by identity.
     pub(crate) fn shared_law(&self, index: usize) -> &Arc<dyn Law> {
         let is_of_point = self.laws.len() == self.mapping.weights.len();
         let place = if is_of_point {
@@ -263,7 +264,7 @@ impl FiniteElementModel {
     }
 }
 
-/// All that must be kept of a deformed body to go on.
+/// The state of a deformed body, from which a solution continues.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FiniteElementState {
     /// Displacements [m] node by node, then pressures [Pa], tension positive, then those of fluids, positive on the wall.
@@ -293,8 +294,9 @@ impl FiniteElementState {
 #[derive(Debug)]
 pub struct FiniteElementWorkspace {
     pub(crate) factors: Factors,
-    /// The largest size of forces in contact so far [J], beside which a body that is left is at rest.
-    pub(super) largest_held: f64,
+    /// The largest size of forces in contact so far [J]; relative to it a body without contact is at
+    /// rest.
+    pub(super) largest_reactions: f64,
     /// Whether the factors of an earlier tangent are near enough to the present one.
     pub(super) factors_serve: bool,
     /// The tangent, lower triangle, as assembled.
@@ -336,7 +338,7 @@ impl FiniteElementWorkspace {
             .map_err(|_| Error::NoMemoryForFactors { unknowns: size })?;
         Ok(Self {
             factors,
-            largest_held: 0.0,
+            largest_reactions: 0.0,
             factors_serve: false,
             tangent: vec![0.0; entries],
             supported: vec![0.0; entries],

@@ -33,7 +33,7 @@ pub struct Equilibrium {
     pub iterations: usize,
 }
 
-/// How much is done for an equilibrium.
+/// Controls of the nonlinear solver.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SolverControls {
     /// Fewest solutions of the linear system.
@@ -44,12 +44,13 @@ pub(super) struct SolverControls {
     pub(super) tolerance: f64,
     /// Shortest part of a step that is tried when the residual does not fall [-].
     pub(super) shortest: f64,
-    /// Whether that part is gone all the same. It is then often in vain, and rarely the only way.
+    /// Whether the shortest step is taken although the residual does not fall. This often fails,
+    /// and is rarely the only way.
     pub(super) accept_larger_residual: bool,
 }
 
 impl SolverControls {
-    /// The most.
+    /// The full effort.
     pub(super) const FULL: Self = Self {
         least: 1,
         iterations: 25,
@@ -57,7 +58,7 @@ impl SolverControls {
         shortest: 1.0 / 16.0,
         accept_larger_residual: true,
     };
-    /// What an attempt is worth that a shorter one may follow.
+    /// For an attempt that a shorter one may follow.
     pub(super) const TRY: Self = Self {
         iterations: 10,
         shortest: 1.0 / 4.0,
@@ -77,10 +78,10 @@ const KRYLOV: Krylov = Krylov {
 };
 /// They serve again after so many or fewer.
 const FEW: usize = 5;
-/// What rounding leaves of a sum [-], in its terms.
+/// Rounding error of a sum [-], relative to its terms.
 const ROUNDING: f64 = 1e-13;
 
-/// Brings `state` into equilibrium with `supports`. On failure `state` is where the iteration stood.
+/// Brings `state` into equilibrium with `supports`. On failure `state` is the last iterate.
 ///
 /// # Errors
 /// See [`Failure`]; a smaller change of the supports may then succeed.
@@ -94,7 +95,7 @@ pub(super) fn equilibrate(
     correct(SolverControls::FULL, model, supports, state, workspace)
 }
 
-/// [`equilibrate`] with this `effort`, from a `state` whose residual and tangent are assembled.
+/// [`equilibrate`] with these `controls`, from a `state` whose residual and tangent are assembled.
 pub(super) fn correct(
     controls: SolverControls,
     model: &FiniteElementModel,
@@ -110,8 +111,10 @@ pub(super) fn correct(
         let gap = prescribe(model, supports, &state.unknowns, workspace);
         let mut size = size_of_residual(model, supports, workspace);
         if supports.contacts.is_some() {
-            workspace.largest_held = size.held.max(workspace.largest_held);
-            size.held = size.held.max(LEFT * LEFT * workspace.largest_held);
+            workspace.largest_reactions = size.reactions.max(workspace.largest_reactions);
+            size.reactions = size
+                .reactions
+                .max(LEFT * LEFT * workspace.largest_reactions);
         }
         if gap == 0.0 && iterations >= controls.least && size.is_small(controls.tolerance) {
             return Ok(Equilibrium { iterations });
@@ -167,17 +170,17 @@ pub(super) fn assemble(
     Ok(())
 }
 
-/// Sizes of the residual where the body is free and where it is held [J].
+/// Sizes of the residual on free unknowns, and of the reactions on prescribed ones [J].
 pub(super) struct Size {
     pub(super) free: f64,
-    pub(super) held: f64,
+    pub(super) reactions: f64,
     /// Size of the terms that cancel in it: a body that is turned has no other residual than rounding.
     terms: f64,
 }
 
 impl Size {
     pub(super) fn is_small(&self, tolerance: f64) -> bool {
-        self.free <= (tolerance * tolerance * self.held).max(ROUNDING * ROUNDING * self.terms)
+        self.free <= (tolerance * tolerance * self.reactions).max(ROUNDING * ROUNDING * self.terms)
             || self.free < 1e-40
     }
 }
@@ -189,7 +192,7 @@ pub(super) fn size_of_residual(
 ) -> Size {
     let mut size = Size {
         free: 0.0,
-        held: 0.0,
+        reactions: 0.0,
         terms: 0.0,
     };
     let diagonal = |i: usize| workspace.tangent[model.pattern.range(i).start];
@@ -197,11 +200,11 @@ pub(super) fn size_of_residual(
     for contact in &supports.sliding {
         slides[2 * contact.node..2 * contact.node + 2].fill(true);
     }
-    for (i, held) in supports.held.iter().enumerate() {
+    for (i, prescribed) in supports.held.iter().enumerate() {
         let part = workspace.residual[i].powi(2) / diagonal(i).abs();
         size.terms += diagonal(i).abs() * workspace.trial[i].powi(2);
-        if held.is_some() {
-            size.held += part;
+        if prescribed.is_some() {
+            size.reactions += part;
         } else if !slides[i] {
             size.free += part;
         }
@@ -216,7 +219,7 @@ pub(super) fn size_of_residual(
         let along_normal = n[0] * n[0] * stiff_r + n[1] * n[1] * stiff_z;
         let along_surface = n[1] * n[1] * stiff_r + n[0] * n[0] * stiff_z;
         size.free += across * across / along_surface;
-        size.held += normal * normal / along_normal;
+        size.reactions += normal * normal / along_normal;
     }
     let contacts = supports.contacts;
     if !supports.pressures.is_empty() || !supports.pressed.is_empty() || contacts.is_some() {
@@ -225,7 +228,7 @@ pub(super) fn size_of_residual(
         if let Some(contacts) = contacts {
             contacts.add_forces(model, &workspace.trial, 1.0, &mut load);
         }
-        size.held += (0..model.displacements())
+        size.reactions += (0..model.displacements())
             .map(|i| load[i].powi(2) / diagonal(i).abs())
             .sum::<f64>();
     }
@@ -255,8 +258,8 @@ pub(super) fn prescribe(
     workspace.step.fill(0.0);
     let mut gap: f64 = 0.0;
     let mut extent: f64 = 0.0;
-    for (i, held) in supports.held.iter().enumerate() {
-        if let Some(target) = held {
+    for (i, prescribed) in supports.held.iter().enumerate() {
+        if let Some(target) = prescribed {
             workspace.step[i] = target - unknowns[i];
             gap = gap.max(workspace.step[i].abs());
             extent = extent.max(target.abs());
@@ -282,8 +285,8 @@ pub(super) fn solve(
     let mut right: Vec<f64> = workspace.residual.iter().map(|r| -r).collect();
     turn(model, supports, workspace, &mut right);
     friction::balance(supports, &mut right);
-    let is_held = held_rows(model, supports);
-    eliminate(model, &is_held, workspace, &mut right);
+    let is_prescribed = prescribed_rows(model, supports);
+    eliminate(model, &is_prescribed, workspace, &mut right);
     if supports.contacts.is_some() && solve_with_last_factors(model, workspace, &right) {
         return Ok(());
     }
@@ -364,22 +367,23 @@ pub(super) fn factor(
         .map_err(|_| Failure::Singular)
 }
 
-/// Which rows are no unknowns: held displacements and the normal component of sliding nodes.
-pub(super) fn held_rows(model: &FiniteElementModel, supports: &Supports<'_>) -> Vec<bool> {
-    let mut is_held = vec![false; model.size()];
-    for (row, held) in is_held.iter_mut().zip(&supports.held) {
-        *row = held.is_some();
+/// Rows of prescribed unknowns: prescribed displacements and the normal component of sliding nodes.
+pub(super) fn prescribed_rows(model: &FiniteElementModel, supports: &Supports<'_>) -> Vec<bool> {
+    let mut is_prescribed = vec![false; model.size()];
+    for (row, prescribed) in is_prescribed.iter_mut().zip(&supports.held) {
+        *row = prescribed.is_some();
     }
     for contact in &supports.sliding {
-        is_held[2 * contact.node] = true;
+        is_prescribed[2 * contact.node] = true;
     }
-    is_held
+    is_prescribed
 }
 
-/// Takes the held rows out of the supported matrix; their values in the step go to the right side.
+/// Eliminates the prescribed rows from the supported matrix; their values in the step go to the
+/// right side.
 pub(super) fn eliminate(
     model: &FiniteElementModel,
-    is_held: &[bool],
+    is_prescribed: &[bool],
     workspace: &mut FiniteElementWorkspace,
     right: &mut [f64],
 ) {
@@ -389,27 +393,27 @@ pub(super) fn eliminate(
         for (&row, place) in pattern.rows(column).iter().zip(range) {
             let value = &mut workspace.supported[place];
             if row == column {
-                if is_held[row] {
+                if is_prescribed[row] {
                     // Of the size of its neighbours, so that the factors stay balanced.
                     *value = value.abs().max(model.shear_modulus * 1e-12);
                 }
-            } else if is_held[row] || is_held[column] {
-                if !is_held[column] {
+            } else if is_prescribed[row] || is_prescribed[column] {
+                if !is_prescribed[column] {
                     right[column] -= *value * step[row];
                 }
-                if !is_held[row] {
+                if !is_prescribed[row] {
                     right[row] -= *value * step[column];
                 }
                 *value = 0.0;
             }
         }
     }
-    for row in (0..pattern.size()).filter(|&row| is_held[row]) {
+    for row in (0..pattern.size()).filter(|&row| is_prescribed[row]) {
         right[row] = workspace.supported[pattern.range(row).start] * step[row];
     }
 }
 
-/// Where a sliding node lies relative to its surface.
+/// Signed distance of a sliding node to its surface.
 pub(super) fn signed_distance(
     model: &FiniteElementModel,
     contact: &Sliding,

@@ -6,7 +6,8 @@
 //! by Newton's method; the second equation is linearised, a plane across the present step that turns
 //! with it [Riks 1979; Ramm 1981]. The symmetric factors of K serve both −r and q, so nothing that is
 //! exactly singular is ever factored but at a limit point itself, which no step meets to the last bit.
-//! λ̇ = ±1/|K⁻¹ q|, its sign such that u̇ goes on; where it falls through zero the load has a maximum.
+//! λ̇ = ±1/|K⁻¹ q|, its sign such that u̇ keeps its direction; where it falls through zero the load
+//! has a maximum.
 //!
 //! *How we know*: `path::…` (a closed form beyond its maximum), `tube::…`.
 //!
@@ -360,11 +361,11 @@ impl<'a> Path<'a> {
         }
         workspace.supported.copy_from_slice(&workspace.tangent);
         workspace.step.fill(0.0);
-        let is_held = newton::held_rows(model, loads);
-        newton::eliminate(model, &is_held, workspace, &mut product);
+        let is_prescribed = newton::prescribed_rows(model, loads);
+        newton::eliminate(model, &is_prescribed, workspace, &mut product);
         newton::factor(model, workspace)?;
         for (right, prescribed) in [&mut relax, &mut push].into_iter().zip(&prescribed) {
-            for row in (0..is_held.len()).filter(|&row| is_held[row]) {
+            for row in (0..is_prescribed.len()).filter(|&row| is_prescribed[row]) {
                 right[row] = workspace.supported[model.pattern.range(row).start] * prescribed[row];
             }
             workspace.factors.solve(right);
@@ -391,8 +392,8 @@ fn blend(low: &PathPoint, high: &PathPoint, part: f64) -> (f64, FiniteElementSta
 /// `loads`, `factor` times.
 fn scaled<'a>(loads: &Supports<'a>, factor: f64) -> Supports<'a> {
     let mut all = loads.clone();
-    for held in all.held.iter_mut().flatten() {
-        *held *= factor;
+    for target in all.held.iter_mut().flatten() {
+        *target *= factor;
     }
     let pressures = all.pressures.iter_mut().map(|(_, pressure)| pressure);
     for pressure in pressures.chain(all.pressed.iter_mut().map(|(_, pressure)| pressure)) {

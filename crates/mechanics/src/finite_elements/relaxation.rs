@@ -19,7 +19,7 @@ use super::model::{FiniteElementModel, FiniteElementState};
 use crate::material::law::Tangent;
 use crate::{PronySeries, Strain};
 
-/// What a body remembers of its stress.
+/// Internal (history) variables of the stress of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RelaxationHistory {
     terms: usize,
@@ -36,7 +36,7 @@ pub struct RelaxationHistory {
 /// The next step of a body that relaxes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RelaxationStep {
-    /// Share γ of the elastic stress that the step's end still feels [-].
+    /// Share γ of the elastic stress that acts at the step's end [-].
     pub(super) follows: f64,
     /// History Sₕ [Pa] at the points.
     pub(super) stress: Vec<Matrix3<f64>>,
@@ -132,12 +132,12 @@ impl RelaxationHistory {
             follows -= share.g * share.new;
             for (point, history) in stress.iter_mut().enumerate() {
                 *history += share.g
-                    * (share.kept * self.branches[point * terms + i]
+                    * (share.decay * self.branches[point * terms + i]
                         + share.old * self.stress[point]);
             }
             for (m, history) in pressure.iter_mut().enumerate() {
                 *history += share.g
-                    * (share.kept * self.pressure_branches[m * terms + i]
+                    * (share.decay * self.pressure_branches[m * terms + i]
                         + share.old * self.pressure[m]);
             }
         }
@@ -167,11 +167,11 @@ impl RelaxationHistory {
         for (i, share) in series.shares(duration).enumerate() {
             for (point, new) in stress.iter().enumerate() {
                 let branch = &mut self.branches[point * self.terms + i];
-                *branch = share.kept * *branch + share.old * self.stress[point] + share.new * new;
+                *branch = share.decay * *branch + share.old * self.stress[point] + share.new * new;
             }
             for (m, new) in pressure.iter().enumerate() {
                 let branch = &mut self.pressure_branches[m * self.terms + i];
-                *branch = share.kept * *branch + share.old * self.pressure[m] + share.new * new;
+                *branch = share.decay * *branch + share.old * self.pressure[m] + share.new * new;
             }
         }
         self.stress = stress;

@@ -21,8 +21,9 @@ pub(super) fn residual_sensitivity(
     residual
 }
 
-/// Solves K s = −`force` for the free rows of `slope`; its held rows are given, and a sliding node moves
-/// along its surface alone. The tangent is that of the last assembly, at `state`, and is factored anew.
+/// Solves K s = −`force` for the free rows of `slope`; its prescribed rows are given, and a sliding node
+/// moves along its surface alone. The tangent is that of the last assembly, at `state`, and is factored
+/// anew.
 pub(super) fn solve(
     model: &FiniteElementModel,
     supports: &Supports<'_>,
@@ -34,8 +35,8 @@ pub(super) fn solve(
     workspace.supported.copy_from_slice(&workspace.tangent);
     workspace.trial.copy_from_slice(&state.unknowns);
     workspace.step.fill(0.0);
-    for ((step, held), slope) in workspace.step.iter_mut().zip(&supports.held).zip(&*slope) {
-        if held.is_some() {
+    for ((step, prescribed), slope) in workspace.step.iter_mut().zip(&supports.held).zip(&*slope) {
+        if prescribed.is_some() {
             *step = *slope;
         }
     }
@@ -43,7 +44,7 @@ pub(super) fn solve(
     newton::turn(model, supports, workspace, &mut right);
     newton::eliminate(
         model,
-        &newton::held_rows(model, supports),
+        &newton::prescribed_rows(model, supports),
         workspace,
         &mut right,
     );

@@ -33,7 +33,7 @@ const GROWTH: f64 = 10.0;
 const PARTS: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 0.0625];
 /// Solutions of the linear system.
 const MOST_ITERATIONS: usize = 400;
-/// Weight w of the error of volume beside energy [-].
+/// Weight w of the error of volume relative to energy [-].
 const VOLUME: f64 = 10.0;
 
 /// Brings `state` into equilibrium with `supports` as [`newton::equilibrate`] does, also where that

@@ -8,12 +8,13 @@ use super::relaxation::RelaxationStep;
 use super::rigid_tool::{Contacts, MeridianDistance, RigidShape};
 use crate::Vec3;
 
-/// What holds a body and what loads it. Whoever solves with it checks it against the model first.
+/// Boundary conditions and loads of a body. The solvers check it against the model first.
 #[derive(Debug, Clone)]
 pub struct Supports<'a> {
-    /// Displacement that each displacement unknown is to have [m]; `None` where it is free.
+    /// Prescribed (Dirichlet) value of each displacement unknown [m]; `None` where it is free.
     pub held: Vec<Option<f64>>,
-    /// Nodes that slide on a rigid surface, in an axisymmetric body; their unknowns must not be held.
+    /// Nodes that slide on a rigid surface, in an axisymmetric body; their unknowns must not be
+    /// prescribed.
     pub sliding: Vec<Sliding>,
     /// Pressures on the walls of cavities that follow them [Pa].
     pub pressures: Vec<(&'a Cavity, f64)>,
@@ -120,8 +121,8 @@ impl<'a> Supports<'a> {
         }
     }
 
-    /// Fixes the component `axis` of `nodes` at the displacement `at` [m]. A node or a component that the model does
-    /// not have is an error of whoever solves with these supports.
+    /// Fixes the component `axis` of `nodes` at the displacement `at` [m]. For a node or a component that the model
+    /// does not have, the solver returns an error.
     pub fn hold(
         mut self,
         model: &FiniteElementModel,
@@ -244,8 +245,8 @@ impl<'a> Supports<'a> {
         Ok(())
     }
 
-    /// Whether the body as a whole can move a little and no support notices. A piece of its own that
-    /// nothing holds goes unnoticed.
+    /// Whether the supports leave a rigid motion of the whole body free. It does not detect a free
+    /// piece of several.
     pub(super) fn leave_free(&self, model: &FiniteElementModel) -> bool {
         let dimension = model.dimension();
         if dimension == 2 {
@@ -259,7 +260,7 @@ impl<'a> Supports<'a> {
             .iter()
             .map(|x| (x - center).norm())
             .fold(0.0, f64::max);
-        // What each held unknown sees of three shifts and three turns.
+        // Projections of the prescribed unknowns onto three translations and three rotations.
         let mut seen = Matrix6::zeros();
         for (i, _) in self.held.iter().enumerate().filter(|(_, h)| h.is_some()) {
             let axis = Vec3::ith(i % dimension, 1.0);
@@ -267,7 +268,7 @@ impl<'a> Supports<'a> {
             let row = Vector6::new(axis.x, axis.y, axis.z, turn.x, turn.y, turn.z);
             seen += row * row.transpose();
         }
-        // One node that is held is a part of their number, squared lengths are below 1.
+        // One fixed node is a part of their number, squared lengths are below 1.
         seen.symmetric_eigenvalues().min() <= 1e-10 * seen.trace()
     }
 }

@@ -127,7 +127,7 @@ fn gradient(along: f64, across: [f64; 2]) -> Matrix3<f64> {
 }
 
 /// The mean lateral stretch l at which the sides are free of stress together. It pulls the sides inward if they are
-/// too far out, so the sign of the stress tells on which side of a guess it lies.
+/// too far out, so the sign of the stress shows on which side of a guess it lies.
 fn lateral(law: &dyn Law, stretch: f64, split: f64) -> Option<f64> {
     let parts = [split.exp(), (-split).exp()];
     let at = |l: f64| gradient(stretch, parts.map(|part| part * l));

@@ -1,15 +1,16 @@
-//! From the shells to the organ: the tool's radius, what lies beyond the shells, and the organ's size.
+//! Corrections from the shells to the organ: the tool's radius, the tissue beyond the shells, and the
+//! organ's size.
 //!
-//! Compliances add: C = C_shells + (k_c/r − k_o/R)/K̂, with r the radius of the held shell, R that of a
-//! hemisphere of the organ's volume held at its base, and K̂ = F/(a d) of the half-space. A held
-//! periphery stiffens (k_c > 0; the source's section 3.3 says the contrary), and so does a held base.
+//! Compliances add: C = C_shells + (k_c/r − k_o/R)/K̂, with r the radius of the fixed shell, R that of
+//! a hemisphere of the organ's volume fixed at its base, and K̂ = F/(a d) of the half-space. A fixed
+//! periphery stiffens (k_c > 0; the source's section 3.3 says the contrary), and so does a fixed base.
 //!
-//! One particle under the tool has no radius of its own: C_shells depends on h alone. So h = a/α, and α
-//! is set where the answer is known, on the half-space: 1/α = Ĉ K̂ + k_c h/r. On a hemisphere the
-//! shells answer to curvature as well, which k_o, measured on hemispheres, already holds; what the
-//! shells say of it is taken out again there, and so only a contact whose curvature is not 1/R feels
-//! its own. Both are solved for when a model is made, for its particles, form and ν; a further constant
-//! makes the tangential stiffness of the half-space exact.
+//! One particle under the tool has no radius of its own: C_shells depends on h alone. So h = a/α, and
+//! the half-space, whose solution is known, gives α: 1/α = Ĉ K̂ + k_c h/r. On a hemisphere the shells
+//! answer to curvature as well, which k_o, measured on hemispheres, already contains; the shells' part
+//! of it is subtracted there, so that curvature changes the force only where it is not 1/R. Both are
+//! solved for when a model is made, for its particles, form and ν; a further constant makes the
+//! tangential stiffness of the half-space exact.
 
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
@@ -24,15 +25,15 @@ use crate::{Limit, Limits, LinearElastic, Reached};
 pub struct ExteriorConstants {
     /// Poisson's ratio [-].
     pub poissons_ratio: f64,
-    /// k_c [-]: what a clamped periphery takes away.
+    /// k_c [-]: compliance that a clamped periphery removes.
     pub beyond_shells: f64,
-    /// k_o [-]: what a held base takes away.
+    /// k_o [-]: compliance that a fixed base removes.
     pub organ_size: f64,
 }
 
 /// The constants that no closed form gives, from finite elements: `exterior::…` makes them again.
 ///
-/// k_c is the limit of half a ball, held on its round side, whose radius is many times that of the
+/// k_c is the limit of half a ball, fixed on its round side, whose radius is many times that of the
 /// punch; k_o belongs to a patch of a twentieth of the radius on a hemisphere, both without friction.
 pub const EXTERIOR_CONSTANTS: [ExteriorConstants; 5] = [
     ExteriorConstants::new(0.0, 0.925, 0.070),
@@ -81,7 +82,7 @@ pub(super) struct Calibration {
     form: Form,
 }
 
-/// Stiffness of a contact, and the part of its displacement in which the held shell shares.
+/// Stiffness of a contact, and the part of its displacement that the fixed shell takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Corrected {
     /// [N/m] per direction of the contact's frame; off-diagonal terms between the tangents only.
@@ -162,13 +163,18 @@ impl Calibration {
     ) -> Corrected {
         match surroundings {
             Surroundings::Hemisphere { radius } => self.on_hemisphere(shells, spacing, *radius),
-            Surroundings::Known(further) => self.in_known(shells, spacing, further),
+            Surroundings::Known(structural) => self.in_known(shells, spacing, structural),
         }
     }
 
     /// The half-space's stiffness in series with `further` [1/m], which holds the curvature as well: of the shells only
     /// the share of the displacement is taken.
-    fn in_known(&self, shells: &Matrix3<f64>, spacing: f64, further: &Matrix3<f64>) -> Corrected {
+    fn in_known(
+        &self,
+        shells: &Matrix3<f64>,
+        spacing: f64,
+        structural: &Matrix3<f64>,
+    ) -> Corrected {
         let (unit, radius) = (
             self.youngs_modulus * spacing,
             self.radius_in_spacings * spacing,
@@ -184,7 +190,7 @@ impl Calibration {
             least
         };
         let own = 1.0 / (self.half_space * radius);
-        let normal = own + further[(2, 2)] / self.youngs_modulus;
+        let normal = own + structural[(2, 2)] / self.youngs_modulus;
         let normal = bounded(Limit::LocalStiffness, own / STIFFEST, normal);
         let inside = 1.0 / (shells[(2, 2)] * unit);
         let mut stiffness = Matrix3::zeros();
@@ -192,7 +198,7 @@ impl Calibration {
         let mut share = [0.0, (1.0 - inside / normal).clamp(0.0, 1.0)];
         if self.bond == Friction::Bonded {
             let own = 1.0 / (self.half_space_tangential * radius);
-            let along = further.fixed_view::<2, 2>(0, 0) / self.youngs_modulus
+            let along = structural.fixed_view::<2, 2>(0, 0) / self.youngs_modulus
                 + Matrix2::from_diagonal_element(own);
             let mean = 0.5 * along.trace();
             let spread = (0.5 * (along[(0, 0)] - along[(1, 1)])).hypot(along[(0, 1)]);

@@ -1,8 +1,8 @@
-//! The displacement between the particles, for the eye.
+//! The displacement between the particles, for display.
 //!
 //! Under the tip it is that of a rigid punch, (2/π) asin(a/r), further out the moving-least-squares
-//! field corrected for the held shell, u = (1 − s) Σ φ_J U_J + s, and beyond the shells the rest s dies
-//! away as 1/r and is faded out.
+//! field corrected for the fixed shell, u = (1 − s) Σ φ_J U_J + s, and beyond the shells the rest s
+//! decays as 1/r and is faded out.
 //!
 //! φ_J means nothing outside the template: few spheres reach there, and grow without bound. An organ bends away from the
 //! template's surface, by more than a tip's radius where it is folded; what is above it moves as the surface below does.
@@ -59,7 +59,7 @@ impl Spread {
         if outward >= 1.0 {
             return rest * (fade(outward) / outward) + punched;
         }
-        functions.evaluate_values(&solution.particles, &self.cap.under(x));
+        functions.evaluate_values(&solution.particles, &self.cap.below_surface(x));
         let mut moved = Vec3::zeros();
         let inner = solved - rest;
         for (&j, &value) in functions.particles.iter().zip(&functions.values) {

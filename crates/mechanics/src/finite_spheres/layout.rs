@@ -34,7 +34,7 @@ pub(super) struct Place {
     pub(super) fraction: f64,
 }
 
-/// What holds a particle.
+/// The condition on a particle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Role {
     /// At the contact: carried by the tool.
@@ -43,8 +43,8 @@ pub(super) enum Role {
     Surface,
     /// Inside.
     Interior,
-    /// In the outermost shell: held.
-    Held,
+    /// In the outermost shell: fixed.
+    Fixed,
 }
 
 /// Places and roles of all particles; the tool's is the first.
@@ -115,9 +115,9 @@ impl CapShape {
         place.radius * Vec3::new(across * cosine, across * sine, -along)
     }
 
-    /// Where a place `x` [h] lies in the template: there, or on the surface at the same distance and azimuth where it is
-    /// above that.
-    pub(super) fn under(&self, x: &Vec3) -> Vec3 {
+    /// The place `x` [h] in the template: itself, or above the surface the place of the surface at the same distance and
+    /// azimuth.
+    pub(super) fn below_surface(&self, x: &Vec3) -> Vec3 {
         let (radius, outwards) = (x.norm(), x.x.hypot(x.y));
         let (cosine, sine) = match outwards > 0.0 {
             true => (x.x / outwards, x.y / outwards),
@@ -172,7 +172,7 @@ impl Layout {
             let intervals = rings.len() - 1;
             for (ring, &count) in rings.iter().enumerate() {
                 let role = match (shell + 1 == shells.len(), ring) {
-                    (true, _) => Role::Held,
+                    (true, _) => Role::Fixed,
                     (false, 0) => Role::Surface,
                     (false, _) => Role::Interior,
                 };
@@ -243,8 +243,8 @@ mod tests {
             let layout = Layout::new(particles).unwrap();
             assert_eq!(layout.places.len(), particles);
             assert!(layout.shells >= 2);
-            let held = layout.roles.iter().filter(|r| **r == Role::Held).count();
-            assert!(held > 0 && held < particles - 1, "{particles}");
+            let fixed = layout.roles.iter().filter(|r| **r == Role::Fixed).count();
+            assert!(fixed > 0 && fixed < particles - 1, "{particles}");
         }
         assert!(Layout::new(11).is_err());
     }
@@ -258,14 +258,14 @@ mod tests {
             let position = cap.position(place);
             let turned = |fraction: f64| cap.position(&Place { fraction, ..*place });
             // Rounding.
-            assert!((cap.under(&position) - position).norm() < 1e-14);
-            assert_eq!(cap.under(&turned(0.9)), turned(0.9));
-            assert!((cap.under(&turned(1.3)) - position).norm() < 1e-14);
+            assert!((cap.below_surface(&position) - position).norm() < 1e-14);
+            assert_eq!(cap.below_surface(&turned(0.9)), turned(0.9));
+            assert!((cap.below_surface(&turned(1.3)) - position).norm() < 1e-14);
         }
         for x in [Vec3::zeros(), -1.5 * Vec3::z()] {
-            assert_eq!(cap.under(&x), x);
+            assert_eq!(cap.below_surface(&x), x);
         }
-        assert!((cap.under(&Vec3::z()).norm() - 1.0).abs() < 1e-14);
+        assert!((cap.below_surface(&Vec3::z()).norm() - 1.0).abs() < 1e-14);
     }
 
     #[test]

@@ -23,14 +23,14 @@ pub struct FiniteSphereModel {
     bond: Friction,
     /// The law that is solved for: the tissue's, at a Poisson's ratio that is calibrated.
     law: LinearElastic,
-    /// What the answer is multiplied by for the tissue's own ratio [-], tangential and normal.
+    /// Factors of the answer for the tissue's own ratio [-], tangential and normal.
     ratio_of_half_spaces: [f64; 2],
     layout: Layout,
     quadrature: Quadrature,
     calibration: Calibration,
     reuse: Option<ReuseTable>,
     source: Option<SourcePlacement>,
-    /// What stands in place of the calibrated shells, if nothing is to be fitted.
+    /// The uncalibrated model, which replaces the calibrated shells if nothing is fitted.
     uncalibrated: Option<Uncalibrated>,
 }
 
@@ -38,7 +38,7 @@ pub struct FiniteSphereModel {
 /// displacement fades out from the second to the third [tip radii]: at 12 radii 5 % of the depth are left.
 const UNCALIBRATED_RADII: [f64; 3] = [4.0, 8.0, 16.0];
 
-/// Where a tip touches an organ, and how the organ is shaped there.
+/// The contact of a tip with an organ, and the organ's shape there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LocalContact {
     /// The contact point at rest [m].
@@ -51,10 +51,10 @@ pub struct LocalContact {
     pub triangle: TriangleId,
     /// Radius of the touching area [m].
     pub radius: f64,
-    /// What the organ is beyond the particles.
+    /// The organ beyond the particles.
     pub surroundings: Surroundings,
-    /// Distance along the inward normal to where the organ is held [m], infinite for a half-space; asked for
-    /// without calibration only.
+    /// Distance along the inward normal to the fixed base of the organ [m], infinite for a half-space; asked
+    /// for without calibration only.
     pub thickness: f64,
 }
 
@@ -65,21 +65,21 @@ impl LocalContact {
     }
 }
 
-/// What an organ is beyond the particles around a tip.
+/// The organ beyond the particles around a tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Surroundings {
-    /// A hemisphere that is held at its base, of this radius [m]; infinite for a half-space. The particles answer to a
-    /// contact that is flatter or rounder than it, too strongly: this is the source's case, of a tip at the pole.
+    /// A hemisphere that is fixed at its base, of this radius [m]; infinite for a half-space. The particles answer to
+    /// a contact that is flatter or rounder than it, too strongly: this is the source's case, of a tip at the pole.
     Hemisphere {
         /// Its radius [m].
         radius: f64,
     },
-    /// What the organ yields beyond a half-space, times Young's modulus [1/m], in the contact's frame; symmetric. Its
-    /// curvature is in it.
+    /// Structural compliance, that of the organ less that of a half-space, times Young's modulus [1/m], in the
+    /// contact's frame; symmetric. It includes the curvature.
     Known(Matrix3<f64>),
 }
 
-/// How a contact answers.
+/// Response of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response {
     /// Stiffness [N/m] in the contact's frame; the tangents do not couple to the normal, and a tip that
@@ -161,16 +161,16 @@ impl FiniteSphereModel {
         }
     }
 
-    /// An organ of which only the volume is known, that of a hemisphere of `radius` [m]: it takes away from the
-    /// half-space's compliance what that does, held at its base.
+    /// An organ of which only the volume is known, that of a hemisphere of `radius` [m]: it reduces the
+    /// half-space's compliance as that hemisphere does, fixed at its base.
     pub fn by_volume(&self, radius: f64) -> Surroundings {
         let law = &self.law;
         let taken = exterior::constants(law.poissons_ratio()).organ_size / radius;
         let own = half_space_stiffness(law, 1.0, self.bond) / law.youngs_modulus();
         let [_, ratio] = self.ratio_of_half_spaces;
-        let mut further = Matrix3::zeros();
-        further[(2, 2)] = -taken / (own * ratio);
-        Surroundings::Known(further)
+        let mut structural = Matrix3::zeros();
+        structural[(2, 2)] = -taken / (own * ratio);
+        Surroundings::Known(structural)
     }
 
     /// Fresh scratch for this model.
@@ -187,7 +187,7 @@ impl FiniteSphereModel {
         radius / self.calibration.radius_in_spacings
     }
 
-    /// Radius of the held shell [m] for a touching area of `radius` [m].
+    /// Radius of the fixed shell [m] for a touching area of `radius` [m].
     pub fn held_radius(&self, radius: f64) -> f64 {
         match self.uncalibrated {
             Some(_) => UNCALIBRATED_RADII[0] * radius,
@@ -324,10 +324,12 @@ impl FiniteSphereModel {
         let spacing = self.spacing(contact.radius);
         let [tangential, normal] = self.ratio_of_half_spaces;
         let mut surroundings = contact.surroundings;
-        if let Surroundings::Known(further) = &mut surroundings {
+        if let Surroundings::Known(structural) = &mut surroundings {
             // What is multiplied again below.
-            further[(2, 2)] *= normal;
-            further.fixed_view_mut::<2, 2>(0, 0).scale_mut(tangential);
+            structural[(2, 2)] *= normal;
+            structural
+                .fixed_view_mut::<2, 2>(0, 0)
+                .scale_mut(tangential);
         }
         let corrected = self
             .calibration

@@ -1,13 +1,13 @@
 pub use palpate_files::scene::{Assembly, Form, Placement};
 
-/// What can be chosen of the local model.
+/// Settings of the local model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FiniteSphereSettings {
     /// Number of particles, 12 to 600.
     pub particles: usize,
     /// How the equations are made.
     pub form: Form,
-    /// Where the particles sit.
+    /// Placement of the particles.
     pub placement: Placement,
     /// How the equations are solved.
     pub solver: Solver,
@@ -15,16 +15,16 @@ pub struct FiniteSphereSettings {
     pub assembly: Assembly,
     /// How finely they are integrated.
     pub integration: Integration,
-    /// What makes a force of their solution.
+    /// How their solution gives a force.
     pub calibration: Calibration,
 }
 
-/// What makes a force of the particles' solution.
+/// How the particles' solution gives a force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Calibration {
     /// Spacing and exterior are fitted, so that a half-space and hemispheres have their known force.
     Fitted,
-    /// Nothing is fitted; each sphere carries the field of a punch beside its polynomials.
+    /// Nothing is fitted; each sphere carries the field of a punch in addition to its polynomials.
     None,
     /// Nothing is fitted, and spheres carry polynomials alone: what the particles do by themselves.
     ParticlesAlone,

@@ -5,8 +5,8 @@ use super::shape_function::Particles;
 use crate::linear::dense::DenseSystem;
 use crate::linear::gmres::Gmres;
 
-/// What either form finds for a contact, in units of h and of Young's modulus: the coefficients for
-/// the three unit displacements of the tool, and the force that each takes.
+/// The solution of either form for a contact, in units of h and of Young's modulus: the
+/// coefficients for the three unit displacements of the tool, and the force that each takes.
 #[derive(Debug, Clone)]
 pub(super) struct Solution {
     pub(super) particles: Particles,
@@ -65,7 +65,7 @@ impl Solved {
 /// Which particles the tool and the periphery prescribe, and which are found.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Partition {
-    /// The tool's particle first, then the held ones.
+    /// The tool's particle first, then the fixed ones.
     pub(super) prescribed: Vec<usize>,
     pub(super) free: Vec<usize>,
 }
@@ -73,7 +73,7 @@ pub(super) struct Partition {
 impl Partition {
     pub(super) fn new(layout: &Layout) -> Self {
         let (prescribed, free) = (0..layout.roles.len())
-            .partition(|&i| matches!(layout.roles[i], Role::Tool | Role::Held));
+            .partition(|&i| matches!(layout.roles[i], Role::Tool | Role::Fixed));
         Self { prescribed, free }
     }
 }

@@ -2,7 +2,7 @@
 //! prescribed displacements (3-6), and no traction at the surface particles (3-7).
 //!
 //! With lengths in h and stress in E the rows are of like size. The force is not K_aa U + K_ab U_b
-//! (3-14), which is no force where φ_J(x_I) is not the identity; it is the virtual work of the stress,
+//! (3-14), which is no force where φ_J(x_I) is not the identity, but the virtual work of the stress,
 //! F_k = ∫ σ(u) : (e_k ⊗ ∇ψ) dV, with ψ = 1 on the first shell and 0 on the last.
 //!
 //! *Limits*: second derivatives of functions with a linear basis are not consistent (∇²|x|² is not 6,
@@ -72,7 +72,7 @@ impl StrongForm {
         for node in 0..solution.particles.positions.len() {
             let here = solution.particles.positions[node];
             match self.layout.roles[node] {
-                Role::Tool | Role::Held => {
+                Role::Tool | Role::Fixed => {
                     self.functions.evaluate_values(&solution.particles, &here);
                     self.write_rows(node, |functions, a| {
                         Matrix3::from_diagonal_element(functions.values[a])

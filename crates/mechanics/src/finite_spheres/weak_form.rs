@@ -4,7 +4,7 @@
 //! Splitting the particles into prescribed (p) and free (f) ones, the constraints D_p U_p + D_f U_f = g
 //! are solved for U_p = T U_f + q g_tool. The combinations ψ = φ M, M = [T q; 1 0], of the functions meet
 //! the constraints by themselves, and Galerkin's condition on them is a positive definite system in U_f
-//! alone. It is what Lagrange multipliers on the same rows give, at a thirtieth of the size; the force on
+//! alone. Lagrange multipliers on the same rows give the same, at thirty times the size; the force on
 //! the tool is the multiplier of its row, (3-12) to (3-14) with the functions' values in place of the
 //! identity.
 
@@ -42,11 +42,11 @@ pub(super) struct WeakForm {
 
 impl WeakForm {
     pub(super) fn new(partition: Partition, points: usize) -> Self {
-        let (held, free) = (partition.prescribed.len(), partition.free.len());
-        let (count, columns) = (held + free, free + 1);
+        let (prescribed, free) = (partition.prescribed.len(), partition.free.len());
+        let (count, columns) = (prescribed + free, free + 1);
         Self {
             functions: ShapeFunctions::with_capacity(count),
-            constraints: DenseSystem::new(held, columns),
+            constraints: DenseSystem::new(prescribed, columns),
             combinations: Mat::zeros(count, columns),
             slopes: [(); 3].map(|()| Mat::zeros(count, points)),
             combined: Mat::zeros(3 * columns, points),

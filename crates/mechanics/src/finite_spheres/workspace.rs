@@ -18,7 +18,7 @@ pub struct FiniteSphereWorkspace {
     gmres: Option<(Gmres, f64)>,
     cap: CapShape,
     solved: Solved,
-    /// What was solved last, and the answer.
+    /// The last contact that was solved, and the answer.
     pub(super) answered: Option<(LocalContact, Response)>,
     /// Of a model that is not calibrated.
     pub(super) uncalibrated: Option<Box<UncalibratedWorkspace>>,

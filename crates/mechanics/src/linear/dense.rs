@@ -35,7 +35,7 @@ impl DenseSystem {
     }
 
     /// Replaces the right sides by the solutions. A singular matrix leaves values that are not
-    /// finite; the caller looks.
+    /// finite; the caller checks.
     pub(crate) fn solve(&mut self) {
         let stack = MemStack::new(&mut self.scratch);
         factor::lu_in_place(

@@ -1,11 +1,10 @@
 //! Generalised minimal residuals, restarted [Saad and Schultz 1986]: the source's solver (section 3.3).
 //!
-//! Rows are scaled by their diagonal first, which is all the preconditioning that systems of this size
-//! repay.
+//! Rows are scaled by their diagonal first, which is enough preconditioning for systems of this size.
 
 use super::dense::DenseSystem;
 
-/// How far an iteration goes before it gives up.
+/// Limits of an iteration.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Krylov {
     /// Size of the space between restarts.
@@ -297,7 +296,8 @@ mod tests {
     }
 
     /// A cyclic shift of more rows than the Krylov space holds: GMRES makes no progress before the last
-    /// row [Nachtigal, Reddy and Trefethen 1992]. It says so, and leaves the system to the factors.
+    /// row [Nachtigal, Reddy and Trefethen 1992]. It reports that, and leaves the system to the
+    /// factors.
     #[test]
     fn stagnation_is_an_error_and_changes_nothing() {
         let size = 2 * Krylov::SMALL.space;

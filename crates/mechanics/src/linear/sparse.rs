@@ -2,7 +2,7 @@
 //!
 //! A mixed finite element matrix is quasi-definite (positive for displacements, negative for
 //! pressures), so it has such factors in any order of elimination [Vanderbei 1995], and by Sylvester's
-//! law the signs of D count its negative eigenvalues. That count tells whether an equilibrium is stable.
+//! law the signs of D count its negative eigenvalues. That count shows whether an equilibrium is stable.
 //!
 //! *How we know*: the tests below; every solver of `finite_elements` stands on it.
 //!
@@ -24,7 +24,8 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 
-/// Where a symmetric matrix has entries: its lower triangle, column by column, rows ascending.
+/// The sparsity pattern of a symmetric matrix: its lower triangle, column by column, rows
+/// ascending.
 #[derive(Debug, Clone)]
 pub(crate) struct Pattern {
     symbolic: SymbolicSparseColMat<usize>,

@@ -9,7 +9,7 @@ pub struct FibreFrame {
     across: Vec3,
 }
 
-/// What is wrong with fibres or with their directions.
+/// Errors of fibres or of their directions.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FibreError {
     /// The numbers of a law with fibres are those of no solid.
@@ -57,7 +57,7 @@ impl FibreFrame {
         numbers.then_some(Self { axis, across })
     }
 
-    /// The same where a plane of the fibres is not asked for: any through `axis`.
+    /// The same with an arbitrary plane of the fibres through `axis`.
     pub fn along(axis: &Vec3) -> Option<Self> {
         let mut across = Vec3::zeros();
         across[axis.iamin()] = 1.0;

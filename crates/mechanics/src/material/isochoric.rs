@@ -1,5 +1,5 @@
 //! The isochoric version Ψ(F) = W(F̄) of an energy W(F), with F̄ = J^(−1/3) F and J = det F: it does not
-//! feel a change of volume [Flory 1961].
+//! depend on a change of volume [Flory 1961].
 //!
 //! With P̄ = ∂W/∂F and Ā = ∂²W/∂F∂F at F̄, the cofactors H of F̄ (its inverse, transposed) and q = P̄:F̄:
 //!   P = J^(−1/3) (P̄ − ⅓ q H)

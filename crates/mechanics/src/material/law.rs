@@ -20,12 +20,12 @@ pub struct Distortion {
     pub tangent: Tangent,
 }
 
-/// A law between the deformation gradient F = ∂x/∂X and stress. It never sees a mesh.
+/// A law between the deformation gradient F = ∂x/∂X and stress. It does not depend on a mesh.
 ///
-/// Its energy has two parts, Ψ(F) = W(F) + ½ κ θ(F)²: one of distortion, which does not feel a change
-/// of volume, and one of [`Volume`]. Mixed elements take them apart, so that κ may be infinite;
-/// [`Law::energy`], [`Law::stress`] and [`Law::tangent`] put them together and mean something for a
-/// finite κ only. Moduli are instantaneous; relaxation is [`crate::PronySeries`]'s.
+/// Its energy has two parts, Ψ(F) = W(F) + ½ κ θ(F)²: one of distortion, which does not depend on a
+/// change of volume, and one of [`Volume`]. Mixed elements treat them separately, so that κ may be
+/// infinite; [`Law::energy`], [`Law::stress`] and [`Law::tangent`] combine them and are defined for
+/// a finite κ only. Moduli are instantaneous; relaxation is [`crate::PronySeries`]'s.
 pub trait Law: Debug + Send + Sync {
     /// Energy of distortion per undeformed volume W(F) [Pa].
     fn distortion_energy(&self, f: &Matrix3<f64>) -> f64;
@@ -36,7 +36,7 @@ pub trait Law: Debug + Send + Sync {
     /// ∂²W/∂F∂F [Pa].
     fn distortion_tangent(&self, f: &Matrix3<f64>) -> Tangent;
 
-    /// All three at once, which a law may answer in less time than one after another.
+    /// All three at once, which a law may compute faster than one after another.
     fn distortion(&self, f: &Matrix3<f64>) -> Distortion {
         Distortion {
             energy: self.distortion_energy(f),

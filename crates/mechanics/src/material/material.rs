@@ -15,21 +15,21 @@ use super::prony::PronySeries;
 use super::reduced_polynomial::ReducedPolynomial;
 use crate::Error;
 
-/// A tissue as a model takes it: a law, its relaxation, and warnings.
+/// The material of a tissue for a model: a law, its relaxation, and warnings.
 #[derive(Debug, Clone)]
 pub struct Material {
     /// The instantaneous law; the hyperelastic ones are incompressible.
     pub law: Arc<dyn Law>,
-    /// What the law is at small strain, without fibres, and nearly incompressible where it is incompressible.
+    /// The law at small strain, without fibres, and nearly incompressible where it is incompressible.
     pub at_rest: LinearElastic,
-    /// How the force relaxes.
+    /// Relaxation of the force.
     pub prony: PronySeries,
     /// Plain sentences to pass on to the user.
     pub warnings: Vec<String>,
 }
 
 impl Material {
-    /// As [`Self::from_tissue`], for a `model` that does not know the direction of fibres.
+    /// As [`Self::from_tissue`], for a `model` without directions of fibres.
     ///
     /// # Errors
     /// As [`Self::from_tissue`], and when the tissue has fibres.

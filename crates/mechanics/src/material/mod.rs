@@ -1,4 +1,4 @@
-//! What a tissue is made of: a law between deformation and stress, and its relaxation in time.
+//! The material of a tissue: a law between deformation and stress, and its relaxation in time.
 
 pub(crate) mod exponential;
 pub(crate) mod fibres;

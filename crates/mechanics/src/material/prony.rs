@@ -1,4 +1,4 @@
-//! Relaxation as a Prony series, and the force that it leaves of an elastic history.
+//! Relaxation as a Prony series, and the relaxed force of an elastic history.
 //!
 //! G(t) = G₀ [1 − Σ gᵢ (1 − exp(−t/τᵢ))], gᵢ relative to the instantaneous modulus. With one relaxation
 //! function for the whole body the force is F(t) = Fₑ(t) − Σ gᵢ hᵢ(t), where τᵢ ḣᵢ = Fₑ − hᵢ is what
@@ -48,11 +48,11 @@ impl PronySeries {
         &self.terms
     }
 
-    /// What becomes of each branch in `step` [s].
+    /// The share of each branch in `step` [s].
     pub(crate) fn shares(&self, step: f64) -> impl Iterator<Item = Share> + '_ {
         self.terms.iter().map(move |&(g, tau)| {
             let ratio = step / tau;
-            let kept = (-ratio).exp();
+            let decay = (-ratio).exp();
             // 1 − (1 − e)/ratio cancels for short steps; its series does not.
             let new = if ratio < 1e-4 {
                 ratio * (0.5 - ratio / 6.0)
@@ -61,8 +61,8 @@ impl PronySeries {
             };
             Share {
                 g,
-                kept,
-                old: 1.0 - kept - new,
+                decay,
+                old: 1.0 - decay - new,
                 new,
             }
         })
@@ -75,7 +75,7 @@ impl PronySeries {
     }
 }
 
-/// What one branch of a series has relaxed towards, h [N], at each time [s] of an elastic force [N] that is
+/// The history variable h [N] of one branch of a series at each time [s] of an elastic force [N] that is
 /// linear between them and begins with a jump; and how h changes with the logarithm of the branch's
 /// `time_constant` [s]. The relaxed force is Fₑ − Σ gᵢ hᵢ, so a fit of gᵢ and τᵢ needs no more than these.
 pub fn branch(time_constant: f64, times: &[f64], elastic: &[f64]) -> (Vec<f64>, Vec<f64>) {
@@ -97,12 +97,12 @@ pub fn branch(time_constant: f64, times: &[f64], elastic: &[f64]) -> (Vec<f64>, 
         known = as_before.or_else(|| {
             let share = series.shares(step).next()?;
             let ratio = step / time_constant;
-            let by_time = [ratio * share.kept, (-ratio).exp_m1() + share.new];
+            let by_time = [ratio * share.decay, (-ratio).exp_m1() + share.new];
             Some((step, share, by_time))
         });
-        if let Some((_, share, [kept, new])) = known {
-            slope = share.kept * slope + kept * (h - from) + new * (force - from);
-            h = share.kept * h + share.old * from + share.new * force;
+        if let Some((_, share, [decay, new])) = known {
+            slope = share.decay * slope + decay * (h - from) + new * (force - from);
+            h = share.decay * h + share.old * from + share.new * force;
         }
         values.push(h);
         slopes.push(slope);
@@ -111,16 +111,16 @@ pub fn branch(time_constant: f64, times: &[f64], elastic: &[f64]) -> (Vec<f64>, 
     (values, slopes)
 }
 
-/// How a branch goes over a step: h ← kept h + old Fₑ⁰ + new Fₑ¹, each [-].
+/// The update of a branch in a step: h ← decay h + old Fₑ⁰ + new Fₑ¹, each [-].
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Share {
     pub(crate) g: f64,
-    pub(crate) kept: f64,
+    pub(crate) decay: f64,
     pub(crate) old: f64,
     pub(crate) new: f64,
 }
 
-/// What the branches of a series remember of the elastic force of one contact.
+/// History variables of a series for the elastic force of one contact.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ForceHistory {
     branches: [Vec3; MAX_TERMS],
@@ -133,7 +133,7 @@ impl ForceHistory {
     pub fn advance(&mut self, series: &PronySeries, elastic: Vec3, step: f64) -> Vec3 {
         let mut force = elastic;
         for (branch, share) in self.branches.iter_mut().zip(series.shares(step)) {
-            *branch = share.kept * *branch + share.old * self.elastic + share.new * elastic;
+            *branch = share.decay * *branch + share.old * self.elastic + share.new * elastic;
             force -= share.g * *branch;
         }
         self.elastic = elastic;
@@ -146,7 +146,7 @@ impl ForceHistory {
         let (mut follows, mut history) = (1.0, Vec3::zeros());
         for (branch, share) in self.branches.iter().zip(series.shares(step)) {
             follows -= share.g * share.new;
-            history += share.g * (share.kept * branch + share.old * self.elastic);
+            history += share.g * (share.decay * branch + share.old * self.elastic);
         }
         (follows, history)
     }
@@ -156,14 +156,14 @@ impl ForceHistory {
         self.elastic
     }
 
-    /// Turns what it remembers by `rotation` [-].
+    /// Rotates the history by `rotation` [-].
     pub fn turn(&mut self, rotation: &Matrix3<f64>) {
         for force in self.branches.iter_mut().chain([&mut self.elastic]) {
             *force = rotation * *force;
         }
     }
 
-    /// Forgets all but what was along the unit vector `direction` [-].
+    /// Keeps only the part of the history along the unit vector `direction` [-].
     pub fn keep_along(&mut self, direction: &Vec3) {
         for force in self.branches.iter_mut().chain([&mut self.elastic]) {
             *force = direction * direction.dot(force);

@@ -1,4 +1,4 @@
-//! The boundary of a body: where tools load it.
+//! The boundary of a body, which tools load.
 
 use std::f64::consts::PI;
 
@@ -115,7 +115,7 @@ impl Boundary {
         self.faces.iter().map(|face| face.area.norm())
     }
 
-    /// Spreads a load around `place` [m], on what hangs together there and faces as `normal` [-] does, such as one side of a slit:
+    /// Spreads a load around `place` [m], on the connected faces there that face as `normal` [-] does, such as one side of a slit:
     /// (1 − (r/R)²)² with R no less than `radius` [m] nor than the faces resolve.
     pub fn spread(&self, place: &Vec3, normal: &Vec3, radius: f64, load: &mut SpreadLoad) {
         let nearest = self.tree.nearest(&self.mesh, place);
@@ -223,7 +223,7 @@ impl SpreadLoad {
         self.nodes[*place as usize].1 += weight;
     }
 
-    /// What such a load on a half-space of `law` moves its own weighted mean by [m/N]: along the surface, and along its
+    /// Compliance of a half-space of `law` for the weighted mean of such a load [m/N]: along the surface, and along its
     /// normal.
     ///
     /// ```text

@@ -4,8 +4,8 @@
 //! forces p ∂V/∂u,   tangent p ∂²V/∂u²
 //! ```
 //!
-//! V is the volume within the wall (`finite_elements::cavity`). A fluid keeps its volume V₁, as a condition of the step beside those of the
-//! tools and contacts: with the area A of the wall, the force p A acts along ∂V/∂u/A until
+//! V is the volume within the wall (`finite_elements::cavity`). A fluid keeps its volume V₁, as a condition of the step together with those
+//! of the tools and contacts: with the area A of the wall, the force p A acts along ∂V/∂u/A until
 //!
 //! ```text
 //! (V − V₁)/A = 0
@@ -36,13 +36,14 @@ const PAIRS: usize = NODES * (NODES - 1) / 2;
 pub struct BodyCavity {
     /// The triangles around it, as [`palpate_geometry::HollowMesh`] has them.
     pub wall: Vec<[NodeId; 3]>,
-    /// What is in it.
+    /// Its content.
     pub content: CavityContent,
-    /// The volume of its fluid over that of the cavity at rest [-]; none where the pressure of the fluid says it.
+    /// The volume of its fluid over that of the cavity at rest [-]; none where the pressure of the fluid
+    /// determines it.
     pub filling: Option<f64>,
 }
 
-/// What presses on a wall.
+/// The load on a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum WallLoad {
     /// A constant pressure [Pa].
@@ -102,7 +103,7 @@ impl Wall {
     }
 }
 
-/// Where the nodes of a side are [m].
+/// Positions of the nodes of a side [m].
 #[inline(always)]
 fn places(side: &[u32; NODES], nodes: &[Vec3], u: &[f64]) -> [Vec3; NODES] {
     side.map(|node| {
@@ -251,7 +252,7 @@ impl WallsInStep {
         let number = self.fluids[fluid];
         let wall = &model.walls[number];
         match wall.load {
-            WallLoad::Volume(kept) => (self.volumes[number] - kept) / wall.area,
+            WallLoad::Volume(target) => (self.volumes[number] - target) / wall.area,
             WallLoad::Pressure(_) => 0.0,
         }
     }

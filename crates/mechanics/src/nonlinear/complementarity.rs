@@ -1,4 +1,4 @@
-//! Forces of tools and of unilateral contacts that belong together.
+//! The complementarity problem of tool forces and unilateral contacts.
 //!
 //! ```text
 //! w = S x + q,   w = 0 in bilateral rows,   x ≥ 0, w ≥ 0, x w = 0 in unilateral rows,   x = 0 in open rows
@@ -13,10 +13,10 @@ const PATIENCE: u32 = 3;
 /// Solutions to try: a handful is the rule, and single pivots may need more than a step has time for.
 const MOST_SOLUTIONS: usize = 50;
 
-/// What is taken as zero, over the largest entry [-].
+/// Tolerance of zero, over the largest entry [-].
 const ZERO: f64 = 1e-9;
 
-/// What holds in a row.
+/// The condition of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     /// w = 0.
@@ -68,8 +68,8 @@ impl Complementarity {
         self.matrix[row * self.room + column]
     }
 
-    /// Solves for the first `count` rows; `active` is where the unilateral ones begin. Whether it was solved; if not, the
-    /// last trial stands, without forces that pull, or nothing where S is not positive.
+    /// Solves for the first `count` rows; `active` is where the unilateral ones begin. Returns whether it was solved; if
+    /// not, the result is the last trial without tensile forces, or zero where S is not positive.
     pub(super) fn solve(&mut self, count: usize) -> bool {
         for (active, kind) in self.active.iter_mut().zip(&self.kinds[..count]) {
             match kind {

@@ -14,20 +14,20 @@ use super::complementarity::Complementarity;
 use super::contact::{Contacts, MOST_CONTACTS, ROWS, UnilateralContact};
 use super::coupling::{Coupling, Rows, influence};
 use super::model::NonlinearModel;
-use super::state::{ContactMemory, NonlinearState};
+use super::state::{ContactHistory, NonlinearState};
 use crate::Vec3;
 
 /// Columns of Z of contacts: with more of them, four projections cost less by solutions.
 const MOST_COLUMNS: usize = 64;
 
-/// The body with the rotations of its nodes: what turns the factors.
+/// The body with the rotations of its nodes, which turn the factors.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Turned<'a> {
     pub(super) model: &'a NonlinearModel,
     pub(super) rotations: &'a [[f32; 9]],
 }
 
-/// What a step has to satisfy.
+/// Conditions of a step.
 #[derive(Debug, Clone, Copy)]
 pub struct Conditions<'a> {
     /// Those of tools, one each; none of a tool that touches nothing.
@@ -57,13 +57,13 @@ pub(super) struct Constraints {
     pub(super) force: Vec<f64>,
     direction: Vec<f64>,
     pub(super) t: Vec<f64>,
-    /// How far conditions are violated [m].
+    /// Violation of the conditions [m].
     pub(super) violation: Vec<f64>,
-    /// What they lack without any force of contacts [m].
+    /// Their violation without any contact force [m].
     pub(super) known: Vec<f64>,
     /// Forces in the rows that slide [N]; zero in the others.
     pub(super) slid: Vec<f64>,
-    pub(super) remembered: Vec<ContactMemory>,
+    pub(super) new_contacts: Vec<ContactHistory>,
     /// The contacts that have columns of Z, and these; three values a node [m/N].
     with_columns: Vec<usize>,
     columns: Vec<f32>,
@@ -88,7 +88,7 @@ impl Constraints {
             violation: vec![0.0; rows],
             known: vec![0.0; rows],
             slid: vec![0.0; rows],
-            remembered: Vec::with_capacity(MOST_CONTACTS),
+            new_contacts: Vec::with_capacity(MOST_CONTACTS),
             with_columns: Vec::with_capacity(MOST_COLUMNS),
             columns: vec![0.0; MOST_COLUMNS * size],
             load: vec![0.0; size],
@@ -121,7 +121,7 @@ impl Constraints {
         self.tools.list(couplings);
         self.tools.prepare(body, couplings);
         self.contacts.prepare(body, contacts, state);
-        let pressures = state.cavities.iter().map(|memory| memory.pressure);
+        let pressures = state.cavities.iter().map(|history| history.pressure);
         self.walls.prepare(body, pressures, &mut self.scratch);
         let (tools, first) = (self.tools.rows.len(), self.bilateral());
         for i in 0..tools {
@@ -155,7 +155,9 @@ impl Constraints {
             self.force[row] = if number < self.contacts.normals() {
                 state.pressed_at(contact.slot)
             } else {
-                contact.normal.dot(&state.rubbed_at(contact.slot).force)
+                contact
+                    .normal
+                    .dot(&state.friction_state_at(contact.slot).force)
             };
         }
         self.begin_kinds(state);
@@ -233,12 +235,12 @@ impl Constraints {
         self.walls.project(residual, fluids);
     }
 
-    /// The next direction: the last projection, and `kept` [-] times the direction before. Returns its energy in the own
+    /// The next direction: the last projection, and `beta` [-] times the direction before. Returns its energy in the own
     /// compliances of the conditions, twice [J].
-    pub(super) fn update_direction(&mut self, kept: f64) -> f64 {
+    pub(super) fn update_direction(&mut self, beta: f64) -> f64 {
         let (count, first) = (self.count(), self.bilateral());
         for (direction, t) in self.direction.iter_mut().zip(&self.t[..count]) {
-            *direction = kept * *direction + t;
+            *direction = beta * *direction + t;
         }
         let contacts = self.contacts.listed.iter().zip(&self.direction[first..]);
         let own = contacts.map(|(contact, direction)| contact.compliance * direction * direction);
@@ -286,25 +288,25 @@ impl Constraints {
         self.solve_forces();
     }
 
-    /// Keeps the forces in `state`.
-    pub(super) fn remember(
+    /// Stores the forces in `state`.
+    pub(super) fn store(
         &mut self,
         model: &NonlinearModel,
         couplings: &[Option<Coupling<'_>>],
         state: &mut NonlinearState,
     ) {
-        for (coupling, memory) in couplings.iter().zip(&mut state.tools) {
-            memory.force = Vec3::zeros();
-            memory.is_coupled = coupling.is_some();
+        for (coupling, history) in couplings.iter().zip(&mut state.tools) {
+            history.force = Vec3::zeros();
+            history.is_coupled = coupling.is_some();
         }
         for (row, force) in self.tools.rows.iter().zip(&self.force) {
             state.tools[row.tool].force += *force * row.direction;
         }
-        for (coupling, memory) in couplings.iter().zip(&mut state.tools) {
-            memory.load.fill(0.0);
+        for (coupling, history) in couplings.iter().zip(&mut state.tools) {
+            history.load.fill(0.0);
             for &(node, weight) in coupling.iter().flat_map(|coupling| coupling.nodes) {
-                let load = &mut memory.load[3 * node as usize..][..3];
-                for (load, force) in load.iter_mut().zip(memory.force.iter()) {
+                let load = &mut history.load[3 * node as usize..][..3];
+                for (load, force) in load.iter_mut().zip(history.force.iter()) {
                     *load = (weight * force) as f32;
                 }
             }
@@ -313,7 +315,7 @@ impl Constraints {
         for (fluid, (number, force)) in self.walls.fluids.iter().zip(fluids).enumerate() {
             state.cavities[*number].pressure = force / self.walls.area(model, fluid);
         }
-        self.remember_contacts(state);
+        self.store_contacts(state);
     }
 
     /// Σ a (S⁻¹ a)ᵀ over the rows in contact that do not slide [N/m], with a the vector that `motion` has for a contact's number
@@ -324,8 +326,13 @@ impl Constraints {
     ) -> Matrix3<f64> {
         let (count, first) = (self.count(), self.bilateral());
         let normals = self.contacts.normals();
-        let rubs = self.contacts.rubs.iter();
-        let along = rubs.flat_map(|rub| [(rub.normal, rub.along), (rub.normal, rub.along + 1)]);
+        let frictional = self.contacts.frictional.iter();
+        let along = frictional.flat_map(|contact| {
+            [
+                (contact.normal, contact.along),
+                (contact.normal, contact.along + 1),
+            ]
+        });
         let rows = (0..normals).map(|row| (row, row)).chain(along);
         let rows = rows.map(|(contact, row)| {
             let direction = &self.contacts.listed[row].normal;

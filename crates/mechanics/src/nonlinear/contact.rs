@@ -1,14 +1,14 @@
-//! Bodies that the boundary stays out of, with Coulomb's friction.
+//! Unilateral contact of the boundary with bodies, with Coulomb friction.
 //!
-//! Points of each face stay out of half-spaces, through a small compliance c of their own: three of a quadrature out of what
-//! stands still and of the boundary itself, and the centroids of four or sixteen equal parts out of tools, which are slender
-//! beside large faces.
+//! Points of each face stay out of half-spaces, through a small compliance c of their own: three points of a quadrature out
+//! of fixed bodies and of the boundary itself, and the centroids of four or sixteen equal parts out of tools, which are
+//! slender relative to large faces.
 //!
 //! ```text
 //! g = n · u + o + c λ,   λ ≥ 0, g ≥ 0, λ g = 0
 //! ```
 //!
-//! The half-space stands still in the step, or goes with another place of the boundary ([`super::touching`]): then u is the
+//! The half-space is fixed in the step, or moves with another place of the boundary ([`super::touching`]): then u is the
 //! displacement of the point less that of the place, on which −λ acts.
 //!
 //! A point in contact that sticks keeps its anchor a, through the same compliance; an anchor on a tool moves with the tool.
@@ -57,22 +57,22 @@ pub const TOOL_POINTS: [usize; 2] = [4, 16];
 pub struct BoundaryPoint {
     /// With their weights [-].
     pub(super) nodes: [(u32, f64); NODES],
-    /// Where it is at rest [m].
+    /// Its position at rest [m].
     pub place: Vec3,
     /// c [m/N].
     pub(super) compliance: f64,
 }
 
-/// What a point of the boundary touches.
+/// The body that a point of the boundary touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Against {
-    /// What stands still.
+    /// A fixed body.
     Still,
     /// A tool, where it is at the end of the step.
     Tool {
         /// Its number.
         number: usize,
-        /// How far the place of the tool behind the half-space moves in the step [m].
+        /// Motion of the tool behind the half-space in the step [m].
         motion: Vec3,
     },
     /// Another place of the boundary, which takes the opposite force: nodes with their weights [-].
@@ -84,18 +84,18 @@ pub enum Against {
 pub struct UnilateralContact {
     /// Number in [`NonlinearModel::boundary_points`]; against a tool, in [`NonlinearModel::tool_points`].
     pub point: u32,
-    /// Where the half-space's outside is [-].
+    /// Outward normal of the half-space [-].
     pub normal: Vec3,
     /// Distance of the point at rest from the half-space [m]; negative inside.
     pub offset: f64,
     /// Coulomb's coefficient μ [-].
     pub friction: f64,
-    /// What is behind the half-space.
+    /// The body behind the half-space.
     pub against: Against,
 }
 
 impl UnilateralContact {
-    /// Where a state remembers it: those with what stands still, with the boundary itself, then with each tool.
+    /// Its slot in a state: contacts with fixed bodies, with the boundary itself, then with each tool.
     pub(super) fn slot(&self, model: &NonlinearModel) -> usize {
         let points = model.boundary_points().len();
         let first = match self.against {
@@ -107,9 +107,9 @@ impl UnilateralContact {
     }
 }
 
-/// What a point of the boundary remembers of the friction on it.
+/// Friction state (history) of a point of the boundary.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Rubbed {
+pub(super) struct FrictionState {
     /// Force along the surface, on the body [N].
     pub(super) force: Vec3,
     /// The displacement of the point at which there would be none [m]; against a place of the boundary, less the
@@ -119,7 +119,7 @@ pub(super) struct Rubbed {
 }
 
 impl BoundaryPoint {
-    /// Those of a quadrature, which may touch what stands still and the boundary itself.
+    /// Points of a quadrature, which may touch fixed bodies and the boundary itself.
     pub(super) fn of_quadrature(
         mesh: &TetrahedronMesh,
         faces: &[Face],
@@ -173,7 +173,7 @@ impl BoundaryPoint {
         points
     }
 
-    /// Where it is displaced to [m] where the nodes have the `displacements` [m].
+    /// Its displacement [m] at these `displacements` of the nodes [m].
     pub fn displacement(&self, displacements: &[f64]) -> Vec3 {
         mean(&self.nodes, displacements)
     }
@@ -193,7 +193,7 @@ fn mean(nodes: &[(u32, f64)], values: &[f64]) -> Vec3 {
 pub(super) struct Contacts {
     /// Those along the normals, then those along the surface, in pairs.
     pub(super) listed: Vec<Contact>,
-    pub(super) rubs: Vec<Rub>,
+    pub(super) frictional: Vec<FrictionalContact>,
     /// The nodes of the points, and the place of each node among them.
     nodes: Vec<u32>,
     places: Vec<u32>,
@@ -203,7 +203,7 @@ pub(super) struct Contacts {
 
 /// A contact with friction, as its two directions along the surface.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Rub {
+pub(super) struct FrictionalContact {
     /// Numbers in the list of the contact along the normal, and of the first of the two along the surface.
     pub(super) normal: usize,
     pub(super) along: usize,
@@ -214,7 +214,7 @@ pub(super) struct Rub {
 /// One of them, with the force λ along `normal`: that of the half-space, or a direction along it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Contact {
-    /// Where a state remembers it.
+    /// Its slot in a state.
     pub(super) slot: usize,
     /// c [m/N].
     pub(super) compliance: f64,
@@ -223,7 +223,7 @@ pub(super) struct Contact {
     pub(super) is_between: bool,
     pub(super) normal: Vec3,
     offset: f64,
-    /// How far the anchor moves in the step [m]: with a tool.
+    /// Motion of the anchor in the step [m]: with a tool.
     motion: Vec3,
 }
 
@@ -276,14 +276,14 @@ impl Contact {
         self.offset + self.normal.dot(&self.displacement(displacements))
     }
 
-    /// How far the point is displaced [m]; against a place of the boundary, how much farther than that.
+    /// Displacement of the point [m]; against a place of the boundary, relative to that.
     pub(super) fn displacement(&self, displacements: &[f64]) -> Vec3 {
         mean(self.nodes(), displacements)
     }
 
     /// The displacement without friction at the point [m].
     pub(super) fn anchor(&self, state: &NonlinearState) -> Vec3 {
-        let known = state.rubbed_at(self.slot).anchor;
+        let known = state.friction_state_at(self.slot).anchor;
         match self.is_between {
             true => self.displacement(&state.displacements) + known,
             false => known + self.motion,
@@ -313,7 +313,7 @@ impl Contacts {
     pub(super) fn new(nodes: usize) -> Self {
         Self {
             listed: Vec::with_capacity(ROWS * MOST_CONTACTS),
-            rubs: Vec::with_capacity(MOST_CONTACTS),
+            frictional: Vec::with_capacity(MOST_CONTACTS),
             nodes: Vec::with_capacity(MOST_NODES * MOST_CONTACTS),
             places: vec![NOWHERE; nodes],
             columns: Vec::with_capacity(MOST_NODES * MOST_CONTACTS * ROWS * MOST_CONTACTS),
@@ -322,7 +322,7 @@ impl Contacts {
 
     /// How many of `listed` are along the normals.
     pub(super) fn normals(&self) -> usize {
-        self.listed.len() - 2 * self.rubs.len()
+        self.listed.len() - 2 * self.frictional.len()
     }
 
     /// Lists the `contacts`, the first [`MOST_CONTACTS`] of them, and finds what a force on each moves.
@@ -334,7 +334,7 @@ impl Contacts {
     ) {
         let Turned { model, rotations } = body;
         self.listed.clear();
-        self.rubs.clear();
+        self.frictional.clear();
         let contacts = &contacts[..contacts.len().min(MOST_CONTACTS)];
         let listed = contacts.iter().map(|contact| Contact::new(model, contact));
         self.listed.extend(listed);
@@ -352,7 +352,7 @@ impl Contacts {
                         ..own
                     });
                 }
-                self.rubs.push(Rub {
+                self.frictional.push(FrictionalContact {
                     normal,
                     along,
                     friction: contact.friction,

@@ -4,7 +4,7 @@ use super::constraints::Turned;
 use super::model::NonlinearModel;
 use crate::Vec3;
 
-/// What a tool does to the body in a step: it moves the weighted mean of some nodes through its own compliance,
+/// The condition of a tool in a step: it moves the weighted mean of some nodes through its own compliance,
 ///
 /// ```text
 /// Σ w u + C F + o = d
@@ -13,17 +13,17 @@ use crate::Vec3;
 /// along all directions, or along one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coupling<'a> {
-    /// Nodes with their weights w [-], whose sum is one. The model has to know that they can be loaded.
+    /// Nodes with their weights w [-], whose sum is one. The model must list them as loadable.
     pub nodes: &'a [(u32, f64)],
-    /// The only direction along which it acts, of length one; all if there is none.
+    /// The only direction along which it acts, of length one; `None` is all.
     pub along: Option<Vec3>,
     /// Displacement d [m] of the tool since it touched the body at rest.
     pub displacement: Vec3,
     /// C [m/N], symmetric and not negative.
     pub compliance: Matrix3<f64>,
-    /// How far the mean will go in this step, as far as that is known [m]: so far the last step is continued.
+    /// Expected motion of the mean in this step [m]: the last step is continued as far.
     pub advance: Vec3,
-    /// o [m]: what the tool's own deformation under the last force is beyond C times it.
+    /// o [m]: the tool's own deformation under the last force less C times it.
     pub offset: Vec3,
 }
 
@@ -44,7 +44,7 @@ pub(super) struct Row {
     pub(super) direction: Vec3,
 }
 
-/// The rows of all tools and what they do to the body.
+/// The rows of all tools and their influences on the body.
 #[derive(Debug, Clone)]
 pub(super) struct Rows {
     pub(super) rows: Vec<Row>,

@@ -1,4 +1,4 @@
-//! Quadratic tetrahedra with straight edges, eight side by side, and what passes between them and their nodes.
+//! Quadratic tetrahedra with straight edges, eight side by side, and the gather and scatter of nodal values.
 
 use palpate_geometry::TetrahedronMesh;
 
@@ -81,8 +81,8 @@ impl<T: Scalar> Pack<T> {
         pack
     }
 
-    /// The displacements [m] of the nodes, beside that of the first, which strains nothing: no digit is lost where a
-    /// body has moved far.
+    /// The displacements [m] of the nodes relative to that of the first, which strains nothing: no digit is lost
+    /// where a body has moved far.
     #[inline(always)]
     pub(super) fn gather_displacements(&self, values: &[f64]) -> Nodal<T> {
         let mut nodal = Nodal::default();

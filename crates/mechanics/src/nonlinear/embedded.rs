@@ -40,7 +40,7 @@ struct EmbeddedPoint {
     outside: Option<Outside>,
 }
 
-/// Where a point outside is relative to the nearest point of the boundary.
+/// A point outside, relative to the nearest point of the boundary.
 #[derive(Debug, Clone, Copy)]
 struct Outside {
     /// X − Y [m].
@@ -245,7 +245,7 @@ mod tests {
             .collect()
     }
 
-    /// Judge: the rotation itself; weights are kept in single precision.
+    /// Judge: the rotation itself; weights are stored in single precision.
     #[test]
     fn embedded_points_rotate_with_the_body() {
         let model = model();

@@ -2,13 +2,13 @@
 //!
 //! With a guess of which points slide, and with what forces along the surface, the rest is a problem of complementarity: a
 //! point that sticks is bilateral in both directions. From its solution a few sweeps of projected Gauss-Seidel over all
-//! rows [Jean 1999] say which points slide and with what forces; this is repeated until nothing changes, at most
+//! rows [Jean 1999] determine which points slide and with what forces; this is repeated until nothing changes, at most
 //! [`MOST_TRIALS`] times. Then the forces along the surface are cut to the cone, which they never leave.
 
 use super::complementarity::Kind;
 use super::constraints::Constraints;
-use super::contact::{Rub, Rubbed};
-use super::state::{ContactMemory, NonlinearState};
+use super::contact::{FrictionState, FrictionalContact};
+use super::state::{ContactHistory, NonlinearState};
 use crate::Vec3;
 
 /// Problems of complementarity to solve: a few are the rule.
@@ -24,23 +24,23 @@ const ON_CONE: f64 = 1e-12;
 const STANDS: f64 = 1e-3;
 
 impl Constraints {
-    /// What holds in each row at the beginning of a step: what slid before still does.
+    /// The kind of each row at the beginning of a step: contacts that slid still do.
     pub(super) fn begin_kinds(&mut self, state: &NonlinearState) {
         let (first, normals) = (self.bilateral(), self.contacts.normals());
         let kinds = &mut self.problem.kinds;
         kinds[..first].fill(Kind::Bilateral);
         kinds[first..first + normals].fill(Kind::Unilateral);
-        for rub in &self.contacts.rubs {
-            let slot = self.contacts.listed[rub.normal].slot;
-            let kind = match state.rubbed_at(slot).slides {
+        for contact in &self.contacts.frictional {
+            let slot = self.contacts.listed[contact.normal].slot;
+            let kind = match state.friction_state_at(slot).slides {
                 true => Kind::Open,
                 false => Kind::Bilateral,
             };
-            kinds[first + rub.along..][..2].fill(kind);
+            kinds[first + contact.along..][..2].fill(kind);
         }
     }
 
-    /// Forces for what the conditions lack where these do not change; the changes into `t`.
+    /// Forces that correct the violation at constant kinds; the changes go to `t`.
     pub(super) fn solve_forces(&mut self) {
         let (count, first) = (self.count(), self.bilateral());
         for row in 0..count {
@@ -73,25 +73,26 @@ impl Constraints {
     }
 
     /// The rows of a contact with friction: along its normal, and the first of the two along the surface.
-    fn rows(&self, rub: &Rub) -> (usize, usize) {
+    fn rows(&self, contact: &FrictionalContact) -> (usize, usize) {
         let first = self.bilateral();
-        (first + rub.normal, first + rub.along)
+        (first + contact.normal, first + contact.along)
     }
 
-    /// What the forces that slide displace a row by [m].
+    /// Displacement of a row by the sliding forces [m].
     fn slid_displacement(&self, row: usize) -> f64 {
-        let rubs = self.contacts.rubs.iter();
-        rubs.map(|rub| {
-            let (_, along) = self.rows(rub);
-            self.problem.get(row, along) * self.slid[along]
-                + self.problem.get(row, along + 1) * self.slid[along + 1]
-        })
-        .sum()
+        let frictional = self.contacts.frictional.iter();
+        frictional
+            .map(|contact| {
+                let (_, along) = self.rows(contact);
+                self.problem.get(row, along) * self.slid[along]
+                    + self.problem.get(row, along + 1) * self.slid[along + 1]
+            })
+            .sum()
     }
 
-    /// Which points slide, and with what forces, by sweeps from the last solution; whether that is anything else than before.
+    /// Finds the sliding points and their forces by sweeps from the last solution. Returns whether anything changed.
     fn slide(&mut self) -> bool {
-        if self.contacts.rubs.is_empty() {
+        if self.contacts.frictional.is_empty() {
             return false;
         }
         let (count, first) = (self.count(), self.bilateral());
@@ -109,18 +110,18 @@ impl Constraints {
                     self.problem.x[row] = self.problem.x[row].max(0.0);
                 }
             }
-            for number in 0..self.contacts.rubs.len() {
-                let rub = self.contacts.rubs[number];
-                let (_, along) = self.rows(&rub);
+            for number in 0..self.contacts.frictional.len() {
+                let contact = self.contacts.frictional[number];
+                let (_, along) = self.rows(&contact);
                 self.problem.relax_pair(along, count);
-                self.cut_to_cone(&rub);
+                self.cut_to_cone(&contact);
             }
         }
         let mut changes = false;
-        for number in 0..self.contacts.rubs.len() {
-            let rub = self.contacts.rubs[number];
-            let (normal, along) = self.rows(&rub);
-            let limit = rub.friction * self.problem.x[normal];
+        for number in 0..self.contacts.frictional.len() {
+            let contact = self.contacts.frictional[number];
+            let (normal, along) = self.rows(&contact);
+            let limit = contact.friction * self.problem.x[normal];
             let next = [self.problem.x[along], self.problem.x[along + 1]];
             let slides = next[0].hypot(next[1]) >= limit * (1.0 - ON_CONE);
             let kind = match slides {
@@ -137,21 +138,22 @@ impl Constraints {
         changes
     }
 
-    /// Takes the forces that slide into the solution, and cuts all along the surface to their cones.
+    /// Copies the sliding forces into the solution, and limits all forces along the surface to their
+    /// cones.
     fn keep_cones(&mut self) {
-        for number in 0..self.contacts.rubs.len() {
-            let rub = self.contacts.rubs[number];
-            let (_, along) = self.rows(&rub);
+        for number in 0..self.contacts.frictional.len() {
+            let contact = self.contacts.frictional[number];
+            let (_, along) = self.rows(&contact);
             if self.problem.kinds[along] == Kind::Open {
                 self.problem.x[along..along + 2].copy_from_slice(&self.slid[along..along + 2]);
             }
-            self.cut_to_cone(&rub);
+            self.cut_to_cone(&contact);
         }
     }
 
-    fn cut_to_cone(&mut self, rub: &Rub) {
-        let (normal, along) = self.rows(rub);
-        let limit = rub.friction * self.problem.x[normal].max(0.0);
+    fn cut_to_cone(&mut self, contact: &FrictionalContact) {
+        let (normal, along) = self.rows(contact);
+        let limit = contact.friction * self.problem.x[normal].max(0.0);
         let x = &mut self.problem.x[along..along + 2];
         let size = x[0].hypot(x[1]);
         if size > limit {
@@ -159,49 +161,49 @@ impl Constraints {
         }
     }
 
-    /// Keeps the forces of contacts in `state`, and where their points stick.
-    pub(super) fn remember_contacts(&mut self, state: &mut NonlinearState) {
+    /// Stores the contact forces and the anchors of sticking points in `state`.
+    pub(super) fn store_contacts(&mut self, state: &mut NonlinearState) {
         let first = self.bilateral();
-        self.remembered.clear();
+        self.new_contacts.clear();
         let normals = &self.contacts.listed[..self.contacts.normals()];
         for (number, contact) in normals.iter().enumerate() {
             if self.force[first + number] > 0.0 {
-                let begun = Rubbed {
+                let begun = FrictionState {
                     anchor: match contact.is_between {
                         false => contact.displacement(&state.displacements),
                         true => Vec3::zeros(),
                     },
-                    ..Rubbed::default()
+                    ..FrictionState::default()
                 };
-                let mut rubs = self.contacts.rubs.iter();
-                let rubbed = match rubs.find(|rub| rub.normal == number) {
-                    Some(rub) => self.rubbed(rub, state),
+                let mut frictional = self.contacts.frictional.iter();
+                let friction_state = match frictional.find(|contact| contact.normal == number) {
+                    Some(contact) => self.friction_state(contact, state),
                     None => begun,
                 };
-                self.remembered.push(ContactMemory {
+                self.new_contacts.push(ContactHistory {
                     slot: contact.slot,
                     force: self.force[first + number],
-                    rubbed,
+                    friction_state,
                 });
             }
         }
         state.pressed.fill(0.0);
-        state.rubbed.fill(Rubbed::default());
-        state.on_tools.fill(ContactMemory::default());
+        state.friction_states.fill(FrictionState::default());
+        state.on_tools.fill(ContactHistory::default());
         let mut on_tools = state.on_tools.iter_mut();
-        for memory in self.remembered.drain(..) {
-            if let Some(pressed) = state.pressed.get_mut(memory.slot) {
-                *pressed = memory.force;
-                state.rubbed[memory.slot] = memory.rubbed;
+        for history in self.new_contacts.drain(..) {
+            if let Some(pressed) = state.pressed.get_mut(history.slot) {
+                *pressed = history.force;
+                state.friction_states[history.slot] = history.friction_state;
             } else if let Some(own) = on_tools.next() {
-                *own = memory;
+                *own = history;
             }
         }
     }
 
-    fn rubbed(&self, rub: &Rub, state: &NonlinearState) -> Rubbed {
-        let (_, along) = self.rows(rub);
-        let [first, second] = [0, 1].map(|k| &self.contacts.listed[rub.along + k]);
+    fn friction_state(&self, contact: &FrictionalContact, state: &NonlinearState) -> FrictionState {
+        let (_, along) = self.rows(contact);
+        let [first, second] = [0, 1].map(|k| &self.contacts.listed[contact.along + k]);
         let force = first.normal * self.force[along] + second.normal * self.force[along + 1];
         let slides = self.problem.kinds[along] == Kind::Open;
         let lag = first.compliance * force;
@@ -214,7 +216,7 @@ impl Constraints {
                 lags[0] + lags[1]
             }
         };
-        Rubbed {
+        FrictionState {
             force,
             anchor,
             slides,

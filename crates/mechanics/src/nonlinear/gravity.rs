@@ -1,4 +1,4 @@
-//! A body that hangs under its own weight.
+//! A body under its own weight.
 
 use super::model::NonlinearModel;
 use crate::finite_elements::{ElementMesh, Mismatch};
@@ -10,7 +10,7 @@ const BETWEEN: f64 = 0.2;
 
 impl NonlinearModel {
     /// The same body under its weight and the pressures in its cavities ([`Self::under_pressure`]): each element with its density
-    /// [kg/m³], under `gravity` [m/s²]. It is at rest where it has hung for long, whatever its tissues relax by.
+    /// [kg/m³], under `gravity` [m/s²]. It is at rest after these have acted for long, with its tissues relaxed.
     ///
     /// # Errors
     /// When there is not one density for each element, or the body does not come to rest.

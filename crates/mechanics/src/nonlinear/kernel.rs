@@ -13,9 +13,9 @@ use super::lanes::{
     Columns, Lanes, Scalar, cofactors, contraction, cross, dot, plus, product, scaled,
     transposed_times,
 };
-use super::relaxation::Remembered;
+use super::relaxation::StressHistory;
 
-/// What eight elements keep of their deformation.
+/// The deformation of eight elements.
 #[derive(Debug, Clone)]
 pub(super) struct Deformed<T> {
     /// F at each integration point [-].
@@ -27,7 +27,7 @@ pub(super) struct Deformed<T> {
     /// Whether they relax: then γ [-], and Sₕ and pₕ at each integration point [Pa].
     pub(super) relaxes: bool,
     pub(super) follows: Lanes<T>,
-    pub(super) history: [Remembered<T>; POINTS],
+    pub(super) history: [StressHistory<T>; POINTS],
 }
 
 impl<T: Scalar> Default for Deformed<T> {
@@ -38,15 +38,21 @@ impl<T: Scalar> Default for Deformed<T> {
             has_second: false,
             relaxes: false,
             follows: Lanes::splat(1.0),
-            history: [Remembered::default(); POINTS],
+            history: [StressHistory::default(); POINTS],
         }
     }
 }
 
 impl<T: Scalar> Deformed<T> {
-    /// Takes F Sₕ of the volume `weight` [m³] from a stress.
+    /// Subtracts F Sₕ of the volume `weight` [m³] from a stress.
     #[inline(always)]
-    fn remember(&self, f: &Columns<T>, point: usize, weight: Lanes<T>, stress: &mut Columns<T>) {
+    fn subtract_history(
+        &self,
+        f: &Columns<T>,
+        point: usize,
+        weight: Lanes<T>,
+        stress: &mut Columns<T>,
+    ) {
         let [xx, yy, zz, yz, xz, xy, _] = self.history[point];
         let history = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
         for (own, column) in stress.iter_mut().zip(&product(f, &history)) {
@@ -158,7 +164,7 @@ impl<T: Scalar> Pack<T> {
             *column = plus(column, &scaled(f, first));
         }
         if deformed.relaxes {
-            deformed.remember(f, point, self.quarter, &mut stress);
+            deformed.subtract_history(f, point, self.quarter, &mut stress);
         }
         stress
     }
@@ -232,7 +238,7 @@ impl<T: Scalar> Pack<T> {
             *own = plus(own, &scaled(change, first));
         }
         if deformed.relaxes {
-            deformed.remember(change, point, self.quarter, &mut stress);
+            deformed.subtract_history(change, point, self.quarter, &mut stress);
         }
         stress
     }

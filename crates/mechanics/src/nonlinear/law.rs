@@ -1,4 +1,4 @@
-//! The laws that the kernel knows, in one form that is stable under compression and inversion:
+//! The laws of the kernel, in one form that is stable under compression and inversion:
 //!
 //! ```text
 //! Ψ = c₁₀ (I₁ − 3) + c₀₁ (I₂ − 3) − (2 c₁₀ + 4 c₀₁) (J − 1) + (c₁₀ + ½ λ₁) (J − 1)² + ½ (λ − λ₁) (J̄ − 1)²

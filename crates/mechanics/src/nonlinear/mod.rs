@@ -1,4 +1,4 @@
-//! A body at large deformation, moved by tools at haptic rates.
+//! A body at large deformation under tools, at haptic rates.
 //!
 //! Quadratic tetrahedra that resist their mean change of volume most, of a law that is stable under compression (`law`), in
 //! quasi-static equilibrium with rigid tools, each of which moves a few nodes through its own compliance
@@ -11,7 +11,8 @@
 //! 4. if the forces along the step have turned against it, back to the zero of their secant.
 //!
 //! No matrix is assembled in a step: the product of the stiffness with a vector is the change of the elements'
-//! forces. All of it works in single precision, eight elements at a time; displacements are kept in double.
+//! forces. All of it runs in single precision, eight elements at a time; displacements are stored in
+//! double.
 //!
 //! Cavities press on their walls (`cavities`); a fluid in one keeps its volume.
 //!

@@ -21,7 +21,8 @@ use crate::{Error, PronySeries, Vec3};
 /// Largest memory of the influences of the nodes that can be loaded [bytes].
 pub const MOST_INFLUENCE_BYTES: usize = 1 << 30;
 
-/// A node moves at most by this part of a mean edge in a step, beside what is continued [-].
+/// A node moves at most by this part of a mean edge in a step, in addition to the continued motion
+/// [-].
 const FARTHEST: f64 = 0.5;
 
 /// A body of quadratic tetrahedra, fixed at some nodes, with its stiffness at rest in factors.
@@ -42,7 +43,7 @@ pub struct NonlinearModel {
     /// Place of each node in `influences`.
     pub(super) loaded: Vec<Option<u32>>,
     nodes: Vec<Vec3>,
-    /// What a node moves at most in a step, beside what is continued [m].
+    /// Largest motion of a node in a step, in addition to the continued motion [m].
     pub(super) farthest: f32,
     mesh: TetrahedronMesh,
     /// Ten nodes for each tetrahedron.
@@ -56,8 +57,8 @@ pub struct NonlinearModel {
 
 impl NonlinearModel {
     /// `moduli` are those of each tetrahedron of `mesh`. Nodes are those of
-    /// [`ElementMesh::from_tetrahedra`]; `is_fixed` says of each whether it cannot move, `can_be_loaded` whether tools may
-    /// act on it, which costs 36 bytes times the square of their number.
+    /// [`ElementMesh::from_tetrahedra`]; `is_fixed` marks those that cannot move, `can_be_loaded` those that tools may act
+    /// on, which costs 36 bytes times the square of their number.
     ///
     /// # Errors
     /// When a list has another length, nothing is fixed, the influences need more than [`MOST_INFLUENCE_BYTES`], or
@@ -143,8 +144,8 @@ impl NonlinearModel {
         })
     }
 
-    /// As [`Self::new`], held where the boundary is and `is_fixed` says so of a place [m] of a tetrahedron; tools may act on
-    /// all of the boundary.
+    /// As [`Self::new`], fixed on the boundary where `is_fixed` holds of a place [m] of a tetrahedron; tools may act on all
+    /// of the boundary.
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -156,8 +157,8 @@ impl NonlinearModel {
         Self::hollow(mesh, &[], moduli, is_fixed)
     }
 
-    /// As [`Self::on_boundary`], with `cavities`, whose walls are neither held nor touched by tools. Pressures act from the first step on,
-    /// unless the body comes to rest under them before ([`Self::under_pressure`]).
+    /// As [`Self::on_boundary`], with `cavities`, whose walls are neither fixed nor touched by tools. Pressures act from the first step
+    /// on, unless the body comes to rest under them before ([`Self::under_pressure`]).
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -218,12 +219,12 @@ impl NonlinearModel {
         &self.elements
     }
 
-    /// Where tools load it.
+    /// The boundary, which tools load.
     pub fn boundary(&self) -> &Boundary {
         &self.boundary
     }
 
-    /// The points of its boundary that may touch what stands still and the boundary itself.
+    /// The points of its boundary that may touch fixed bodies and the boundary itself.
     pub fn boundary_points(&self) -> &[BoundaryPoint] {
         &self.points
     }
@@ -281,8 +282,8 @@ impl NonlinearModel {
         EmbeddedPoints::new(&self.mesh, &self.elements, points, tetrahedra)
     }
 
-    /// What a force on the weighted mean of `nodes` moves it by [m/N], by the factors of the stiffness at rest, turned as
-    /// the nodes are in `state`.
+    /// Compliance of the weighted mean of `nodes` [m/N], by the factors of the stiffness at rest, turned as the nodes are
+    /// in `state`.
     ///
     /// # Panics
     /// When one of the nodes can move and cannot be loaded.

@@ -1,4 +1,4 @@
-//! Where a step begins: the last motion, as far as the tools continue their paths.
+//! Predictor of a step: the last motion, as far as the tools continue their paths.
 
 use super::constraints::Conditions;
 use super::contact::Against;
@@ -6,10 +6,10 @@ use super::model::NonlinearModel;
 use super::state::NonlinearState;
 use crate::Vec3;
 
-/// Largest factor with which the last displacement is continued, or gone back [-].
+/// Largest factor with which the last displacement is continued or reversed [-].
 const MOST_CONTINUED: f64 = 1.5;
 
-/// Continues the last motion as far as the tools continue their paths; whether there was one to be continued.
+/// Continues the last motion as far as the tools continue their paths; returns whether there was one.
 pub(super) fn predict(
     model: &NonlinearModel,
     conditions: Conditions<'_>,
@@ -22,8 +22,8 @@ pub(super) fn predict(
     } = conditions;
     let last_motion = state.motion();
     let (mut along, mut length, mut all_known) = (0.0, 0.0, true);
-    for (coupling, memory) in couplings.iter().zip(&state.tools) {
-        all_known &= coupling.is_some() == memory.is_coupled;
+    for (coupling, history) in couplings.iter().zip(&state.tools) {
+        all_known &= coupling.is_some() == history.is_coupled;
         if let Some(coupling) = coupling {
             let last = last_motion.of(coupling.nodes);
             along += coupling.advance.dot(&last);
@@ -51,27 +51,27 @@ pub(super) fn predict(
     for (guess, (to, from)) in guess.iter_mut().zip(each) {
         *guess = to + per_step * (to - from);
     }
-    for (coupling, memory) in couplings.iter().zip(&mut state.tools) {
+    for (coupling, history) in couplings.iter().zip(&mut state.tools) {
         let force = match coupling {
-            Some(_) => memory.force + part * (memory.force - memory.force_in_series),
+            Some(_) => history.force + part * (history.force - history.previous_force),
             None => Vec3::zeros(),
         };
-        memory.force_in_series = memory.force;
-        memory.force = force;
+        history.previous_force = history.force;
+        history.force = force;
     }
-    for memory in &mut state.cavities {
-        memory.continue_by(part);
+    for history in &mut state.cavities {
+        history.continue_by(part);
     }
     part != 0.0
 }
 
-/// Takes back what a guess continued.
+/// Undoes the continuation of a guess.
 pub(super) fn stay(state: &mut NonlinearState, guess: &mut [f64]) {
     guess.copy_from_slice(&state.displacements);
-    for memory in &mut state.tools {
-        memory.force = memory.force_in_series;
+    for history in &mut state.tools {
+        history.force = history.previous_force;
     }
-    for memory in &mut state.cavities {
-        memory.stay();
+    for history in &mut state.cavities {
+        history.stay();
     }
 }

@@ -21,8 +21,8 @@ use crate::{Error, PronySeries};
 /// S (xx, yy, zz, yz, xz, xy), and p.
 pub(super) const VALUES: usize = 7;
 
-/// What is remembered at a point [Pa].
-pub(super) type Remembered<T> = [Lanes<T>; VALUES];
+/// History at a point [Pa].
+pub(super) type StressHistory<T> = [Lanes<T>; VALUES];
 
 /// Smallest J² that is divided by [-].
 const FLATTEST: f64 = 1e-2;
@@ -38,7 +38,7 @@ pub(super) struct Relaxation {
     elements: usize,
 }
 
-/// What becomes of the branches of each series in a step: series × terms, and the share γ of each series.
+/// Shares of the branches of each series in a step: series × terms, and the share γ of each series.
 #[derive(Debug, Clone)]
 pub(super) struct StepShares {
     terms: Vec<Share>,
@@ -74,9 +74,9 @@ impl Relaxation {
         }))
     }
 
-    /// Numbers that are remembered of all points: of each the elastic stress at the last time, then its branches.
-    pub(super) fn memory(&self) -> Vec<Remembered<f32>> {
-        vec![Remembered::default(); self.of_lanes.len() * POINTS * (1 + self.terms)]
+    /// The history of all points at rest: for each the elastic stress at the last time, then its branches.
+    pub(super) fn at_rest(&self) -> Vec<StressHistory<f32>> {
+        vec![StressHistory::default(); self.of_lanes.len() * POINTS * (1 + self.terms)]
     }
 
     pub(super) fn shares(&self) -> StepShares {
@@ -86,17 +86,17 @@ impl Relaxation {
         }
     }
 
-    /// Takes what points of another body remember over to those of this one: `place` says which element and point there an element
-    /// and point here is at.
+    /// Copies the history of points of another body to those of this one: `place` gives the element and point there for an element
+    /// and point here.
     pub(super) fn carry(
         &self,
         from: &Self,
-        before: &[Remembered<f32>],
-        memory: &mut [Remembered<f32>],
+        before: &[StressHistory<f32>],
+        stored: &mut [StressHistory<f32>],
         place: impl Fn(usize, usize) -> Option<(usize, usize)>,
     ) {
         let terms = 1 + self.terms.min(from.terms);
-        for (pack, own) in memory
+        for (pack, own) in stored
             .chunks_exact_mut(POINTS * (1 + self.terms))
             .enumerate()
         {
@@ -122,7 +122,7 @@ impl Relaxation {
     pub(super) fn begin(
         &self,
         elapsed: f64,
-        memory: &[Remembered<f32>],
+        stored: &[StressHistory<f32>],
         shares: &mut StepShares,
         deformed: &mut [Deformed<f32>],
     ) {
@@ -135,46 +135,46 @@ impl Relaxation {
                 *own = share;
             }
         }
-        let points = memory.chunks_exact(POINTS * (1 + self.terms));
-        for ((deformed, lanes), memory) in deformed.iter_mut().zip(&self.of_lanes).zip(points) {
+        let points = stored.chunks_exact(POINTS * (1 + self.terms));
+        for ((deformed, lanes), stored) in deformed.iter_mut().zip(&self.of_lanes).zip(points) {
             deformed.relaxes = true;
             deformed.follows = gather(lanes, |series| shares.follows[series]);
-            deformed.history = [Remembered::default(); POINTS];
+            deformed.history = [StressHistory::default(); POINTS];
             for term in 0..self.terms {
                 let of = |value: fn(&Share) -> f64| {
                     gather(lanes, |series| {
                         value(&shares.terms[series * self.terms + term])
                     })
                 };
-                let (kept, old) = (of(|s| s.g * s.kept), of(|s| s.g * s.old));
+                let (decay, old) = (of(|s| s.g * s.decay), of(|s| s.g * s.old));
                 for (history, own) in deformed
                     .history
                     .iter_mut()
-                    .zip(memory.chunks_exact(1 + self.terms))
+                    .zip(stored.chunks_exact(1 + self.terms))
                 {
                     let (elastic, branch) = (&own[0], &own[1 + term]);
                     for (value, sum) in history.iter_mut().enumerate() {
-                        *sum += kept * branch[value] + old * elastic[value];
+                        *sum += decay * branch[value] + old * elastic[value];
                     }
                 }
             }
         }
     }
 
-    /// Remembers the stress at the end of the step; whether an element is inside out.
+    /// Stores the stress at the end of the step. Returns whether an element is inside out.
     #[inline(always)]
     pub(super) fn end(
         &self,
         packs: &[Pack<f32>],
         deformed: &[Deformed<f32>],
         shares: &StepShares,
-        memory: &mut [Remembered<f32>],
+        stored: &mut [StressHistory<f32>],
     ) -> bool {
         let mut is_inverted = false;
-        let points = memory.chunks_exact_mut(POINTS * (1 + self.terms));
+        let points = stored.chunks_exact_mut(POINTS * (1 + self.terms));
         let each = packs.iter().zip(deformed).zip(&self.of_lanes);
-        for (((pack, deformed), lanes), memory) in each.zip(points) {
-            for (point, own) in memory.chunks_exact_mut(1 + self.terms).enumerate() {
+        for (((pack, deformed), lanes), stored) in each.zip(points) {
+            for (point, own) in stored.chunks_exact_mut(1 + self.terms).enumerate() {
                 let (now, volume) = pack.elastic(deformed, point);
                 is_inverted |= volume.0.iter().any(|j| *j <= 0.0);
                 let (before, branches) = own.split_at_mut(1);
@@ -184,9 +184,9 @@ impl Relaxation {
                             value(&shares.terms[series * self.terms + term])
                         })
                     };
-                    let (kept, old, new) = (of(|s| s.kept), of(|s| s.old), of(|s| s.new));
+                    let (decay, old, new) = (of(|s| s.decay), of(|s| s.old), of(|s| s.new));
                     for (value, sum) in branch.iter_mut().enumerate() {
-                        *sum = kept * *sum + old * before[0][value] + new * now[value];
+                        *sum = decay * *sum + old * before[0][value] + new * now[value];
                     }
                 }
                 before[0] = now;
@@ -204,7 +204,7 @@ fn gather(lanes: &[usize; LANES], value: impl Fn(usize) -> f64) -> Lanes<f32> {
 impl<T: Scalar> Pack<T> {
     /// Sₑ and pₑ [Pa] at an integration point, and J there [-].
     #[inline(always)]
-    fn elastic(&self, deformed: &Deformed<T>, point: usize) -> (Remembered<T>, Lanes<T>) {
+    fn elastic(&self, deformed: &Deformed<T>, point: usize) -> (StressHistory<T>, Lanes<T>) {
         let f = &deformed.gradients[point];
         let two = Lanes::splat(2.0);
         let (first, second) = (two * self.moduli.c10, two * self.moduli.c01);
@@ -228,7 +228,7 @@ impl<T: Scalar> Pack<T> {
         let mean = contraction(&stress, &c) * Lanes::splat(1.0 / 3.0) / square;
         let at = |i: usize, j: usize| stress[j][i] - mean * minors[j][i];
         let pressure = (deformed.pressures[point] + deformed.history[point][6]) / deformed.follows;
-        let remembered = [
+        let elastic = [
             at(0, 0),
             at(1, 1),
             at(2, 2),
@@ -237,6 +237,6 @@ impl<T: Scalar> Pack<T> {
             at(0, 1),
             pressure + mean * volume,
         ];
-        (remembered, volume)
+        (elastic, volume)
     }
 }

@@ -13,7 +13,7 @@ const AT_ONCE: usize = 48;
 #[derive(Debug, Clone)]
 pub(super) struct RestFactors {
     factors: SmallFactors,
-    /// Where the three displacements of each node stand in the order of elimination; none of a fixed node.
+    /// Places of the three displacements of each node in the order of elimination; none of a fixed node.
     places: Vec<Option<[u32; 3]>>,
     unknowns: usize,
 }

@@ -3,7 +3,7 @@
 use super::cavities::{Wall, WallLoad};
 use super::constraints::Conditions;
 use super::model::NonlinearModel;
-use super::state::{CavityMemory, NonlinearState};
+use super::state::{CavityHistory, NonlinearState};
 use super::step::{Pace, Workspace, advance};
 use crate::Error;
 use palpate_files::scene::CavityContent;
@@ -19,8 +19,8 @@ const SETTLED: f64 = 1e-7;
 const LONG: f64 = 1e12;
 
 impl NonlinearModel {
-    /// The same body under the pressures in its cavities: it is at rest where they have pressed for long, whatever its tissues relax
-    /// by. A fluid has so much volume that it has its pressure while nothing else loads the body.
+    /// The same body under the pressures in its cavities: its equilibrium after they have acted for long, with its tissues relaxed.
+    /// A fluid has the volume at which it has its pressure while nothing else loads the body.
     ///
     /// # Errors
     /// When the body does not come to rest.
@@ -37,7 +37,7 @@ impl NonlinearModel {
     /// The same at rest under the pressures and a `weight` on each node [N], if it has any.
     pub(super) fn settle(mut self, weight: Vec<f32>) -> Result<Self, Error> {
         let mut state = NonlinearState::at_rest(&self, 0);
-        state.cavities.fill(CavityMemory::default());
+        state.cavities.fill(CavityHistory::default());
         let mut workspace = self.workspace(0);
         let fills = |wall: &Wall| match (wall.content, wall.filling) {
             (CavityContent::Fluid(pressure), None) => Some(pressure).filter(|own| *own != 0.0),
@@ -72,8 +72,8 @@ impl NonlinearModel {
                 wall.load = match wall.content {
                     CavityContent::Pressure(pressure) => WallLoad::Pressure(part * pressure),
                     CavityContent::Fluid(_) => {
-                        let kept = wall.filling.unwrap_or(1.0) * wall.at_rest;
-                        WallLoad::Volume(from + part * (kept - from))
+                        let target = wall.filling.unwrap_or(1.0) * wall.at_rest;
+                        WallLoad::Volume(from + part * (target - from))
                     }
                 };
             }
@@ -88,7 +88,7 @@ impl NonlinearModel {
         Ok(self)
     }
 
-    /// Loads it part by part, and waits until it rests.
+    /// Loads it part by part, and steps until it is at rest.
     fn load(
         &mut self,
         state: &mut NonlinearState,

@@ -1,14 +1,14 @@
-//! A body between two steps: where it is, and what it remembers of its tools.
+//! The state of a body between two steps: displacements, and history of its tools and contacts.
 
 use nalgebra::{Matrix3, Rotation3};
 
-use super::contact::{MOST_CONTACTS, Rubbed, UnilateralContact};
+use super::contact::{FrictionState, MOST_CONTACTS, UnilateralContact};
 use super::coupling::Coupling;
 use super::model::NonlinearModel;
-use super::relaxation::{Relaxation, Remembered};
+use super::relaxation::{Relaxation, StressHistory};
 use crate::Vec3;
 
-/// Steps in which the force of a tool that has let go fades: at once the body would spring back farther than a step
+/// Steps in which the force of a released tool fades: without that the body would spring back farther than a step
 /// follows.
 const FADES: u32 = 10;
 
@@ -26,93 +26,93 @@ pub struct NonlinearState {
     pub(super) is_smooth: bool,
     /// Rotations of the nodes in the last step, each column by column [-].
     pub(super) rotations: Vec<[f32; 9]>,
-    pub(super) tools: Vec<ToolMemory>,
-    pub(super) cavities: Vec<CavityMemory>,
-    /// Force of the contact at each point of the boundary with what stands still [N], then with the boundary itself.
+    pub(super) tools: Vec<ToolHistory>,
+    pub(super) cavities: Vec<CavityHistory>,
+    /// Contact force at each point of the boundary with fixed bodies [N], then with the boundary itself.
     pub(super) pressed: Vec<f64>,
-    pub(super) rubbed: Vec<Rubbed>,
-    /// The contacts with tools, then [`ContactMemory::default`]: few of very many points.
-    pub(super) on_tools: Vec<ContactMemory>,
+    pub(super) friction_states: Vec<FrictionState>,
+    /// The contacts with tools, then [`ContactHistory::default`]: few of very many points.
+    pub(super) on_tools: Vec<ContactHistory>,
     /// Stress at the integration points in the past; none where nothing relaxes.
-    pub(super) stress: Vec<Remembered<f32>>,
-    /// Forces on the nodes by tools that have let go [N], and the steps in which they still act.
+    pub(super) stress: Vec<StressHistory<f32>>,
+    /// Forces on the nodes by released tools [N], and the steps in which they still act.
     pub(super) fading: Vec<f32>,
     pub(super) fades: u32,
 }
 
-/// What is remembered of a contact.
+/// History of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct ContactMemory {
+pub(super) struct ContactHistory {
     pub(super) slot: usize,
     /// Force along the normal [N].
     pub(super) force: f64,
-    pub(super) rubbed: Rubbed,
+    pub(super) friction_state: FrictionState,
 }
 
 /// The slot of no contact.
 const NO_SLOT: usize = usize::MAX;
 
-impl ContactMemory {
+impl ContactHistory {
     fn is_none(&self) -> bool {
         self.slot == NO_SLOT
     }
 }
 
-impl Default for ContactMemory {
+impl Default for ContactHistory {
     /// None.
     fn default() -> Self {
         Self {
             slot: NO_SLOT,
             force: 0.0,
-            rubbed: Rubbed::default(),
+            friction_state: FrictionState::default(),
         }
     }
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct ToolMemory {
+pub(super) struct ToolHistory {
     pub(super) is_coupled: bool,
     /// Its forces on the nodes [N].
     pub(super) load: Vec<f32>,
     pub(super) force: Vec3,
-    pub(super) force_in_series: Vec3,
+    pub(super) previous_force: Vec3,
 }
 
 /// The pressure in a cavity in the last step, and in the one before [Pa].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct CavityMemory {
+pub(super) struct CavityHistory {
     pub(super) pressure: f64,
     before: f64,
 }
 
-impl CavityMemory {
+impl CavityHistory {
     /// Continues the last change by a `part` [-] of it.
     pub(super) fn continue_by(&mut self, part: f64) {
         let pressure = self.pressure + part * (self.pressure - self.before);
         (self.pressure, self.before) = (pressure, self.pressure);
     }
 
-    /// Takes that back.
+    /// Undoes that.
     pub(super) fn stay(&mut self) {
         self.pressure = self.before;
     }
 
-    /// Has had this pressure [Pa] for long.
+    /// Sets a constant pressure [Pa].
     pub(super) fn hold(&mut self, pressure: f64) {
         (self.pressure, self.before) = (pressure, pressure);
     }
 }
 
 impl NonlinearState {
-    /// The body at rest, beside `tools` tools.
+    /// The body at rest, with `tools` tools.
     pub fn at_rest(model: &NonlinearModel, tools: usize) -> Self {
         let nodes = model.nodes().len();
         let size = 3 * nodes;
-        let tool = ToolMemory {
+        let tool = ToolHistory {
             is_coupled: false,
             load: vec![0.0; size],
             force: Vec3::zeros(),
-            force_in_series: Vec3::zeros(),
+            previous_force: Vec3::zeros(),
         };
         let mut state = Self {
             displacements: vec![0.0; size],
@@ -121,14 +121,14 @@ impl NonlinearState {
             is_smooth: true,
             rotations: vec![UNTURNED; nodes],
             tools: vec![tool; tools],
-            cavities: vec![CavityMemory::default(); model.walls.len()],
+            cavities: vec![CavityHistory::default(); model.walls.len()],
             pressed: vec![0.0; 2 * model.boundary_points().len()],
-            rubbed: vec![Rubbed::default(); 2 * model.boundary_points().len()],
-            on_tools: vec![ContactMemory::default(); MOST_CONTACTS],
+            friction_states: vec![FrictionState::default(); 2 * model.boundary_points().len()],
+            on_tools: vec![ContactHistory::default(); MOST_CONTACTS],
             stress: model
                 .relaxation
                 .as_ref()
-                .map_or_else(Vec::new, Relaxation::memory),
+                .map_or_else(Vec::new, Relaxation::at_rest),
             fading: vec![0.0; size],
             fades: 0,
         };
@@ -153,21 +153,21 @@ impl NonlinearState {
             self.before.fill(0.0);
             self.earlier.fill(0.0);
             self.rotations.fill(UNTURNED);
-            self.stress.fill(Remembered::default());
+            self.stress.fill(StressHistory::default());
             for (own, wall) in self.cavities.iter_mut().zip(&model.walls) {
                 own.hold(wall.content.own_pressure());
             }
         }
         self.fading.fill(0.0);
         self.pressed.fill(0.0);
-        self.rubbed.fill(Rubbed::default());
-        self.on_tools.fill(ContactMemory::default());
+        self.friction_states.fill(FrictionState::default());
+        self.on_tools.fill(ContactHistory::default());
         self.fades = 0;
         self.is_smooth = true;
         for tool in &mut self.tools {
             tool.load.fill(0.0);
             tool.is_coupled = false;
-            (tool.force, tool.force_in_series) = (Vec3::zeros(), Vec3::zeros());
+            (tool.force, tool.previous_force) = (Vec3::zeros(), Vec3::zeros());
         }
     }
 
@@ -183,7 +183,8 @@ impl NonlinearState {
         }
     }
 
-    /// Shrinks all displacements from rest to a `part` [-] of what they are; there is nothing to be continued then.
+    /// Shrinks all displacements from rest to a `part` [-] of what they are; the next step then continues no
+    /// motion.
     pub fn shrink(&mut self, model: &NonlinearModel, part: f64) {
         match &model.settled {
             None => self.displacements.iter_mut().for_each(|u| *u *= part),
@@ -196,7 +197,7 @@ impl NonlinearState {
         self.is_smooth = false;
     }
 
-    /// Forgets how it moved last.
+    /// Forgets the last motion.
     pub(super) fn stop(&mut self) {
         self.before.copy_from_slice(&self.displacements);
         self.earlier.copy_from_slice(&self.displacements);
@@ -224,7 +225,7 @@ impl NonlinearState {
             .sum()
     }
 
-    /// How far a node went in the last step at most, along an axis [m].
+    /// Largest motion of a node in the last step, along an axis [m].
     pub fn last_way(&self) -> f64 {
         let each = self.displacements.iter().zip(&self.before);
         each.fold(0.0, |most, (now, before)| (now - before).abs().max(most))
@@ -253,16 +254,17 @@ impl NonlinearState {
         Rotation3::from_matrix_eps(&mean, 1e-9, 20, Rotation3::identity())
     }
 
-    /// Whether anything but a tool touched the boundary in the last step.
+    /// Whether a body other than a tool touched the boundary in the last step.
     fn touches(&self) -> bool {
         self.pressed.iter().any(|force| *force > 0.0)
     }
 
     /// Whether there is friction at a point of the boundary.
     pub fn has_friction(&self) -> bool {
-        let rubs = |rubbed: &Rubbed| rubbed.force != Vec3::zeros();
+        let has_friction = |friction: &FrictionState| friction.force != Vec3::zeros();
         let mut on_tools = self.on_tools.iter().take_while(|own| !own.is_none());
-        on_tools.any(|own| rubs(&own.rubbed)) || (self.touches() && self.rubbed.iter().any(rubs))
+        on_tools.any(|own| has_friction(&own.friction_state))
+            || (self.touches() && self.friction_states.iter().any(has_friction))
     }
 
     /// Whether no node is displaced from rest by more than `most` [m] along any axis, and no force fades.
@@ -270,7 +272,7 @@ impl NonlinearState {
         self.fades == 0 && self.largest(model) <= most
     }
 
-    /// Force of the contact at a point of the boundary with what stands still [N], along its normal.
+    /// Contact force at a point of the boundary with fixed bodies [N], along its normal.
     ///
     /// # Panics
     /// When there is no such point.
@@ -286,12 +288,12 @@ impl NonlinearState {
         self.pressed[self.pressed.len() / 2 + point as usize]
     }
 
-    /// Force of friction at a point of the boundary against what stands still [N], on the body.
+    /// Friction force at a point of the boundary against fixed bodies [N], on the body.
     ///
     /// # Panics
     /// When there is no such point.
     pub fn friction_force(&self, point: u32) -> Vec3 {
-        self.rubbed[point as usize].force
+        self.friction_states[point as usize].force
     }
 
     /// The same against another place of the boundary, on the point.
@@ -299,7 +301,7 @@ impl NonlinearState {
     /// # Panics
     /// When there is no such point.
     pub fn friction_between(&self, point: u32) -> Vec3 {
-        self.rubbed[self.rubbed.len() / 2 + point as usize].force
+        self.friction_states[self.friction_states.len() / 2 + point as usize].force
     }
 
     /// Force of a contact [N] along its normal after the last step.
@@ -315,7 +317,7 @@ impl NonlinearState {
     /// # Panics
     /// When it has no point of `model`, or the state is that of another.
     pub fn friction_of(&self, model: &NonlinearModel, contact: &UnilateralContact) -> Vec3 {
-        self.rubbed_at(contact.slot(model)).force
+        self.friction_state_at(contact.slot(model)).force
     }
 
     /// Whether any place of the boundary is a contact of its own with a tool: with a shaft, or a tip that a wall wraps.
@@ -330,14 +332,14 @@ impl NonlinearState {
         }
     }
 
-    pub(super) fn rubbed_at(&self, slot: usize) -> Rubbed {
-        match self.rubbed.get(slot) {
-            Some(rubbed) => *rubbed,
-            None => self.on_tool(slot).rubbed,
+    pub(super) fn friction_state_at(&self, slot: usize) -> FrictionState {
+        match self.friction_states.get(slot) {
+            Some(state) => *state,
+            None => self.on_tool(slot).friction_state,
         }
     }
 
-    fn on_tool(&self, slot: usize) -> ContactMemory {
+    fn on_tool(&self, slot: usize) -> ContactHistory {
         let mut known = self.on_tools.iter().take_while(|own| !own.is_none());
         let own = known.find(|own| own.slot == slot);
         own.copied().unwrap_or_default()
@@ -383,7 +385,7 @@ impl Motion<'_> {
 }
 
 impl NonlinearState {
-    /// Lets the forces of tools that have let go act on, each step less.
+    /// Lets the forces of released tools fade, each step more.
     #[inline(always)]
     pub(super) fn fade(&mut self, couplings: &[Option<Coupling<'_>>]) {
         self.fades = self.fades.saturating_sub(1);
@@ -393,10 +395,10 @@ impl NonlinearState {
         } else {
             self.fading.iter_mut().for_each(|force| *force *= part);
         }
-        for (coupling, memory) in couplings.iter().zip(&mut self.tools) {
-            if coupling.is_none() && memory.is_coupled {
+        for (coupling, history) in couplings.iter().zip(&mut self.tools) {
+            if coupling.is_none() && history.is_coupled {
                 self.fades = FADES;
-                for (sum, force) in self.fading.iter_mut().zip(&memory.load) {
+                for (sum, force) in self.fading.iter_mut().zip(&history.load) {
                     *sum += force;
                 }
             }

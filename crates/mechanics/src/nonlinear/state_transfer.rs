@@ -1,4 +1,4 @@
-//! A state that goes over to other elements of the same body, such as those of a slit.
+//! Transfer of a state to other elements of the same body, such as those of a slit.
 
 use std::collections::HashMap;
 
@@ -6,14 +6,14 @@ use super::contact::BoundaryPoint;
 use super::elements::{NODES, POINTS};
 use super::embedded::{EmbeddedPoints, InElements};
 use super::model::NonlinearModel;
-use super::state::{ContactMemory, NonlinearState};
+use super::state::{ContactHistory, NonlinearState};
 use super::step::Workspace;
 use crate::{Error, Vec3};
 
 /// A node is looked for this part of the way to the middle of its element [-]: on the side of a slit that the element is on.
 const INWARDS: f64 = 1e-4;
 
-/// How states of one body go over to those of another: the same body at rest, in other elements.
+/// The transfer of states from one model to another: the same body at rest, in other elements.
 #[derive(Debug)]
 pub struct StateTransfer {
     /// The nodes of the other, in the elements of the first.
@@ -90,7 +90,7 @@ impl StateTransfer {
             for half in 0..2 {
                 let [own, other] = [own + half * halves, other + half * halves_before];
                 state.pressed[own] = before.pressed[other];
-                state.rubbed[own] = before.rubbed[other];
+                state.friction_states[own] = before.friction_states[other];
             }
         }
         for (own, other) in state.cavities.iter_mut().zip(&before.cavities) {
@@ -98,15 +98,15 @@ impl StateTransfer {
         }
         for (own, other) in state.tools.iter_mut().zip(&before.tools) {
             own.is_coupled = other.is_coupled;
-            (own.force, own.force_in_series) = (other.force, other.force_in_series);
+            (own.force, own.previous_force) = (other.force, other.previous_force);
         }
         let [points_before, points] = [from, to].map(|model| model.tool_points().len());
-        let carried = before.on_tools.iter().filter_map(|memory| {
-            let number = memory.slot.checked_sub(2 * halves_before)?;
+        let carried = before.on_tools.iter().filter_map(|history| {
+            let number = history.slot.checked_sub(2 * halves_before)?;
             let (tool, point) = (number / points_before, number % points_before);
             let point = self.tools[point]?;
             let slot = 2 * halves + tool * points + point;
-            (tool < before.tools.len()).then_some(ContactMemory { slot, ..*memory })
+            (tool < before.tools.len()).then_some(ContactHistory { slot, ..*history })
         });
         for (own, carried) in state.on_tools.iter_mut().zip(carried) {
             *own = carried;
@@ -127,7 +127,7 @@ fn inner_places(model: &NonlinearModel) -> Vec<Vec3> {
     places
 }
 
-/// Where an integration point is at rest [m].
+/// Position of an integration point at rest [m].
 fn integration_point(model: &NonlinearModel, element: usize, point: usize) -> Vec3 {
     let corners = model.mesh().positions(element);
     let shares = (0..4).map(|corner| match corner == point {

@@ -22,7 +22,7 @@ const RESOLVED: f64 = 1e14;
 const REDUCED: f64 = 1e3;
 const MOST_TIMES: usize = 2;
 
-/// How a step is taken.
+/// Settings of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pace {
     /// Conjugate gradients; where they converge slowly, up to twice as many [-].
@@ -31,7 +31,7 @@ pub struct Pace {
     pub elapsed: f64,
 }
 
-/// How a step went.
+/// The result of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Advance {
     /// Energy that the residual of the first iteration would release, over that of the last [-]: far above one where the
@@ -41,9 +41,10 @@ pub struct Advance {
     pub was_shortened: bool,
     /// Whether the stiffness was not positive along a direction, which ended the iterations.
     pub was_unstable: bool,
-    /// Whether no finite displacements were found, which put the body back to rest.
+    /// Whether no finite displacements were found: the body was then reset to rest.
     pub was_reset: bool,
-    /// Whether an element is inside out; of a body that does not relax this is looked for where the step was unstable.
+    /// Whether an element is inside out; for a body that does not relax this is checked only where the step was
+    /// unstable.
     pub is_inverted: bool,
 }
 
@@ -95,7 +96,7 @@ impl Workspace {
 }
 
 impl Workspace {
-    /// How the forces of the contacts of the last step resist a small displacement x of what is behind them [N/m], where
+    /// Stiffness of the contacts of the last step against a small displacement x of the bodies behind them [N/m], where
     /// contact number i moves by `motion(i, d) · x` along a direction d: its normal, and where it sticks along the surface.
     pub fn contact_stiffness(
         &mut self,
@@ -105,7 +106,7 @@ impl Workspace {
     }
 }
 
-/// Takes the body to where the `conditions` have it: one step of Newton's method, whose linear system is solved by
+/// Moves the body to satisfy the `conditions`: one step of Newton's method, whose linear system is solved by
 /// conjugate gradients.
 ///
 /// # Panics
@@ -178,7 +179,7 @@ fn step(
     };
     let (residual, displacements) = (&workspace.residual, &state.displacements);
     workspace.constraints.finish(body, residual, displacements);
-    workspace.constraints.remember(model, couplings, state);
+    workspace.constraints.store(model, couplings, state);
     advance.is_inverted = workspace.end(model, advance.was_shortened, state);
     if advance.was_unstable && !model.relaxes() {
         advance.is_inverted = kernel::are_inverted(&workspace.deformed);
@@ -230,7 +231,7 @@ impl Workspace {
         }
     }
 
-    /// Remembers the stress; whether an element is inside out.
+    /// Stores the stress. Returns whether an element is inside out.
     #[inline(always)]
     fn end(
         &mut self,
@@ -278,7 +279,7 @@ impl Workspace {
         );
     }
 
-    /// Moves the body so that every condition holds, and finds what is then left of the forces.
+    /// Moves the body so that every condition holds, and finds the residual.
     #[inline(always)]
     fn carry(&mut self, body: Turned<'_>, couplings: &[Option<Coupling<'_>>]) {
         self.constraints
@@ -317,7 +318,7 @@ impl Workspace {
         let (mut released, mut first) = (0.0, 0.0);
         let most = MOST_TIMES * iterations;
         for iteration in 0..most {
-            // By the last residual that is known: the one that is left now would cost a solution.
+            // By the last known residual: the present one would cost a solution.
             if iteration >= iterations && first >= REDUCED * released {
                 break;
             }
@@ -332,12 +333,12 @@ impl Workspace {
             if now <= 0.0 || !now.is_finite() || first > RESOLVED * now {
                 break;
             }
-            let kept = if iteration == 0 { 0.0 } else { now / released };
+            let beta = if iteration == 0 { 0.0 } else { now / released };
             released = now;
             for (direction, z) in self.direction.iter_mut().zip(&self.z) {
-                *direction = z + kept as f32 * *direction;
+                *direction = z + beta as f32 * *direction;
             }
-            let own = self.constraints.update_direction(kept);
+            let own = self.constraints.update_direction(beta);
             self.multiply(model, false);
             let curvature = dot(&self.direction, &self.product) + own;
             advance.was_unstable = curvature <= 0.0;
@@ -381,7 +382,8 @@ impl Workspace {
         }
     }
 
-    /// Takes the change, or as much of it as the energy goes down for; whether that was less than all.
+    /// Applies the change, or the part along which the energy falls. Returns whether that was less
+    /// than all.
     #[inline(always)]
     fn take(
         &mut self,

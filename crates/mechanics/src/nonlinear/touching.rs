@@ -1,16 +1,16 @@
-//! The boundary of a body as it touches itself: the pieces of a body one another, and the folds of a piece.
+//! Self-contact of the boundary of a body: between its pieces, and between folds of a piece.
 //!
-//! Faces are taken as smooth: the middle of each edge lies beside it at rest, by an eighth of the change of the normals along
+//! Faces are taken as smooth: the middle of each edge lies off it at rest, by an eighth of the change of the normals along
 //! the edge, and goes and turns with the body. So the surface is quadratic, and its normals are means over the faces
 //! around each node, quadratic between nodes. Edges that are sharp at rest stay so.
 //!
 //! Of two pieces, the points of the finer one stay out of the other; a piece that touches itself has both sides stay out
 //! of one another. Of the sides of a slit, whose faces lie on each other at rest, the points of one stay out of the other.
 //!
-//! The walls of cavities are of the boundary.
+//! The walls of cavities belong to the boundary.
 //!
-//! A place does not touch what it is one body with at rest: what lies behind the surface there and nearer than
-//! [`APART`], or nearer than that along the surface. What faces it across a gap it does.
+//! A place does not touch the body around it at rest: neither what lies behind the surface there and nearer
+//! than [`APART`], nor what is nearer than that along the surface. It does touch what faces it across a gap.
 
 use std::collections::HashMap;
 
@@ -34,7 +34,7 @@ const FACES: f64 = 0.5;
 /// Cosine of the angle between two sides of a slit at rest, above which they do not touch [-].
 const SIDES: f64 = -0.5;
 
-/// Part of the change of the normals along an edge by which its middle lies beside it [-].
+/// Part of the change of the normals along an edge by which its middle lies off it [-].
 const BULGE: f64 = 0.125;
 
 /// Triangles that a face is searched as, each of three of its nodes.
@@ -61,14 +61,15 @@ pub(super) const NOWHERE: u32 = u32::MAX;
 pub struct TouchingBoundary {
     /// Those of the body.
     pub(super) nodes: Vec<u32>,
-    /// Where each lies beside its edge at rest [m]; nothing at corners.
+    /// Offset of each from its edge at rest [m]; zero at corners.
     pub(super) bulges: Vec<Vec3>,
     /// At rest, as triangles.
     pub(super) rest: TriangleMesh,
     pub(super) faces: Vec<TouchingFace>,
     /// The number of each face among all of the body's boundary.
     numbers: Vec<u32>,
-    /// Faces around a node of a face, with the node's number there and what their normals count [-].
+    /// Faces around a node of a face, with the node's number there and the weights of their normals
+    /// [-].
     pub(super) around: Vec<(u32, u8, f64)>,
     pub(super) pieces: usize,
     /// μ of each pair of pieces [-]; none where they do not touch.
@@ -114,8 +115,8 @@ struct Part {
 }
 
 impl TouchingBoundary {
-    /// That of `model`, whose tetrahedra belong to these `pieces`, which share no nodes. `friction` says of two pieces, or
-    /// of one twice, with what coefficient they touch [-], and none where they do not; `in_slits` the same of the sides of
+    /// That of `model`, whose tetrahedra belong to these `pieces`, which share no nodes. `friction` gives the coefficient
+    /// with which two pieces, or one with itself, touch [-], and none where they do not; `in_slits` that of the sides of
     /// slits. It has the faces that may touch, and is none where there is no such face.
     ///
     /// # Errors
@@ -148,11 +149,11 @@ impl TouchingBoundary {
             let own = piece_of(&all[*number]) * count;
             sides[*number].is_some() || friction[own..own + count].iter().any(Option::is_some)
         };
-        let kept: Vec<usize> = (0..all.len()).filter(may_touch).collect();
-        if kept.is_empty() {
+        let selected: Vec<usize> = (0..all.len()).filter(may_touch).collect();
+        if selected.is_empty() {
             return Ok(None);
         }
-        let list: Vec<Face> = kept.iter().map(|number| all[*number]).collect();
+        let list: Vec<Face> = selected.iter().map(|number| all[*number]).collect();
         let nodes = nodes(&list);
         let number = |node: usize| nodes.binary_search(&(node as u32)).unwrap_or(0);
         let numbers: Vec<[usize; NODES]> = list.iter().map(|face| face.nodes.map(number)).collect();
@@ -168,8 +169,8 @@ impl TouchingBoundary {
             let is_smooth = |other: &usize| flat[face].dot(&flat[*other]) >= SHARP_EDGE;
             let lists = own.map(|node| {
                 let first = around.len() as u32;
-                let beside = owners[node].iter().filter(|(other, _)| is_smooth(other));
-                around.extend(beside.map(|&(other, place)| {
+                let neighbours = owners[node].iter().filter(|(other, _)| is_smooth(other));
+                around.extend(neighbours.map(|&(other, place)| {
                     let weight = angle(mesh, &list[other], place);
                     (other as u32, place as u8, weight)
                 }));
@@ -183,7 +184,7 @@ impl TouchingBoundary {
             TouchingFace {
                 nodes: own.map(|node| node as u32),
                 piece: piece_of(&list[face]),
-                side: sides[kept[face]],
+                side: sides[selected[face]],
                 around: lists,
                 across: beyond,
             }
@@ -223,7 +224,7 @@ impl TouchingBoundary {
                 .collect(),
             points: Vec::new(),
             allowed: vec![0.0; POINTS * list.len()],
-            numbers: kept.iter().map(|number| *number as u32).collect(),
+            numbers: selected.iter().map(|number| *number as u32).collect(),
             friction,
             in_slits,
             pieces: count,
@@ -343,7 +344,7 @@ fn angle(mesh: &TetrahedronMesh, face: &Face, node: usize) -> f64 {
     (place(node + 1) - here).angle(&(place(node + 2) - here))
 }
 
-/// How far the middles of edges lie beside them.
+/// Offsets of the middles of edges from them.
 fn bulges(
     faces: &[TouchingFace],
     around: &[(u32, u8, f64)],

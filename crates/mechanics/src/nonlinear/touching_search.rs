@@ -1,4 +1,4 @@
-//! Where the boundary of a body is near itself.
+//! Search for places where the boundary of a body is near itself.
 
 use palpate_geometry::{AabbTree, NodeId, TriangleId, TriangleMesh, closest_on_triangle};
 
@@ -18,8 +18,8 @@ const NEAR: f64 = 0.3;
 const DEEPEST: f64 = 0.5;
 const REACH: f64 = 1.0;
 
-/// A point touches what lies below it along the surface's normal there, but for this [mean edges].
-const BESIDE: f64 = 0.02;
+/// Largest tangential distance of a point from its projection onto the surface [mean edges].
+const MOST_TANGENTIAL: f64 = 0.02;
 
 /// What a point lies behind is by so much at most farther than the nearest face, whatever way that faces [mean edges]: else it
 /// is beyond a wall or a whole piece.
@@ -54,7 +54,7 @@ pub struct TouchingSearch {
 /// A point of the boundary that may touch another place of it in a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TouchingPoint {
-    /// How far it is from there [m], negative inside.
+    /// Its signed distance from there [m], negative inside.
     pub gap: f64,
     /// Whether both are sides of a slit, which lie on each other at rest.
     pub is_in_slit: bool,
@@ -219,7 +219,7 @@ impl TouchingSearch {
         }
     }
 
-    /// What a point is near to, and from where on it is sought again.
+    /// The place that a point is near to, and the travel after which it is searched again.
     fn seek(&mut self, boundary: &TouchingBoundary, point: usize) -> Option<Found> {
         let reach = REACH * boundary.edge;
         let own = point / POINTS;
@@ -273,7 +273,7 @@ impl TouchingSearch {
     }
 
     /// The place of the smooth surface, from `on`, whose normal leads to `point` [m]; with the normal, and the distance
-    /// along it [m]. None if the point lies beside the surface.
+    /// along it [m]. None if the point has no projection on the surface.
     fn project(
         &self,
         boundary: &TouchingBoundary,
@@ -285,13 +285,13 @@ impl TouchingSearch {
             let weights = shape_on_face(on.at);
             let normal = on_face(&self.normals[on.face], &weights).normalize();
             let apart = point - on_face(&places, &weights);
-            let beside = apart - normal * normal.dot(&apart);
-            if beside.norm() < PROJECTED * boundary.edge {
+            let tangential = apart - normal * normal.dot(&apart);
+            if tangential.norm() < PROJECTED * boundary.edge {
                 break;
             }
             let [u, v] = slopes_on_face(on.at).map(|slopes| on_face(&places, &slopes));
             let (uu, uv, vv) = (u.dot(&u), u.dot(&v), v.dot(&v));
-            let (ru, rv) = (u.dot(&beside), v.dot(&beside));
+            let (ru, rv) = (u.dot(&tangential), v.dot(&tangential));
             let determinant = uu * vv - uv * uv;
             if determinant <= 0.0 {
                 return None;
@@ -307,8 +307,8 @@ impl TouchingSearch {
         let normal = on_face(&self.normals[on.face], &weights).normalize();
         let apart = point - on_face(&places(&self.mesh, boundary, on.face), &weights);
         let distance = normal.dot(&apart);
-        let beside = (apart - normal * distance).norm();
-        (beside < BESIDE * boundary.edge).then_some((on, normal, distance))
+        let tangential = (apart - normal * distance).norm();
+        (tangential < MOST_TANGENTIAL * boundary.edge).then_some((on, normal, distance))
     }
 
     /// A place beyond an edge, on that edge: of the face beyond it if the edge is smooth.
@@ -336,7 +336,7 @@ impl TouchingSearch {
     }
 }
 
-/// Where the nodes of a face are [m].
+/// Positions of the nodes of a face [m].
 fn places(mesh: &TriangleMesh, boundary: &TouchingBoundary, face: usize) -> [Vec3; NODES] {
     boundary.faces[face]
         .nodes

@@ -23,11 +23,11 @@ const OF_CLEARANCE: f64 = 0.5;
 pub struct Bordered {
     /// Its tetrahedra.
     pub mesh: TetrahedronMesh,
-    /// What became of the other levels that were given.
+    /// Results for the other levels.
     pub levels: Vec<Resolved>,
-    /// What became of each border.
+    /// Result for each border.
     pub borders: Vec<Resolved>,
-    /// How much less or more volume than its shape a region has, as a part of that [-]: the largest, and the place of its border among
+    /// Relative error of a region's volume compared with its shape [-]: the largest, and the place of its border among
     /// them.
     pub off: (f64, usize),
 }

@@ -1,7 +1,9 @@
-//! The surface around a tip, as the tip leaves it and not the load that it is spread to (section 4.4).
+//! The surface around a tip, as the tip deforms it rather than the load that it is spread to (section
+//! 4.4).
 //!
-//! With s the tip's own part of its displacement and p the closed form of its dimple on a half-space, what
-//! the mesh cannot resolve is put in the place of what the spread load does to the same half-space:
+//! With s the tip's own part of its displacement and p the closed form of its dimple on a half-space, the
+//! dimple of the tip, which the mesh cannot resolve, replaces that of the spread load on the same
+//! half-space:
 //!
 //! ```text
 //! u = Ξ w F/E + φ (s p − u_load),   s = d − c_ext F/E
@@ -40,14 +42,14 @@ pub struct PressedTip {
     pub place: Vec3,
     /// Outward unit normal there [-].
     pub normal: Vec3,
-    /// The tip's own part of its displacement: what a half-space would yield [m].
+    /// The tip's own part of its displacement: its half-space part [m].
     pub own: Vec3,
     /// Force on the organ over Young's modulus [m²].
     pub force: Vec3,
 }
 
 impl<T: Precision> SurfaceResponse<T> {
-    /// Puts the dimple of `tip` in the place of that of its spread `load` in `field`, three numbers for each
+    /// Replaces the dimple of its spread `load` by that of `tip` in `field`, three numbers for each
     /// triangle of `surface` [m], to which the load's was added before ([`Self::add_field_of_tip`]).
     pub fn sharpen(
         &self,

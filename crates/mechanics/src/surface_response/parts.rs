@@ -32,7 +32,7 @@ impl TouchableTriangle {
     }
 }
 
-/// Of what the displacements of a response are.
+/// The quantity that the displacements of a response sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sampling {
     /// The centroids of the triangles, as boundary elements collocate.
@@ -41,7 +41,7 @@ pub enum Sampling {
     Means,
 }
 
-/// What a response consists of: to be written, and to be made one again.
+/// The data of a response, for writing and reading it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ResponseParts<T> {
     /// Poisson's ratio [-].
@@ -52,14 +52,14 @@ pub struct ResponseParts<T> {
     pub held: Vec<TriangleId>,
     /// Number of triangles of the mesh.
     pub triangles: usize,
-    /// Of what the displacements are.
+    /// The quantity that the displacements sample.
     pub sampling: Sampling,
     /// Displacements of the triangles from unit forces on the touchable triangles, times E [1/m]: number
     /// 3 n (3 j + b) + 3 i + a is component a of triangle i from the component b on the j-th touchable one.
     pub displacements: Vec<T>,
 }
 
-/// So many zeros of a large matrix.
+/// `count` zeros of a large matrix.
 ///
 /// # Errors
 /// When there is no memory.
@@ -98,7 +98,7 @@ impl<T: Precision> ResponseParts<T> {
         })
     }
 
-    /// What is wrong with them, if anything.
+    /// The first fault in them, if any.
     pub(super) fn fault(&self) -> Option<&'static str> {
         let columns = 3 * self.touchable.len();
         let known = |t: &TouchableTriangle| t.triangle.index() < self.triangles;

@@ -8,9 +8,9 @@ use crate::contact::Friction;
 /// A touchable triangle whose displacement is prescribed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MovedTriangle {
-    /// Which.
+    /// The triangle.
     pub triangle: TouchId,
-    /// By how much [m]; of one that slips the component along its normal counts.
+    /// Its displacement [m]; of one that slips only the component along its normal.
     pub displacement: Vec3,
 }
 
@@ -19,14 +19,14 @@ pub struct MovedTriangle {
 pub enum Reciprocity {
     /// As in an elastic solid: contacts make no energy.
     Imposed,
-    /// As solved: equal to a new solution with the triangles held where they are moved to.
+    /// As solved: equal to a new solution with these displacements prescribed.
     AsSolved,
 }
 
 /// How triangles are moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PatchContact {
-    /// Whether they may run along the surface.
+    /// Whether they may slide along the surface.
     pub bond: Friction,
     /// Whether forces are reciprocal.
     pub reciprocity: Reciprocity,

@@ -9,7 +9,7 @@ use crate::{Error, LinearElastic, Vec3};
 /// each has three streams that processors read ahead.
 const AT_A_TIME: usize = 4;
 
-/// How the surface of a linear solid answers forces on it. All of it is sound: see [`Self::new`].
+/// The response of the surface of a linear solid to forces on it. It is valid: see [`Self::new`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurfaceResponse<T = f32> {
     parts: ResponseParts<T>,
@@ -27,11 +27,11 @@ impl TouchId {
 }
 
 impl<T: Precision> SurfaceResponse<T> {
-    /// The response that `parts` are.
+    /// The response with these `parts`.
     ///
     /// # Errors
-    /// When they are none: lengths that do not fit, values that are not finite, a triangle that moves
-    /// against the force on it.
+    /// When they are invalid: lengths that do not fit, values that are not finite, a triangle that
+    /// moves against the force on it.
     pub fn new(parts: ResponseParts<T>) -> Result<Self, Error> {
         LinearElastic::new(1.0, parts.poissons_ratio)?;
         match parts.fault() {
@@ -40,7 +40,7 @@ impl<T: Precision> SurfaceResponse<T> {
         }
     }
 
-    /// What it consists of.
+    /// Its data.
     pub fn parts(&self) -> &ResponseParts<T> {
         &self.parts
     }
@@ -59,7 +59,7 @@ impl<T: Precision> SurfaceResponse<T> {
         found.ok().map(|index| TouchId(index as u32))
     }
 
-    /// Whether a triangle of the mesh is held.
+    /// Whether a triangle of the mesh is fixed.
     pub fn holds(&self, triangle: TriangleId) -> bool {
         self.parts.held.binary_search(&triangle).is_ok()
     }

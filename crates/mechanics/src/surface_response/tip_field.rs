@@ -1,8 +1,8 @@
-//! What the whole organ adds to a tip that touches it anywhere.
+//! The structural compliance of the whole organ under a tip that touches it anywhere.
 //!
-//! The force of one triangle that is moved says how large it is, not how large the tip. So a tip loads
-//! the triangles about it smoothly, with weights w that sum to one, and feels their displacement with the
-//! same weights: c = wᵀ Ξ w is energy-consistent and resolved by the mesh. A load like this on a
+//! The force on one moved triangle depends on its size, not on that of the tip. So a tip loads the
+//! triangles around it smoothly, with weights w that sum to one, and its displacement is their mean with
+//! the same weights: c = wᵀ Ξ w is energy-consistent and resolved by the mesh. A load like this on a
 //! half-space yields by a closed form c_self, the tip itself by another one (its law), and
 //!
 //! ```text
@@ -16,18 +16,18 @@
 //! c_ext hardly depends on the weights. They are (1 − (r/R)²)² times area and cosine, about each vertex,
 //! with R = max(1.7 a, 2.2 √(2 A)); between vertices loads and c_ext go over linearly, so that a slide has
 //! no steps. R > 1.69 a makes c_self less than the compliance of the tip at every ν, and the tips of several
-//! tools together make no energy.
+//! tools together create no energy.
 //!
 //! On layers c_self is that of the load on a layered half-space, c_self times what its shape yields more there.
 //!
-//! What lies on the anchor keeps its weight and yields nothing, Ξ = 0. What was not prepared yields as a
-//! half-space does: its terms fall out of both sums.
+//! Fixed triangles keep their weight and do not move, Ξ = 0. Triangles that were not prepared move as on
+//! a half-space: their terms cancel in both sums.
 //!
 //! *How we know*: `tip_field::a_tip_on_a_hemisphere_feels_finite_elements`, `real_kidney_under_a_tip`,
 //! `a_slide_has_no_steps`, `several_tips_take_work`; what else was tried: `docs/theory/boundary_elements.md`.
 //!
 //! *Limits*: on the anchor a tip is as stiff as its load there, not rigid; two tips nearer than R to each
-//! other feel each other's force spread.
+//! other interact through spread forces.
 
 use std::f64::consts::PI;
 
@@ -61,9 +61,9 @@ const QUARTERS: [[f64; 3]; 4] = [
 /// A share of a force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Share {
-    /// Who bears it.
+    /// The triangle that bears it.
     pub triangle: TouchId,
-    /// How much of it [-].
+    /// Its part of the force [-].
     pub weight: f64,
 }
 
@@ -80,10 +80,11 @@ struct VertexLoad {
     /// Of those that can be touched, ascending.
     shares: Vec<Share>,
     /// c_ext [1/m].
-    further: Matrix3<f64>,
+    structural: Matrix3<f64>,
     /// R [m].
     reach: f64,
-    /// How much more than their outermost tissue the layers yield to the load: along the surface and along its normal [-].
+    /// Compliance of the layers for the load over that of their outermost tissue: along the surface and along its normal
+    /// [-].
     yields: [f64; 2],
     /// The free triangles on this side of the organ within twice that, and a triangle more; with what they
     /// see of the load, Σ w ⟨1/r⟩ [1/m].
@@ -141,7 +142,7 @@ impl TipField {
             let spread = Spread::about(surface, NodeId(vertex as u32), radius);
             load.shares = spread.shares(response);
             load.yields = yields(spread.reach);
-            load.further = further(response, surface, &spread, load.yields);
+            load.structural = structural_compliance(response, surface, &spread, load.yields);
             load.around = seen_from(response, surface, &spread, &load.shares);
             load.reach = spread.reach;
         });
@@ -163,12 +164,12 @@ impl TipField {
 }
 
 impl TipLoad<'_> {
-    /// c_ext [1/m], over E a compliance: what the organ yields to a force on the tip beyond what a
-    /// half-space would; symmetric.
+    /// c_ext [1/m], over E a compliance: that of the organ under a force on the tip less that of a
+    /// half-space; symmetric.
     pub fn structural_compliance(&self) -> Matrix3<f64> {
         self.corners
             .iter()
-            .map(|(load, weight)| load.further * *weight)
+            .map(|(load, weight)| load.structural * *weight)
             .sum()
     }
 
@@ -178,7 +179,8 @@ impl TipLoad<'_> {
         corners.map(|(load, weight)| load.reach * weight).sum()
     }
 
-    /// How much more than their outermost tissue the layers yield to it: along the surface and along its normal [-].
+    /// Compliance of the layers for it over that of their outermost tissue: along the surface and along its normal
+    /// [-].
     pub(super) fn yields(&self) -> [f64; 2] {
         [0, 1].map(|axis| {
             let corners = self.corners.iter();
@@ -195,7 +197,8 @@ impl TipLoad<'_> {
         })
     }
 
-    /// Who bears the force, ascending: less than all of it near what is held or was not prepared.
+    /// Triangles that bear the force, ascending: less than all of it near triangles that are fixed
+    /// or were not prepared.
     pub fn shares(&self) -> impl Iterator<Item = Share> {
         let mut next = [0; 3];
         std::iter::from_fn(move || {
@@ -307,7 +310,7 @@ impl Spread {
         found
     }
 
-    /// What those bear that can be touched.
+    /// Shares of the touchable triangles.
     fn shares<T: Precision>(&self, response: &SurfaceResponse<T>) -> Vec<Share> {
         let touchable = |&(triangle, weight): &(TriangleId, f64)| {
             let triangle = response.find(triangle)?;
@@ -342,7 +345,7 @@ fn seen_from<T: Precision>(
 }
 
 /// wᵀ Ξ w − c_self [1/m], on layers that yield more than their outermost tissue along and across the surface [-].
-fn further<T: Precision>(
+fn structural_compliance<T: Precision>(
     response: &SurfaceResponse<T>,
     surface: &Surface,
     spread: &Spread,
@@ -377,8 +380,8 @@ fn further<T: Precision>(
     let across = normals * (more_across * (1.0 - nu) * inverse);
     let along = (tangents * ((1.0 - nu) * inverse) + along * nu) * more_along;
     let own = (across + along) * ((1.0 + nu) / PI);
-    let further = yields - own;
-    0.5 * (further + further.transpose())
+    let structural = yields - own;
+    0.5 * (structural + structural.transpose())
 }
 
 /// Mean of 1/r over `source`, seen from `target`, another panel or the same [1/m].

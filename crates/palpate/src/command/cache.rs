@@ -1,4 +1,4 @@
-//! `palpate cache`: what is kept because it took long, and can be made again.
+//! `palpate cache`: results that take long and can be computed again.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -31,10 +31,10 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// Ends of the names of prepared organs and of specimens that were solved for the virtual rig.
+/// File extensions of prepared organs and of solved specimens of the virtual rig.
 const ENDS: [&str; 2] = ["response", "specimen"];
 
-/// What is printed for a program.
+/// The answer of `--json`.
 #[derive(Debug, Serialize)]
 struct Answer {
     palpate: &'static str,
@@ -44,22 +44,22 @@ struct Answer {
     cleared: bool,
 }
 
-/// Tells, and clears if asked to.
+/// Shows the cache, and clears it with `--clear`.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = folder().ok_or_else(|| {
         Failure::failed(
             "the system names no folder for what can be made again; name one by PALPATE_CACHE",
         )
     })?;
-    let kept = kept_files(&folder)?;
-    let bytes = kept.iter().map(|(_, bytes)| bytes).sum();
+    let cached = cached_files(&folder)?;
+    let bytes = cached.iter().map(|(_, bytes)| bytes).sum();
     if arguments.clear {
-        remove(&kept)?;
+        remove(&cached)?;
     }
     let answer = Answer {
         palpate: output::VERSION,
         folder,
-        files: kept.len(),
+        files: cached.len(),
         bytes,
         cleared: arguments.clear,
     };
@@ -77,8 +77,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// What is kept in a folder, with its size [B]; other files are not this program's.
-pub(crate) fn kept_files(folder: &Path) -> Result<Vec<(PathBuf, u64)>, Failure> {
+/// The cached files of a folder, with their sizes [B]; other files do not belong to this program.
+pub(crate) fn cached_files(folder: &Path) -> Result<Vec<(PathBuf, u64)>, Failure> {
     let entries = match fs::read_dir(folder) {
         Ok(entries) => entries,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
@@ -101,9 +101,9 @@ pub(crate) fn kept_files(folder: &Path) -> Result<Vec<(PathBuf, u64)>, Failure> 
     Ok(found)
 }
 
-/// Removes what is kept.
-pub(crate) fn remove(kept: &[(PathBuf, u64)]) -> Result<(), Failure> {
-    for (file, _) in kept {
+/// Removes cached files.
+pub(crate) fn remove(cached: &[(PathBuf, u64)]) -> Result<(), Failure> {
+    for (file, _) in cached {
         fs::remove_file(file).map_err(|error| unusable(file, &error))?;
     }
     Ok(())

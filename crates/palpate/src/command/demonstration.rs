@@ -14,7 +14,7 @@ use crate::preparation;
 use crate::progress::Reader;
 use crate::recorded::{Recording, claimed, record};
 
-/// Where it is written, in the folder that the program is started in.
+/// Its folder, in the working directory.
 const FOLDER: &str = "palpate-demo";
 
 /// Surfaces written for ParaView.
@@ -22,10 +22,10 @@ const SURFACES: u64 = 60;
 
 const MOTION: &str = include_str!("../../../../assets/esophagus/motion.csv");
 
-/// The start screen, with texts in `language` or else in that of the settings; where there can be no window, a first
-/// touch that needs neither window nor file.
+/// The start screen, with texts in `language` or else in that of the settings; where no window can open, a first
+/// simulation that needs neither window nor file.
 pub(crate) fn run(language: Option<Language>) -> Result<(), Failure> {
-    // Before anything is looked for in the user's folders.
+    // Before any access to the user's folders.
     if let Err(why) = check_display() {
         return play(&why);
     }
@@ -56,7 +56,7 @@ fn folder() -> PathBuf {
     folder
 }
 
-/// Plays the demonstration, `why` there is no window.
+/// Plays the demonstration; `why` is the reason that no window opens.
 fn play(why: &palpate_viewer::Error) -> Result<(), Failure> {
     let folder = folder();
     let scene = Scene::parse(ESOPHAGUS, "built-in scene")?;
@@ -73,11 +73,11 @@ fn play(why: &palpate_viewer::Error) -> Result<(), Failure> {
         folder: claimed(&folder, Overwrite::Refused)?,
         surfaces: SURFACES,
         frames: None,
-        beside: None,
+        comparison: None,
         reader: Reader::Person,
     };
     let report = record(&simulation, &motion, recording)?;
-    // What was played, to change and to play again.
+    // The inputs, to change and to play again.
     for (name, text) in INPUTS {
         write_whole(folder.join(name), text.as_bytes())?;
     }

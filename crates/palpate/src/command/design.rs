@@ -1,4 +1,4 @@
-//! `palpate design`: how to press, so that parameters are known best.
+//! `palpate design`: the protocol that determines the parameters best.
 
 use std::path::{Path, PathBuf};
 
@@ -136,7 +136,7 @@ fn table(answer: &Answer) -> String {
 
 impl Arguments {
     fn request(&self) -> Result<Request, Failure> {
-        let recordings = self.known.asked();
+        let recordings = self.known.request();
         let law = self
             .law
             .as_deref()
@@ -175,7 +175,7 @@ impl Arguments {
         })
     }
 
-    /// A guess, whose law is its own.
+    /// A guess, which states its own law.
     fn tissue(&self, path: &Path, law: Option<SoughtLaw>) -> Result<Known, Failure> {
         match law {
             None => Ok(Known::Tissue(path.to_owned())),

@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     overwrite: OverwriteOption,
 }
 
-/// A file with the sentence that is printed beside its name.
+/// A file with the sentence that is printed next to its name.
 struct Example {
     file: &'static str,
     text: &'static str,
@@ -215,7 +215,7 @@ const ALL: &[Example] = &[
     example!("problems/beam.msh", "problems/beam.msh", "its tetrahedra"),
 ];
 
-/// Writes them all, or none where one is there.
+/// Writes them all, or none where one exists already.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut files = Vec::new();
     let mut schemas = BTreeMap::new();

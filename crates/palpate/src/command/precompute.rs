@@ -1,4 +1,4 @@
-//! `palpate precompute`: the whole organ's response, made once and kept.
+//! `palpate precompute`: computes the global response of an organ once and caches it.
 
 use std::path::PathBuf;
 
@@ -41,7 +41,7 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// Prepares and tells.
+/// Prepares and reports.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let scene = Scene::read(&arguments.scene)?;
     let mut resources = preparation::resources();
@@ -57,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         output::text(text(&answer))?;
         output::warnings(&answer.warnings);
     }
-    // To keep it is all that was asked for.
+    // The command has no other purpose than to cache it.
     match answer.file {
         Some(_) => Ok(()),
         None => Err(Failure::failed(

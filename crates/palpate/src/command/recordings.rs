@@ -32,7 +32,7 @@ pub(crate) struct Recordings {
 
 impl Recordings {
     /// The same for a job.
-    pub(crate) fn asked(&self) -> palpate_jobs::Recordings {
+    pub(crate) fn request(&self) -> palpate_jobs::Recordings {
         palpate_jobs::Recordings {
             paths: self.paths.clone(),
             texts: Vec::new(),

@@ -1,4 +1,4 @@
-//! `palpate replay`: a session again, step by step, on the same organ.
+//! `palpate replay`: plays a session again, step by step, on the same organ.
 
 mod pictures;
 
@@ -75,14 +75,14 @@ fn speed(text: &str) -> Result<f64, String> {
     allowed.ok_or_else(|| "a number from 0.25 to 8 is expected".to_owned())
 }
 
-/// What came of playing a session again.
+/// The result of playing a session again.
 #[derive(Debug, Serialize)]
 struct Answer {
     palpate: &'static str,
     steps: usize,
     duration_s: f64,
     rows_compared: u64,
-    /// Of a force from the recorded one.
+    /// Deviation of a force from the recorded one.
     largest_difference_n: f64,
     #[serde(serialize_with = "palpate_jobs::lossy")]
     files: Vec<PathBuf>,
@@ -205,7 +205,7 @@ fn play(arguments: &Arguments, own: PlayedSession) -> Result<Answer, Failure> {
         if let Some(pictures) = &mut pictures {
             pictures.see(&replay)?;
         }
-        if interrupt::is_asked() {
+        if interrupt::is_requested() {
             return Err(Failure::failed(
                 "interrupted; pictures in files of their own are whole, an animation is not written",
             ));

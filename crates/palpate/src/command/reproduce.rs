@@ -1,4 +1,4 @@
-//! `palpate reproduce`: the source's tables and figures, published beside ours.
+//! `palpate reproduce`: the source's tables and figures, published and recomputed.
 
 use std::path::{Path, PathBuf};
 
@@ -53,17 +53,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     refuse_file(&arguments.out)?;
     let figures = Figures::claimed(&arguments.out, arguments.overwrite.rule(), &items, drawn)?;
-    let mut kept = figures.rows();
+    let mut finished = figures.rows();
     interrupt::ends_between_files(format!(
         "interrupted; finished rows are in {}, and the figures that were written are whole",
         arguments.out.join(KEPT).display()
     ));
-    // The answer for a machine goes to standard output, and may take an hour.
+    // The JSON answer goes to standard output, and may take an hour.
     let progress = Progress::of_works(Reader::Person, items.iter().map(|item| item.seconds).sum());
     let mut all = Vec::new();
     for item in &items {
         let rows = selection.rows_of(item, item.rows(&figures, &progress));
-        kept.keep(&rows, &progress)?;
+        finished.keep(&rows, &progress)?;
         if !arguments.json && !rows.is_empty() {
             progress.aside(|| output::text(section(item, &rows)))?;
         }
@@ -85,7 +85,7 @@ fn drawn(plot: &Plot) -> Result<Vec<u8>, palpate_jobs::Error> {
     plot.png().map_err(palpate_jobs::Error::failed)
 }
 
-/// What was not selected.
+/// The items that were not selected.
 fn more(selected: usize) -> String {
     match items().len() - selected {
         0 => String::new(),
@@ -93,7 +93,7 @@ fn more(selected: usize) -> String {
     }
 }
 
-/// An item as `--list --json` tells it.
+/// An item in `--list --json`.
 #[derive(Debug, Serialize)]
 struct Listed {
     item: &'static str,

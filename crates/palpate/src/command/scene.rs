@@ -1,4 +1,4 @@
-//! `palpate scene`: what a document may say: a template, a schema for editors, the reference.
+//! `palpate scene`: a template, a schema for editors, and the reference of the documents.
 
 use std::path::PathBuf;
 
@@ -52,14 +52,14 @@ fn one_kind() -> impl TypedValueParser<Value = Kind> {
         .map(|word| kind(&word).expect("it is one of the words"))
 }
 
-/// Prints or writes what is asked for.
+/// Prints or writes the requested text.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let out = arguments.out.as_deref();
     if let (Some(kind), Some(out)) = (&arguments.template, out) {
-        let beside = format!("{}.schema.json", kind.word);
+        let schema_name = format!("{}.schema.json", kind.word);
         let files = [
-            (out.with_file_name(&beside), schema(kind)),
-            (out.to_owned(), template(kind, Some(&beside))),
+            (out.with_file_name(&schema_name), schema(kind)),
+            (out.to_owned(), template(kind, Some(&schema_name))),
         ];
         return write(&files, arguments);
     }
@@ -74,7 +74,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// Writes the files, or none where one of them is there with another text.
+/// Writes the files, or none where one of them exists with another text.
 fn write(files: &[(PathBuf, String)], arguments: &Arguments) -> Result<(), Failure> {
     let is_new = |(path, text): &&(PathBuf, String)| {
         !std::fs::read_to_string(path).is_ok_and(|own| own == *text)

@@ -1,4 +1,4 @@
-//! `palpate teacher`: cohorts, assignments, and whose sessions are experts'.
+//! `palpate teacher`: cohorts, assignments, and experts' sessions.
 
 use std::path::{Path, PathBuf};
 
@@ -95,7 +95,7 @@ enum Change {
     },
 }
 
-/// What `show --json` prints.
+/// The answer that `show --json` prints.
 #[derive(Debug, Serialize)]
 struct Answer {
     palpate: &'static str,
@@ -124,7 +124,7 @@ pub(super) struct StandingAnswer {
     pub(super) standing: &'static str,
 }
 
-/// Does what a teacher wants.
+/// Runs the subcommand.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let file = training::record_file(arguments.record.as_deref())?;
     match &arguments.what {
@@ -136,8 +136,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             }
         }
         What::Change(wanted) => {
-            let said = change(wanted, &file, arguments.pin.as_deref())?;
-            output::line(said)
+            let done = change(wanted, &file, arguments.pin.as_deref())?;
+            output::line(done)
         }
     }
 }
@@ -202,7 +202,7 @@ fn answer(record: &Record) -> Result<Answer, Failure> {
     })
 }
 
-/// Each assignment, and how far each trainee of its cohort is.
+/// Each assignment, and the progress of each trainee of its cohort.
 pub(super) fn standings(record: &Record) -> Result<Vec<AssignmentAnswer>, Failure> {
     let (cohorts, attempts) = (record.cohorts()?, record.attempts(&Filter::default())?);
     let now = training::now();

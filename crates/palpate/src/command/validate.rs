@@ -1,4 +1,4 @@
-//! `palpate validate`: what files are, and whether they are right.
+//! `palpate validate`: identifies files and checks them.
 
 use std::path::PathBuf;
 
@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// What is printed for a program.
+/// The answer of `--json`.
 #[derive(Debug, Serialize)]
 struct Answer {
     palpate: &'static str,
@@ -41,7 +41,7 @@ struct Answer {
     invalid: Vec<Invalid>,
 }
 
-/// A file that is wrong.
+/// An invalid file.
 #[derive(Debug, Serialize)]
 struct Invalid {
     file: PathBuf,
@@ -58,7 +58,7 @@ fn of_file(valid: &Validated) -> Vec<String> {
     valid.warnings.iter().map(named).collect()
 }
 
-/// Looks at all of them, and fails if one is wrong.
+/// Checks all files, and fails if one is invalid.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut answer = Answer {
         palpate: output::VERSION,

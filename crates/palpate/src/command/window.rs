@@ -8,7 +8,7 @@ use palpate_viewer::{Error, Start, WindowOptions, open_window};
 use super::simulate::ESOPHAGUS;
 use crate::interrupt;
 
-/// Opens a window with `resources` and waits until it is closed.
+/// Opens a window with `resources` and returns when it is closed.
 pub(super) fn open(
     start: Start,
     training: Option<Training>,
@@ -25,19 +25,19 @@ pub(super) fn open_in(
     resources: Resources,
 ) -> Result<(), Error> {
     let way_out = Scene::parse(ESOPHAGUS, "built-in scene")?;
-    // Asked once, so that signals are heard from now on.
-    let _ = interrupt::is_asked();
+    // The first call starts listening for signals.
+    let _ = interrupt::is_requested();
     let options = WindowOptions {
         way_out,
         resources,
         training,
         settings: crate::settings::of_window(language),
-        is_ended: interrupt::is_asked,
+        is_ended: interrupt::is_requested,
     };
     open_window(start, options)
 }
 
-/// Whether there can be no window here, whatever the scene.
+/// Whether this machine can open no window, whatever the scene.
 pub(super) fn is_absent(why: &Error) -> bool {
     matches!(
         why,

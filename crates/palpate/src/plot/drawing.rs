@@ -1,4 +1,4 @@
-//! A plot as the drawing crate has it.
+//! Converts a plot to the drawing crate's form.
 
 use std::sync::Arc;
 
@@ -39,7 +39,7 @@ pub(super) struct Look {
     pub(super) pale: &'static str,
 }
 
-/// The size of each of two plots beside one another.
+/// The size of each of two plots side by side.
 const HALF: [f64; 2] = [560.0, 400.0];
 
 /// How a picture of a `size` looks.
@@ -61,7 +61,7 @@ pub(super) fn png(plot: &Plot) -> Result<Vec<u8>, String> {
     PngBackend::new().with_scale(PIXELS).render_scene(&scene)
 }
 
-/// The picture of two plots beside one another.
+/// The picture of two plots side by side.
 pub(super) fn png_of_two([left, right]: [&Plot; 2]) -> Result<Vec<u8>, String> {
     let look = printed(HALF);
     let mut both = scene(left, &look);
@@ -80,7 +80,7 @@ pub(super) fn png_of_two([left, right]: [&Plot; 2]) -> Result<Vec<u8>, String> {
 /// The drawing of `plot`, all of whose height is used.
 pub(super) fn scene(plot: &Plot, look: &Look) -> Scene {
     let [width, height] = look.size;
-    // How many lines the legend takes shows only in the drawing, so it is made twice.
+    // The number of lines of the legend is known only after drawing, so it is drawn twice.
     let unused = height - MARGIN - lowest(&drawn(plot, look, height));
     let mut scene = drawn(plot, look, height + unused);
     (scene.width, scene.height) = (width, height);
@@ -98,7 +98,7 @@ fn drawn(plot: &Plot, look: &Look, height: f64) -> Scene {
     render_multiple(drawn, layout)
 }
 
-/// Where the lowest text stands.
+/// Position of the lowest text.
 fn lowest(scene: &Scene) -> f64 {
     let heights = scene.elements.iter().map(|element| match element {
         Primitive::Text { y, .. } => *y,

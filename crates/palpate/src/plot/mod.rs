@@ -54,7 +54,7 @@ fn printable_plot(plot: &Plot) -> Plot {
     plot
 }
 
-/// Writes a picture of two plots beside one another to `path`, 1792 by 640 pixels.
+/// Writes a picture of two plots side by side to `path`, 1792 by 640 pixels.
 pub(crate) fn write_pair(plots: [&Plot; 2], path: &Path) -> Result<(), Failure> {
     let printable = plots.map(printable_plot);
     let png = drawing::png_of_two(printable.each_ref()).map_err(|cause| {

@@ -1,5 +1,5 @@
-//! What the drawing crate leaves to be desired: titles stand at the left, the name of the y axis lies
-//! above it instead of upright beside it, and the dashes of a finely divided line keep their length.
+//! Corrections to the output of the drawing crate: titles stand at the left, the name of the y axis lies above it
+//! instead of upright next to it, and the dashes of a finely divided line keep their length.
 
 use kuva::render::render::{Primitive, Scene, TextAnchor};
 
@@ -11,7 +11,7 @@ pub(super) const SIZE: [f64; 2] = [750.0, 500.0];
 /// Where titles begin.
 const LEFT: f64 = 14.0;
 
-/// Puts the titles of `scene`, the drawing of `plot`, where they belong.
+/// Moves the titles of `scene`, the drawing of `plot`, to their positions.
 pub(super) fn titles(scene: &mut Scene, plot: &Plot) {
     for element in &mut scene.elements {
         if let Primitive::Text {

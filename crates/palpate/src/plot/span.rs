@@ -1,9 +1,9 @@
-//! From where to where an axis goes. The drawing crate's own choice fails without points, and leaves
-//! much room on logarithmic axes.
+//! The span of an axis. The drawing crate's own choice fails without points, and leaves much room on logarithmic
+//! axes.
 
 use super::{Axis, Plot};
 
-/// What is left free beside markers at the border, as a part of the span [-].
+/// Margin around markers at the border, as a part of the span [-].
 const MARGIN: f64 = 0.03;
 
 /// Lowest and highest value of the x axis.
@@ -25,7 +25,7 @@ pub(super) fn y(plot: &Plot) -> Option<(f64, f64)> {
     }
 }
 
-/// Of an axis that nothing stands on.
+/// The span of an axis without data.
 fn empty(axis: Axis) -> (f64, f64) {
     match axis {
         Axis::Linear | Axis::Counted => (0.0, 1.0),
@@ -33,7 +33,7 @@ fn empty(axis: Axis) -> (f64, f64) {
     }
 }
 
-/// Lowest and highest of what is drawn.
+/// Lowest and highest of the data.
 fn values(plot: &Plot, of: fn((f64, f64)) -> f64) -> Option<(f64, f64)> {
     let of_bands = plot.bands.iter().flat_map(|band| band.drawable(plot));
     let edges = of_bands.flat_map(|(x, y)| y.map(|y| (x, y)));
@@ -60,7 +60,7 @@ fn has_markers(plot: &Plot) -> bool {
     plot.series.iter().any(|series| series.style.has_markers())
 }
 
-/// From tick to tick of what is counted over such a span: 1, 2, 5, 10 …, about eight of them.
+/// Tick spacing for counts over such a span: 1, 2, 5, 10 …, about eight ticks.
 pub(super) fn step(span: f64) -> f64 {
     match span > 8.0 {
         true => round_up(span / 8.0),

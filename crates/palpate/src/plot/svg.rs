@@ -11,7 +11,7 @@ const SIZE: [f64; 2] = [560.0, 350.0];
 /// Of the uppermost text, above the line it stands on.
 const ABOVE: f64 = 14.0;
 
-/// The page's colors; the second of each is what a picture that was taken out of its page has.
+/// The page's colors, each with the fallback for a picture outside its page.
 const COLORS: [&str; 6] = [
     "var(--series-0, #0072B2)",
     "var(--series-1, #D55E00)",
@@ -54,8 +54,8 @@ pub(super) fn svg(plot: &Plot) -> String {
     let fixed = format!(r#"width="{width}" height="{height}""#);
     // The room that is left for a title is cut off.
     let top = (highest(&scene) - ABOVE).floor();
-    let kept = height - top;
-    let flowing = format!(r#"viewBox="0 {top} {width} {kept}" role="img""#);
+    let visible = height - top;
+    let flowing = format!(r#"viewBox="0 {top} {width} {visible}" role="img""#);
     drawn.replacen(&fixed, &flowing, 1)
 }
 

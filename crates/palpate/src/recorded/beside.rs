@@ -1,4 +1,4 @@
-//! The force of a session beside the one that was recorded in the same indentation.
+//! Compares the force of a session with the recorded one of the same indentation.
 
 use std::path::PathBuf;
 
@@ -9,12 +9,12 @@ use serde::Serialize;
 
 use crate::plot::{Series, Style, kept};
 
-/// By what part of the deepest the depth that is felt may differ from the recorded one unsaid [-].
+/// Difference between simulated and recorded depth without a warning, relative to the largest depth [-].
 const SAME_DEPTH: f64 = 0.02;
 
-/// What was recorded, and how far the session is from it so far.
+/// A recording, and the deviation of the session from it so far.
 #[derive(Debug)]
-pub(crate) struct Beside {
+pub(crate) struct Comparison {
     file: PathBuf,
     site: Site,
     /// Times [s], depths [m] and forces [N].
@@ -28,24 +28,24 @@ pub(crate) struct Beside {
     worst_depth: f64,
 }
 
-/// What `summary.json` holds of it.
+/// Its entry in `summary.json`.
 #[derive(Debug, Serialize)]
-pub(super) struct BesideAnswer {
+pub(super) struct ComparisonAnswer {
     #[serde(serialize_with = "palpate_jobs::lossy")]
     recording: PathBuf,
     place_m: [f64; 3],
-    /// The largest force that was recorded, filtered.
+    /// The largest recorded force, filtered.
     largest_recorded_n: f64,
-    /// What the simulated force is more where it is farthest from the recorded one.
+    /// The largest deviation of the simulated force from the recorded one, with its sign.
     largest_deviation_n: f64,
     largest_deviation_at_s: f64,
     root_mean_square_n: f64,
-    /// The same of the depth.
+    /// The largest deviation of the depth.
     largest_depth_deviation_m: f64,
 }
 
-impl Beside {
-    /// Beside times [s], depths [m] and forces [N] of a recording, at a place, with earlier warnings.
+impl Comparison {
+    /// A comparison with times [s], depths [m] and forces [N] of a recording, at a site, with earlier warnings.
     pub(crate) fn new(
         file: PathBuf,
         recorded: [Vec<f64>; 3],
@@ -65,7 +65,7 @@ impl Beside {
         }
     }
 
-    /// Takes a step of the tool that repeats it; its times grow.
+    /// Adds a step of the tool that repeats it; times increase.
     pub(super) fn add(&mut self, row: &SessionRow) {
         let [_, depth, force] = self.recorded_at(row.time_s);
         if depth <= 0.0 && !row.contact {
@@ -83,7 +83,7 @@ impl Beside {
         self.squares += off * off;
     }
 
-    /// Time, depth and force at a time [s], straight between samples.
+    /// Time, depth and force at a time [s], by linear interpolation.
     fn recorded_at(&mut self, time: f64) -> [f64; 3] {
         let times = &self.recorded[0];
         while times.get(self.next).is_some_and(|next| *next <= time) {
@@ -101,7 +101,7 @@ impl Beside {
         [0, 1, 2].map(|column| between(&self.recorded[column]))
     }
 
-    /// Time [s], depth [mm] and force [mN] of so many samples as a line needs.
+    /// Time [s], depth [mm] and force [mN] of the samples that a line needs.
     fn drawn(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
         let [time, depth, force] = &self.recorded;
         kept(time, depth, force)
@@ -115,8 +115,8 @@ impl Beside {
         Series::new("recorded", points, Style::BroadLine, 0)
     }
 
-    /// What came out, and warnings.
-    pub(super) fn finish(mut self) -> (BesideAnswer, Vec<String>) {
+    /// The result, and warnings.
+    pub(super) fn finish(mut self) -> (ComparisonAnswer, Vec<String>) {
         let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let [_, depths, forces] = &self.recorded;
         let deepest = largest(depths);
@@ -128,7 +128,7 @@ impl Beside {
                 if self.worst_depth > 0.0 { "greater" } else { "smaller" },
             ));
         }
-        let answer = BesideAnswer {
+        let answer = ComparisonAnswer {
             place_m: self.site.point.into(),
             largest_recorded_n: largest(forces),
             largest_deviation_n: self.worst[0],
@@ -141,7 +141,7 @@ impl Beside {
     }
 }
 
-impl BesideAnswer {
+impl ComparisonAnswer {
     /// For a person, on a line of its own.
     pub(super) fn line(&self) -> String {
         let part = |force: f64| 100.0 * force / self.largest_recorded_n;

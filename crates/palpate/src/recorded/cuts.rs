@@ -1,6 +1,6 @@
 use palpate_simulate::CutSummary;
 
-/// What was cut, on a line for a person; empty when nothing was cut or perforated.
+/// The cuts, on a line for a person; empty when nothing was cut or perforated.
 pub(super) fn line(cuts: &CutSummary) -> String {
     if cuts.count == 0 && cuts.perforations == 0 {
         return String::new();

@@ -2,11 +2,11 @@ use std::path::{Path, PathBuf};
 
 use palpate_simulate::Frame;
 
-use super::Beside;
+use super::Comparison;
 use crate::failure::Failure;
 use crate::plot::{Draw, Plot, Series, Style, write_pair};
 
-/// Points of a curve; more are not seen in a picture.
+/// Points of a curve; more are not visible in a picture.
 const POINTS: u64 = 3000;
 
 /// Time, depth and force of each tool, for the plots.
@@ -44,13 +44,13 @@ impl Traces {
         }
     }
 
-    /// Draws force against time and against depth; with a recording, both beside one another, too.
+    /// Draws force against time and against depth; with a recording, also both side by side.
     pub(super) fn draw(
         self,
         folder: &Path,
-        beside: Option<&Beside>,
+        comparison: Option<&Comparison>,
     ) -> Result<Vec<PathBuf>, Failure> {
-        let recorded = |over| beside.map(|beside| beside.series(over));
+        let recorded = |over| comparison.map(|comparison| comparison.series(over));
         let over_time = self.plot(
             ["Force against time", "Time [s]"],
             |p| (p.time, p.force),
@@ -62,7 +62,7 @@ impl Traces {
             recorded(1),
         );
         let mut files = Vec::new();
-        if beside.is_some() {
+        if comparison.is_some() {
             let path = folder.join("beside.png");
             write_pair([&over_time, &over_depth], &path)?;
             files.push(path);

@@ -2,7 +2,7 @@ use std::fmt;
 
 use palpate_files::printable_lines;
 
-/// Markup that is well formed: text is escaped, what is opened is closed.
+/// Well-formed markup: text is escaped, and every element is closed.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Markup(String);
 
@@ -42,7 +42,7 @@ impl Markup {
     }
 }
 
-/// Of text, escaped; hidden characters, which no XML may hold or no reader sees, are shown as [`printable_lines`].
+/// Escaped text; hidden characters, which XML may not hold or no reader sees, are shown as [`printable_lines`].
 impl From<&str> for Markup {
     fn from(text: &str) -> Self {
         let mut escaped = String::with_capacity(text.len());

@@ -1,6 +1,6 @@
-//! Pages that stand alone: one file of HTML that needs no network and runs no script, on a screen, light or
-//! dark, and on paper. Markup is that of XHTML, so that any reader of XML can judge it; pictures are drawn by
-//! [`crate::plot`]. What a page says is up to the command that writes it.
+//! Self-contained pages: one file of HTML that needs no network and runs no script, on a screen, light or dark, and
+//! on paper. Markup is that of XHTML, so that any reader of XML can check it; pictures are drawn by [`crate::plot`].
+//! The commands write the content.
 
 mod markup;
 mod page;

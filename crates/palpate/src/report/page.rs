@@ -1,7 +1,7 @@
 use super::Markup;
 use crate::plot::{Draw, Plot};
 
-/// How all pages look.
+/// The style of all pages.
 const STYLE: &str = include_str!("style.css");
 
 /// A whole page.
@@ -33,7 +33,7 @@ impl Page {
     }
 }
 
-/// A plot with its title above and what is to be said of it below.
+/// A plot with its title above and its caption below.
 pub(crate) fn figure(plot: &Plot, caption: impl Into<Markup>) -> Markup {
     let title = Markup::plain("h4", &*plot.title);
     let caption = Markup::plain("figcaption", caption);

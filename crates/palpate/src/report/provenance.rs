@@ -1,7 +1,7 @@
 use super::{Markup, Table};
 use crate::output::VERSION;
 
-/// Where what a page says of a recording comes from.
+/// The source of a page's statements on a recording.
 #[derive(Debug, Clone)]
 pub(crate) struct Provenance {
     pub(crate) file: String,
@@ -15,7 +15,7 @@ pub(crate) struct Provenance {
     pub(crate) contact: (f64, f64, Option<f64>),
 }
 
-/// What was asked for, by name and value, and of which recordings.
+/// The options of the command, by name and value, and the recordings.
 pub(crate) fn provenance(
     settings: &[(String, String)],
     recordings: impl Iterator<Item = Provenance>,
@@ -42,10 +42,10 @@ pub(crate) fn provenance(
             Markup::plain("code", own.digest),
         ]);
     }
-    let mut asked = Table::new(["setting", "value"]);
-    asked.row(vec!["palpate".into(), VERSION.into()]);
+    let mut options = Table::new(["setting", "value"]);
+    options.row(vec!["palpate".into(), VERSION.into()]);
     for (name, value) in settings {
-        asked.row(vec![
+        options.row(vec![
             Markup::plain("code", &**name),
             Markup::plain("code", &**value),
         ]);
@@ -54,5 +54,7 @@ pub(crate) fn provenance(
         true => Markup::default(),
         false => table.into(),
     };
-    Markup::plain("h3", "Provenance").and(asked).and(recordings)
+    Markup::plain("h3", "Provenance")
+        .and(options)
+        .and(recordings)
 }

@@ -26,7 +26,7 @@ impl Table {
         self.rows.push(("", cells));
     }
 
-    /// A row that stands out.
+    /// A highlighted row.
     pub(crate) fn marked_row(&mut self, cells: Vec<Markup>) {
         self.rows.push(("marked", cells));
     }

@@ -8,14 +8,14 @@ pub(crate) fn count(number: usize, what: &str) -> String {
     }
 }
 
-/// Warnings as a list; nothing of none.
+/// Warnings as a list; empty without warnings.
 pub(crate) fn warning_list(title: &str, sentences: &[String]) -> Markup {
     if sentences.is_empty() {
         return Markup::default();
     }
     let each = sentences
         .iter()
-        .map(|said| Markup::plain("li", capital(said)));
+        .map(|warning| Markup::plain("li", capital(warning)));
     let list = Markup::plain("ul", each.collect::<Markup>());
     Markup::of_class("div", "warnings", Markup::plain("strong", title).and(list))
 }

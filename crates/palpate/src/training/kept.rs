@@ -11,26 +11,26 @@ use super::record::{measures, record_file};
 use crate::date;
 use crate::failure::Failure;
 
-/// What a task without a title is called.
+/// The title of a task without one.
 const UNTITLED: &str = "without a title";
 
-/// The training record, as a window uses it. It is opened anew each time, for other programs may have it, too.
+/// The training record, as a window uses it. Each use opens it anew, because other programs may use it, too.
 pub(super) struct WindowRecord {
     file: PathBuf,
     sessions: PathBuf,
 }
 
-/// Who was it.
+/// The author of an attempt.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Who<'a> {
+pub(crate) struct Author<'a> {
     pub(crate) trainee: &'a str,
     pub(crate) is_expert: bool,
 }
 
-/// Between the digest of a scene and the seed of the variant that it is.
+/// Separates the digest of a scene from the seed of its variant.
 pub(crate) const VARIANT: &str = ", variant ";
 
-/// The scene's digest, and the seed where the task draws its numbers.
+/// The scene's digest, with the seed where the task draws its numbers.
 fn scene_digest(folder: &SessionFolder) -> String {
     let digest = &folder.session.header.scene_digest;
     match folder
@@ -43,10 +43,10 @@ fn scene_digest(folder: &SessionFolder) -> String {
     }
 }
 
-/// Keeps the score of a session in the record; the warnings.
-pub(crate) fn keep(
+/// Saves the score of a session in the record; returns warnings.
+pub(crate) fn save_score(
     file: &Path,
-    who: Who<'_>,
+    author: Author<'_>,
     folder: &SessionFolder,
     task: &Task,
     score: &Score,
@@ -54,14 +54,14 @@ pub(crate) fn keep(
     let mut record = Record::open(file)?;
     let session = &folder.path;
     let added = record.add(&Attempt {
-        trainee: who.trainee.to_owned(),
+        trainee: author.trainee.to_owned(),
         task: task.title.clone().unwrap_or_else(|| UNTITLED.to_owned()),
         scene_digest: scene_digest(folder),
         when: folder.when().unwrap_or_else(super::now),
         session: std::path::absolute(session).unwrap_or_else(|_| session.clone()),
         session_digest: folder.session.digest(),
         passed: score.outcome.passed(),
-        is_expert: who.is_expert,
+        is_expert: author.is_expert,
         measures: measures(score),
     })?;
     let mut warnings = record.warnings().to_vec();
@@ -71,7 +71,7 @@ pub(crate) fn keep(
         Added::AlreadyThere => warnings.push(format!(
             "{session}: this attempt of {} is in the training record already; it counts once, and the record is as \
              it was",
-            who.trainee
+            author.trainee
         )),
         Added::SameSession { trainee, when } => warnings.push(format!(
             "{session}: the same session, to the last bit, is in the training record as an attempt of {trainee} at \
@@ -90,7 +90,7 @@ impl WindowRecord {
         })
     }
 
-    /// Who trained last.
+    /// The trainee of the last attempt.
     pub(super) fn last_trainee(&self) -> Option<String> {
         let attempts = self.attempts(None).ok()?;
         attempts.last().map(|last| last.trainee.clone())
@@ -129,13 +129,19 @@ impl TrainingRecord for WindowRecord {
     }
 
     fn keep(&mut self, result: &TrainingResult<'_>) -> Result<(), String> {
-        let who = Who {
+        let author = Author {
             trainee: result.trainee,
             is_expert: false,
         };
         let folder = SessionFolder::read(result.session).map_err(|error| error.to_string())?;
-        let kept = keep(&self.file, who, &folder, &result.scene.task, result.score);
-        match kept.map_err(|error| error.to_string())?.as_slice() {
+        let saved = save_score(
+            &self.file,
+            author,
+            &folder,
+            &result.scene.task,
+            result.score,
+        );
+        match saved.map_err(|error| error.to_string())?.as_slice() {
             [] => Ok(()),
             warnings => Err(warnings.join(" ")),
         }

@@ -1,4 +1,4 @@
-//! What trainees do: the tasks that come with the program, and where sessions and results are kept.
+//! Training: the tasks that come with the program, and the storage of sessions and results.
 
 mod kept;
 mod record;
@@ -9,7 +9,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use palpate_viewer::training::{Training, TrainingRecord};
 
-pub(crate) use kept::{VARIANT, Who, keep};
+pub(crate) use kept::{Author, VARIANT, save_score};
 pub(crate) use record::record_file;
 pub(crate) use tasks::free;
 
@@ -19,7 +19,7 @@ use kept::WindowRecord;
 /// The variable that names the folder of sessions and results.
 const FOLDER_VARIABLE: &str = "PALPATE_TRAINING";
 
-/// The folder in which sessions and results are kept.
+/// The folder of sessions and results.
 pub(crate) fn folder() -> Result<PathBuf, Failure> {
     let named = std::env::var_os(FOLDER_VARIABLE).filter(|name| !name.is_empty());
     let set = || crate::settings::read_or_warn().training_folder;
@@ -42,7 +42,7 @@ pub(crate) fn now() -> i64 {
     since.map_or(0, |since| since.as_secs() as i64)
 }
 
-/// All that a window needs to train somebody.
+/// All data that a window needs for training.
 pub(crate) fn training() -> Result<Training, Failure> {
     let folder = folder()?;
     let record = WindowRecord::new(&folder)?;

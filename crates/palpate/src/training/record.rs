@@ -1,4 +1,4 @@
-//! Where the training record is, and a score as it is kept there.
+//! The location of the training record, and the conversion of scores for it.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,7 @@ use palpate_simulate::performance::{Better, Score};
 
 use crate::failure::Failure;
 
-/// The file of the training record: the one that was named, else that of this user.
+/// The file of the training record: the named one, or else that of this user.
 pub(crate) fn record_file(named: Option<&Path>) -> Result<PathBuf, Failure> {
     if let Some(named) = named {
         return Ok(named.to_owned());
@@ -15,10 +15,10 @@ pub(crate) fn record_file(named: Option<&Path>) -> Result<PathBuf, Failure> {
     Ok(super::folder()?.join("training.sqlite"))
 }
 
-/// The measures of a score as a record keeps them.
+/// The measures of a score in the form of a record.
 pub(super) fn measures(score: &Score) -> Vec<record::Measure> {
     let measures = score.measures().into_iter();
-    let kept = measures.map(|own| record::Measure {
+    let stored = measures.map(|own| record::Measure {
         key: own.key,
         value: own.value,
         better: match own.better {
@@ -27,7 +27,7 @@ pub(super) fn measures(score: &Score) -> Vec<record::Measure> {
             Better::Neither => record::Better::Neither,
         },
     });
-    kept.collect()
+    stored.collect()
 }
 
 #[cfg(test)]
@@ -84,27 +84,30 @@ mod tests {
         }
     }
 
-    /// The record judges kept measures as a single session is judged beside its experts. Judge: the other code.
+    /// The record judges stored measures as a single session is compared with its experts. Judge: the other code.
     #[test]
     fn the_record_judges_as_a_comparison_does() {
         let experts = [(3.0, 0.4), (4.0, 0.6), (5.0, 0.9)].map(|(pace, force)| scored(pace, force));
         let standards = Standard::of(&experts);
-        let kept = experts.each_ref().map(attempt);
-        let kept = record::Standards::of(&kept.each_ref());
+        let attempts = experts.each_ref().map(attempt);
+        let stored = record::Standards::of(&attempts.each_ref());
         let (mut met, mut missed) = (0, 0);
         for (pace, force) in [(2.0, 0.3), (4.1, 0.61), (6.0, 0.7), (9.0, 2.0)] {
             let score = scored(pace, force);
             let own = attempt(&score);
-            let judgement = kept.judge(&own);
+            let judgement = stored.judge(&own);
             let compared = compare(&score, &standards);
             assert!(compared.len() > 10);
             for one in compared {
-                let place = kept.each.iter().position(|own| own.key == one.measure.key);
+                let place = stored
+                    .each
+                    .iter()
+                    .position(|own| own.key == one.measure.key);
                 let place = place.unwrap();
                 let judged = judgement.measures[place];
                 assert_eq!(judged.value, Some(one.measure.value));
                 assert_eq!(judged.proficient, one.proficient, "{}", one.measure.key);
-                assert_eq!(kept.each[place].spread.mean, one.standard.mean);
+                assert_eq!(stored.each[place].spread.mean, one.standard.mean);
                 met += usize::from(one.proficient == Some(true));
                 missed += usize::from(one.proficient == Some(false));
             }
@@ -112,7 +115,7 @@ mod tests {
         assert!(met > 5 && missed > 5, "{met} met, {missed} missed");
     }
 
-    /// What the learning curves are of is there to be drawn.
+    /// The quantities of the learning curves are among the measures of a score.
     #[test]
     fn time_and_errors_are_measures_of_a_score() {
         use crate::command::progress::{ERRORS, TIME};

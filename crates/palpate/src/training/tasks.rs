@@ -34,10 +34,10 @@ const BUILT_IN: [BuiltIn; 5] = [
     built_in!("myotomy"),
 ];
 
-/// The lower esophagus where it lies, to be touched without a task.
+/// The lower esophagus in place, to be touched without a task.
 const FREE: &str = include_str!("../../../../assets/esophagus/trainer.toml");
 
-/// All tasks, the program's first. A file of the user's that is no task is told and left out.
+/// All tasks, the program's first. An invalid file of the user gives a warning and is left out.
 pub(super) fn tasks(folder: &Path) -> Result<Vec<OfferedTask>, Failure> {
     let all = BUILT_IN.iter().map(|task| {
         Ok(OfferedTask {
@@ -67,7 +67,7 @@ pub(super) fn tasks(folder: &Path) -> Result<Vec<OfferedTask>, Failure> {
 }
 
 impl BuiltIn {
-    /// Its scene, beside the experts' sessions that the user has in `experts/NAME` of the `folder`.
+    /// Its scene, with the experts' sessions that the user has in `experts/NAME` of the `folder`.
     fn scene(&self, folder: &Path) -> Result<Scene, Failure> {
         let Self { name, scene, .. } = self;
         let mut scene = Scene::parse(scene, format!("built-in task {name}.toml"))?;
@@ -77,24 +77,24 @@ impl BuiltIn {
     }
 }
 
-/// The picture of a user's task. One that cannot be shown is told and left out.
+/// The picture of a user's task. One that cannot be shown gives a warning and is left out.
 fn picture(scene: &Scene) -> Option<TaskPicture> {
     let path = scene.task.picture.as_ref()?;
     let bytes = std::fs::read(path).map_err(|cause| cause.to_string());
     match bytes.and_then(|bytes| TaskPicture::decode(&bytes)) {
         Ok(picture) => Some(picture),
         Err(cause) => {
-            let told = format!(
+            let warning = format!(
                 "{}: the picture of a task is left out: {cause}",
                 path.display()
             );
-            output::warnings(&[told]);
+            output::warnings(&[warning]);
             None
         }
     }
 }
 
-/// What is touched without a task.
+/// The scene without a task.
 pub(crate) fn free() -> Result<Scene, Failure> {
     Ok(Scene::parse(FREE, "built-in scene")?)
 }

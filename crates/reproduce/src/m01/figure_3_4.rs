@@ -19,8 +19,8 @@ const RADII: [f64; 2] = [2e-3, 3e-3];
 /// The tip of the plots.
 const PLOTTED_RADIUS: f64 = 3e-3;
 
-/// The radius that the periphery is held at when particles are added, as in the source [m].
-const HELD_RADIUS: f64 = 0.02;
+/// The radius at which the periphery is fixed when particles are added, as in the source [m].
+const FIXED_RADIUS: f64 = 0.02;
 
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let mut errors = Vec::new();
@@ -136,7 +136,7 @@ fn implied_radii(rows: &mut Rows<'_>) -> Result<(), Error> {
         let row = rows.row(&format!("implied_tool_radius/{particles}"));
         match model(particles, Form::Weak, &law) {
             // Radii scale: a tool of one metre has its periphery at held_radius(1).
-            Ok(model) => row.is(HELD_RADIUS / model.held_radius(1.0)),
+            Ok(model) => row.is(FIXED_RADIUS / model.held_radius(1.0)),
             Err(reason) => row.missing(reason),
         }
     }

@@ -1,4 +1,4 @@
-//! The pole of the built-in hemisphere, and what a flat tip without friction meets there.
+//! The pole of the built-in hemisphere, and the force on a frictionless flat tip there.
 
 use nalgebra::{Matrix3, Vector3};
 use palpate_geometry::{AabbTree, Organ, Surface};
@@ -53,7 +53,7 @@ pub(super) fn finite_elements(
     Ok(hemisphere::solve(&problem, JUDGE_ACCURACY, |_| {})?)
 }
 
-/// The hemisphere with its base held, and a patch of `radius` [m] without friction that is moved by one
+/// The hemisphere with its base fixed, and a patch of `radius` [m] without friction that is moved by one
 /// metre.
 pub(super) fn hemisphere_problem(law: &LinearElastic, radius: f64) -> HemisphereProblem {
     HemisphereProblem {

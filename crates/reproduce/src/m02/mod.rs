@@ -1,4 +1,4 @@
-//! M2, touch: what it costs to feel forces at 1 kHz that are computed 60 or 200 times a second (3.4).
+//! M2, touch: the error of forces displayed at 1 kHz and computed 60 or 200 times a second (3.4).
 //!
 //! A hand goes d = 3 + 4 sin(2π f t) mm into F = 0.020 d + 0.0046 d² (N, mm), which is within 0.04 N of the
 //! kidney's means in table 5-1, and leaves it in every cycle. The source extrapolates forces to 1 kHz, which is taken as a line in time.

@@ -1,4 +1,4 @@
-//! What a hand-over costs, for a force that is known everywhere.
+//! Errors of the hand-over between model and loop, for a force that is known everywhere.
 //!
 //! A hand goes d(t) = d₀ + d₁ sin(2π f t) below a surface whose force F(d) and stiffness F′(d) are given. A
 //! model answers every T; an answer arrives one T after the place that it was made for. At every tick the
@@ -20,7 +20,7 @@ use palpate_servo::{
 /// A hand on a sine, and a model that is slower than the loop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct HandOverStudy {
-    /// Which hand-over.
+    /// Method of the hand-over.
     pub(super) hand_over: HandOver,
     /// T, the period of the model [s].
     pub(super) model_period: f64,
@@ -36,7 +36,7 @@ pub(super) struct HandOverStudy {
     pub(super) cycles: u32,
 }
 
-/// What a hand-over cost.
+/// Errors of a hand-over.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct HandOverCost {
     /// Root of the mean square of the error [N].
@@ -102,10 +102,10 @@ impl HandOverStudy {
     }
 
     fn samples(&self, law: impl Fn(f64) -> (f64, f64)) -> Result<Vec<Sample>, Fault> {
-        let (mut answers, heard) = channel(&AffineForce::none(f64::NEG_INFINITY));
+        let (mut answers, received) = channel(&AffineForce::none(f64::NEG_INFINITY));
         let extrapolator = Extrapolator::new(self.hand_over, self.model_period, self.period);
         let controller = Rendered {
-            answers: heard,
+            answers: received,
             extrapolator,
         };
         let hand = VirtualDevice::new(Trajectory::Sine {

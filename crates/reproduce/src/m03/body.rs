@@ -10,15 +10,15 @@ use crate::real_mesh::real_mesh;
 /// The source names none.
 const POISSONS_RATIO: f64 = 0.45;
 
-/// Part of the depth of a real kidney that is held, from its back [-].
-const HELD: f64 = 0.25;
+/// Part of the depth of a real kidney that is fixed, from its back [-].
+const FIXED_PART: f64 = 0.25;
 
-/// A solid, what holds it, and all the rest of its surface.
+/// A solid with its fixed and its free triangles.
 pub(crate) struct Body {
     pub(crate) surface: Surface,
-    held: Vec<TriangleId>,
+    fixed: Vec<TriangleId>,
     pub(super) free: Vec<TriangleId>,
-    /// What it is.
+    /// Description for notes.
     pub(crate) description: String,
 }
 
@@ -29,7 +29,7 @@ pub(crate) struct Model {
     pub(super) row: &'static str,
     /// The real mesh that is taken when it is at hand.
     real: Option<&'static str>,
-    /// What is taken else.
+    /// The built-in organ that is taken otherwise.
     organ: Organ,
 }
 
@@ -86,22 +86,22 @@ impl Body {
         let mesh = mesh.map_vertices(|v| Vec3::new(v.x, -v.z, v.y))?;
         let (low, high) = mesh.bounds();
         let plane = AnchorPlane {
-            point: high - HELD * (high - low),
+            point: high - FIXED_PART * (high - low),
             normal: -Vec3::y(),
         };
         let whose = format!("{whose}, fixed on the back quarter");
-        Self::held(Surface::new(mesh)?, &[plane], &whose)
+        Self::fixed(Surface::new(mesh)?, &[plane], &whose)
     }
 
     fn built_in(organ: Organ, triangles: usize) -> Result<Self, Error> {
         let mesh = organ.surface_mesh(triangles)?;
         let whose = format!("the built-in {organ}, held on {}", organ.description().held);
-        Self::held(Surface::new(mesh)?, &organ.anchor(), &whose)
+        Self::fixed(Surface::new(mesh)?, &organ.anchor(), &whose)
     }
 
-    fn held(surface: Surface, anchor: &[AnchorPlane], whose: &str) -> Result<Self, Error> {
+    fn fixed(surface: Surface, anchor: &[AnchorPlane], whose: &str) -> Result<Self, Error> {
         let mesh = surface.mesh();
-        let (held, free) = mesh.triangle_ids().partition(|&triangle| {
+        let (fixed, free) = mesh.triangle_ids().partition(|&triangle| {
             let centroid = centroid(&surface, triangle);
             anchor.iter().any(|plane| plane.holds(&centroid))
         });
@@ -112,46 +112,46 @@ impl Body {
         );
         Ok(Self {
             surface,
-            held,
+            fixed,
             free,
             description,
         })
     }
 
-    /// With all that is not held touchable.
+    /// The boundary problem in which all free triangles are touchable.
     pub(super) fn problem(&self) -> BoundaryProblem<'_> {
         BoundaryProblem {
             surface: &self.surface,
             poissons_ratio: POISSONS_RATIO,
-            held: &self.held,
+            held: &self.fixed,
             touchable: &self.free,
         }
     }
 
-    /// The free triangles, nearest first, about the place that lies opposite of what holds the body.
+    /// The free triangles, nearest first, about the place opposite the fixed triangles.
     pub(crate) fn opposite(&self) -> Vec<TriangleId> {
         let middle = |ids: &[TriangleId]| {
             let sum: Vec3 = ids.iter().map(|&id| self.centroid(id)).sum();
             sum / ids.len() as f64
         };
-        let held = middle(&self.held);
-        let axis = (middle(&self.free) - held).normalize();
+        let center = middle(&self.fixed);
+        let axis = (middle(&self.free) - center).normalize();
         // Far along the axis, and near it.
         let score = |id: TriangleId| {
-            let away = self.centroid(id) - held;
+            let away = self.centroid(id) - center;
             let along = away.dot(&axis);
             along - (away - along * axis).norm()
         };
         let first = self.free.iter().copied();
         let first = first.max_by(|&a, &b| score(a).total_cmp(&score(b)));
-        let first = first.map_or(held, |id| self.centroid(id));
+        let first = first.map_or(center, |id| self.centroid(id));
         let away = |id: TriangleId| (self.centroid(id) - first).norm();
         let mut near = self.free.clone();
         near.sort_by(|&a, &b| away(a).total_cmp(&away(b)));
         near
     }
 
-    /// Unit outward normal of the triangle opposite of what holds the body [-].
+    /// Unit outward normal of the triangle opposite the fixed ones [-].
     pub(super) fn touched_normal(&self) -> Vec3 {
         let triangle = self.opposite()[0];
         self.surface.mesh().area_vector(triangle).normalize()

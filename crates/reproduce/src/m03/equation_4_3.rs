@@ -78,7 +78,7 @@ impl Stretched {
         STRETCH * panel.normal.z * Vec3::z()
     }
 
-    fn is_held(panel: &Panel) -> bool {
+    fn is_fixed(panel: &Panel) -> bool {
         panel.normal.z < -0.5
     }
 
@@ -99,7 +99,7 @@ impl Stretched {
                 if row == column {
                     traction += Matrix3::from_diagonal_element(0.5);
                 }
-                let (unknown, given) = match Self::is_held(panel) {
+                let (unknown, given) = match Self::is_fixed(panel) {
                     true => (-found.displacement, -traction * Self::moved(panel)),
                     false => (traction, found.displacement * Self::pulled(panel)),
                 };
@@ -113,7 +113,7 @@ impl Stretched {
         let found = system.lu().solve(&right)?;
         let (mut off, mut all) = (0.0, 0.0);
         for (k, panel) in self.panels.iter().enumerate() {
-            if !Self::is_held(panel) {
+            if !Self::is_fixed(panel) {
                 let exact = Self::moved(panel);
                 off += (found.fixed_rows::<3>(3 * k) - exact).norm_squared();
                 all += exact.norm_squared();

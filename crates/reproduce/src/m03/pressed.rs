@@ -13,9 +13,9 @@ use crate::Error;
 /// Young's modulus [Pa]; no displacement depends on it.
 const YOUNGS_MODULUS: f64 = 1e4;
 
-/// A body whose triangle opposite of what holds it is pressed in, as stuck to a tool.
+/// A body whose triangle opposite the fixed ones is pressed in, bonded to a tool.
 pub(crate) struct Pressed {
-    /// The one.
+    /// The pressed triangle.
     pub(crate) triangle: TriangleId,
     /// Its centroid at rest [m].
     pub(crate) place: Vec3,

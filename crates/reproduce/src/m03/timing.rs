@@ -1,4 +1,4 @@
-//! How long it takes beforehand, and how long on line.
+//! Times of the off-line and the on-line computation.
 
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -15,7 +15,7 @@ use crate::machine::median;
 use crate::row::Rows;
 use palpate_jobs::{Watch, preparation};
 
-/// What is done beforehand [s].
+/// Times of the off-line computation [s].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OffLine {
     pub(super) assembly: f64,
@@ -23,7 +23,7 @@ pub(super) struct OffLine {
     pub(super) columns: f64,
 }
 
-/// Medians of what is done in a step [s].
+/// Median times of an on-line step [s].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OnLine {
     pub(super) force: f64,

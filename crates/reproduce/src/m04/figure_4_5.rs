@@ -18,7 +18,7 @@ const SAMPLES: usize = 1000;
 /// The node in the middle.
 const MIDDLE: usize = 5;
 
-/// The node beside the end, where the methods differ.
+/// The node next to the end, where the methods differ.
 const SECOND: usize = 1;
 
 /// How a function is made of the weights.
@@ -77,7 +77,7 @@ fn curves() -> Vec<Series> {
     series
 }
 
-/// The functions of a node beside the end, with the weight they are made of.
+/// The functions of a node next to the end, with the weight they are made of.
 fn functions_of_second() -> Vec<Series> {
     // Beyond, all of them vanish.
     let near = |mut points: Vec<(f64, f64)>| {

@@ -1,4 +1,4 @@
-//! Organs that answer as table 5-1 says and relax as table 6-3 says.
+//! Organs with the static response of table 5-1 and the relaxation of table 6-3.
 
 use palpate_files::recording::Condition;
 use palpate_measure::VirtualSpecimen;

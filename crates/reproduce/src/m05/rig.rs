@@ -1,4 +1,4 @@
-//! The rig over an organ that is not there: a device of two masses with friction and encoders under its PID, a force
+//! The rig over a virtual organ: a device of two masses with friction and encoders under its PID, a force
 //! sensor with its steps, approach until first contact.
 
 use palpate_files::Recording;
@@ -41,22 +41,25 @@ pub(super) fn measured(
     let trajectory = DepthTrajectory::of(stimulus)?;
     rig.approach(&mut |_| true)?;
     rig.wait(REST, &mut |_| true)?;
-    let mut heard: Vec<RigSample> = Vec::new();
+    let mut rig_samples: Vec<RigSample> = Vec::new();
     let listener = &mut |sample: &RigSample| {
-        heard.push(*sample);
+        rig_samples.push(*sample);
         true
     };
     rig.press(&trajectory, listener)?;
-    let begun = heard.first().map_or(0.0, |first| first.time);
+    let begun = rig_samples.first().map_or(0.0, |first| first.time);
     let samples = Samples {
-        time_s: heard.iter().map(|sample| sample.time - begun).collect(),
-        depth_m: heard
+        time_s: rig_samples
+            .iter()
+            .map(|sample| sample.time - begun)
+            .collect(),
+        depth_m: rig_samples
             .iter()
             .map(|sample| sample.depth.unwrap_or_default())
             .collect(),
-        force_n: heard.iter().map(|sample| sample.force).collect(),
+        force_n: rig_samples.iter().map(|sample| sample.force).collect(),
     };
-    let contact = heard
+    let contact = rig_samples
         .last()
         .map_or(0.0, |last| last.height + last.depth.unwrap_or_default());
     Ok(Measured {
@@ -67,7 +70,7 @@ pub(super) fn measured(
 }
 
 impl Measured {
-    /// Time from first contact [s], depth [m] and what it was to be [m], from first contact on.
+    /// Time from first contact [s], depth [m] and commanded depth [m], from first contact on.
     pub(super) fn tracked(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
         let depths = self.recording.depth_m().iter();
         let touching = self.times().zip(depths).filter(|(time, _)| *time >= 0.0);

@@ -1,4 +1,4 @@
-//! Animals of appendix A whose forces spread as table 5-1 says.
+//! Animals of appendix A whose forces have the spread of table 5-1.
 //!
 //! Of n animals, number k has at every depth the force
 //!

@@ -1,4 +1,4 @@
-//! M6, what recordings show without a model: the tables and figures of chapter 5.
+//! M6, analysis of recordings without a model: the tables and figures of chapter 5.
 
 pub(crate) mod figure_5_1;
 pub(crate) mod figure_5_14;

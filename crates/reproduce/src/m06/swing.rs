@@ -1,4 +1,4 @@
-//! Organs of known law that a probe swings in, as section 5.4.3 did.
+//! Organs of known law under a swinging probe, as in section 5.4.3.
 
 use std::f64::consts::TAU;
 
@@ -63,10 +63,10 @@ impl Organ {
             depths: times.iter().map(|time| depth(*time)).collect(),
             times,
         };
-        let felt = self
+        let forces = self
             .curve
             .relaxed(&self.series, &course.times, &course.depths);
-        let recording = recorded(self.name, 0, &course, &felt, 1)?;
+        let recording = recorded(self.name, 0, &course, &forces, 1)?;
         let found = analyze(&recording).sinusoids.first().copied();
         Ok((recording, found))
     }

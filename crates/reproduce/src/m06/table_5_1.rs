@@ -47,8 +47,8 @@ fn measured(
     for (subject, steady) in forces.iter().enumerate() {
         let elastic = steady / series.relaxation(f64::INFINITY);
         let curve = IndentationCurve::through(&[depth], &[elastic]);
-        let felt = curve.relaxed(series, &course.times, &course.depths);
-        let recording = recorded(organ, subject, &course, &felt, subject as u64)?;
+        let relaxed = curve.relaxed(series, &course.times, &course.depths);
+        let recording = recorded(organ, subject, &course, &relaxed, subject as u64)?;
         let holds = analyze(&recording).holds;
         points.extend(
             holds

@@ -27,8 +27,8 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let series = PronySeries::new(&[(1.0 - k2 / k1, b / k1)])?;
     let course = ramp_and_hold(DEPTH);
     let curve = IndentationCurve::through(&[DEPTH], &[1e3 * k1 * DEPTH]);
-    let felt = curve.relaxed(&series, &course.times, &course.depths);
-    let recording = recorded("liver", 0, &course, &felt, 1)?;
+    let forces = curve.relaxed(&series, &course.times, &course.depths);
+    let recording = recorded("liver", 0, &course, &forces, 1)?;
     for (history, prefix) in [(DepthHistory::Recorded, ""), (DepthHistory::Step, "step/")] {
         let columns = (&recording.time, &recording.depth, &recording.force);
         let found = fit_kelvin(columns.0, columns.1, columns.2, history)?.kelvin;

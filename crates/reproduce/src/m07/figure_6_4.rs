@@ -18,8 +18,8 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let c10 = cell("table-6-4 liver final_c10_pa")?;
     let course = ramp_and_hold(DEPTH);
     let curve = elastic(SoughtLaw::NeoHookean, c10, &[])?;
-    let felt = curve.relaxed(&prony("liver", 6)?, &course.times, &course.depths);
-    let recording = recorded("liver", 0, &course, &felt, 1)?;
+    let forces = curve.relaxed(&prony("liver", 6)?, &course.times, &course.depths);
+    let recording = recorded("liver", 0, &course, &forces, 1)?;
     let columns = (&recording.time, &recording.depth, &recording.force);
     let found = fit_kelvin(columns.0, columns.1, columns.2, DepthHistory::Recorded)?;
     let own = [

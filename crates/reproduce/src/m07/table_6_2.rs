@@ -15,15 +15,15 @@ const EVERY: usize = 5;
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     for organ in ORGANS {
         let values = printed(organ)?;
-        let mut felt = Vec::new();
+        let mut curves = Vec::new();
         for depth_mm in DEPTHS_MM {
             let course = ramp_and_hold(1e-3 * f64::from(depth_mm));
             let forces = forces(values, &course)?;
-            felt.push((course, forces));
+            curves.push((course, forces));
         }
         for (noisy, word) in [(false, ""), (true, "noisy/")] {
             rows.say(format!("{organ}, {word}springs"));
-            let found = refitted(organ, &felt, noisy)?;
+            let found = refitted(organ, &curves, noisy)?;
             add(rows, organ, word, &values, &found);
         }
     }
@@ -31,9 +31,9 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
 }
 
 /// The springs found in the forces of several depths, as they are or as they are recorded.
-fn refitted(organ: &str, felt: &[(History, Vec<f64>)], noisy: bool) -> Result<SpringsFit, Error> {
+fn refitted(organ: &str, curves: &[(History, Vec<f64>)], noisy: bool) -> Result<SpringsFit, Error> {
     let mut columns = Vec::new();
-    for (place, (course, forces)) in felt.iter().enumerate() {
+    for (place, (course, forces)) in curves.iter().enumerate() {
         let seen = match noisy {
             true => recorded(organ, 0, course, forces, place as u64)?.force,
             false => forces.clone(),

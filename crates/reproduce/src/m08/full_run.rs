@@ -17,9 +17,9 @@ const OF_HOLD: usize = 60;
 /// The first sample of the hold after the ramp [s]; from there on they lie farther and farther apart.
 const FIRST: f64 = 0.02;
 
-/// What the source's block and punch feel with these parameters [Pa], as printed, on the coarsest mesh: times
-/// and depths, and forces [N].
-pub(super) fn felt(
+/// Times, depths and forces [N] of the source's block under its punch with these parameters [Pa], as printed, on the
+/// coarsest mesh.
+pub(super) fn full_run(
     rows: &Rows<'_>,
     law: SoughtLaw,
     parameters: &[f64],

@@ -1,4 +1,4 @@
-//! From where a fit of a law arrives: its own force is fitted again from other parameters.
+//! Starts from which a fit of a law converges: its own force is fitted again from other parameters.
 
 use palpate_characterize::fit::{Parameter, Settings, least_squares};
 use palpate_characterize::inverse::{Body, Curves, SHAPES, SoughtLaw};
@@ -21,7 +21,7 @@ pub(super) const NEAR: f64 = 0.01;
 /// One of so many samples of a recording is enough for forces without noise.
 const EVERY: usize = 10;
 
-/// How a fit goes.
+/// The algorithm of a fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Algorithm {
     /// This project's, with bounds and changing damping.

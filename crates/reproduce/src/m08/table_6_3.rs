@@ -19,8 +19,8 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
         let c10 = cell(&format!("table-6-4 {organ} final_c10_pa"))?;
         let curve = elastic(SoughtLaw::NeoHookean, c10, &[])?;
         let course = ramp_and_hold(1e-3 * f64::from(depth_mm));
-        let felt = curve.relaxed(&prony(organ, depth_mm)?, &course.times, &course.depths);
-        let recording = recorded(organ, 0, &course, &felt, u64::from(depth_mm))?;
+        let forces = curve.relaxed(&prony(organ, depth_mm)?, &course.times, &course.depths);
+        let recording = recorded(organ, 0, &course, &forces, u64::from(depth_mm))?;
         let records: Vec<RelaxationRecord> = seen(&recording, &curve).into_iter().collect();
         let two = RelaxationSettings { terms: Some(2) };
         let name = format!("{organ}_{depth_mm}_mm");

@@ -8,7 +8,7 @@ use palpate_mechanics::finite_elements::indentation::History;
 
 use super::block::{ORGANS, moduli, printed};
 use super::equation_6_17::Column;
-use super::full_run::felt;
+use super::full_run::full_run;
 use crate::Error;
 use crate::published::prony;
 use crate::row::Rows;
@@ -27,7 +27,7 @@ fn run(rows: &mut Rows<'_>, law: SoughtLaw) -> Result<(), Error> {
         let truth = printed(law, organ, "final")?;
         let series = prony(organ, depth_mm)?;
         let depth = 1e-3 * f64::from(depth_mm);
-        let (course, forces) = felt(rows, law, &truth, &series, depth)?;
+        let (course, forces) = full_run(rows, law, &truth, &series, depth)?;
         let assumed = elastic(SoughtLaw::NeoHookean, 1.0, &[])?;
         let largest = forces.iter().copied().fold(0.0, f64::max);
         let seen =

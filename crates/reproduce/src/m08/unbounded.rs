@@ -25,9 +25,9 @@ pub(super) fn unbounded_iteration(
         let here = run(values)?;
         let mut jacobian = DMatrix::zeros(samples, values.len());
         for i in 0..values.len() {
-            let mut beside = values.to_vec();
-            beside[i] *= 1.0 + PERTURBATION;
-            let column = (run(&beside)? - &here) / (beside[i] - values[i]);
+            let mut shifted = values.to_vec();
+            shifted[i] *= 1.0 + PERTURBATION;
+            let column = (run(&shifted)? - &here) / (shifted[i] - values[i]);
             jacobian.set_column(i, &column);
         }
         let mut normal = jacobian.tr_mul(&jacobian);

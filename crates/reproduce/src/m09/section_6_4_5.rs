@@ -57,8 +57,8 @@ fn add_relaxation(rows: &mut Rows<'_>, printed: &Printed) -> Result<(), Error> {
     let series = printed.series()?;
     let elastic = force / series.relaxation(f64::INFINITY);
     let curve = IndentationCurve::through(&[DEPTH], &[elastic]);
-    let felt = curve.relaxed(&series, &course.times, &course.depths);
-    let recording = recorded("esophagus", 0, &course, &felt, 1)?;
+    let forces = curve.relaxed(&series, &course.times, &course.depths);
+    let recording = recorded("esophagus", 0, &course, &forces, 1)?;
     let largest = recording.filtered_force.iter().copied().fold(0.0, f64::max);
     let seen = RelaxationRecord::new(
         &recording.time,

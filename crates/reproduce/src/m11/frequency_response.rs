@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Complex, SMatrix};
 use palpate_measure::phantom::{Machine, MachineState, STATES};
 
-/// Where a sine is injected.
+/// The port at which a sine is injected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Port {
     /// As a force of the hand.
@@ -12,11 +12,11 @@ pub(super) enum Port {
     Motor,
 }
 
-/// Periods that are listened to.
+/// Periods that are evaluated.
 const PERIODS: f64 = 8.0;
 
-/// What the handle of `machine` answers to a sine of 1 N and `frequency` [Hz], from a steady beginning: its
-/// place over the force [m/N], read by correlation as from a recording.
+/// Response of the handle of `machine` to a sine of 1 N and `frequency` [Hz] in the steady state: its
+/// position over the force [m/N], by correlation as from a recording.
 ///
 /// G₁ is one over the answer to the hand, G₂ the answer to the motor over that to the hand.
 pub(super) fn inject(machine: &Machine, port: Port, frequency: f64) -> Complex<f64> {

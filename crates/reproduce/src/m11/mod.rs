@@ -1,4 +1,4 @@
-//! M11, the device between hand and tissue: (7.6), its Bode plots, what a hand feels through it, and the figure of
+//! M11, the device between hand and tissue: (7.6), its Bode plots, its transparency, and the figure of
 //! chapter 5 that shows the same device as an indenter.
 
 mod bode;

@@ -19,13 +19,14 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             return Err(Error::failed("table 5-1 has no such organ"));
         };
         for (device, style) in devices.iter().zip([Style::Line, Style::DashedLine]) {
-            let felt = |f: f64| device.port.transparency(f, Complex::from(stiffness)).norm();
+            let transparency =
+                |f: f64| device.port.transparency(f, Complex::from(stiffness)).norm();
             for (name, frequency) in PLACES {
                 let row = format!("{organ}/{}/{name}", device.name);
-                rows.add(&row, felt(frequency));
+                rows.add(&row, transparency(frequency));
             }
             let points = (0..=600).map(|i| 10_f64.powf(-1.0 + f64::from(i) / 200.0));
-            let points = points.map(|f| (f, felt(f))).collect();
+            let points = points.map(|f| (f, transparency(f))).collect();
             let name = format!("{organ}, {}", device.words);
             series.push(Series::new(name, points, style, at));
         }

@@ -44,12 +44,12 @@ impl TwoPort {
         }
     }
 
-    /// What the hand feels of an impedance `tissue` [N/m] at `frequency` [Hz] (7.2) over the tissue's own [-]: one for a
-    /// device that is not felt. The source asks for Z_h to be one, which has a unit.
+    /// Impedance displayed to the hand for an impedance `tissue` [N/m] at `frequency` [Hz] (7.2), over the tissue's own
+    /// [-]: one for a transparent device. The source asks for Z_h to be one, which has a unit.
     pub(super) fn transparency(&self, frequency: f64, tissue: Complex<f64>) -> Complex<f64> {
-        let felt =
+        let displayed =
             self.input_impedance.at(frequency) + self.force_transmission.at(frequency) * tissue;
-        felt / tissue
+        displayed / tissue
     }
 }
 
@@ -122,8 +122,8 @@ mod tests {
             assert!((found[1] / g2 - 1.0).abs() < 3e-5, "{frequency}: {found:?}");
         }
         // A liver of 0.009 N/mm is felt 3.6 times over at rest: the device's own spring.
-        let felt = port.transparency(0.0, Complex::new(9.0, 0.0)).re;
-        assert!((felt - (32.0 + 9.0) / 9.0).abs() < 1e-12);
+        let displayed = port.transparency(0.0, Complex::new(9.0, 0.0)).re;
+        assert!((displayed - (32.0 + 9.0) / 9.0).abs() < 1e-12);
     }
 
     /// Link and rotor swing at 151 Hz; at low frequency both are one mass.

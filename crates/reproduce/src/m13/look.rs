@@ -1,8 +1,8 @@
-//! What an eye tells of pictures of one size, in numbers. All count the pixels of tissue alone.
+//! Visual measures of pictures of one size. All count the pixels of tissue alone.
 
 use palpate_viewer::RgbaImage;
 
-/// Levels of 255 that an eye tells apart beside one another.
+/// Levels of 255 that an eye distinguishes side by side.
 const UNLIKE: u8 = 10;
 
 /// Levels of 255 above which all channels are white to the eye.

@@ -16,7 +16,7 @@ const LIVER: &str = "format = 1\n[organ]\nbuiltin = \"liver\"\ntriangles = 20000
      builtin_tissue = \"pig-liver\"\n[[tool]]\nname = \"right\"\n\
      tip = { shape = \"sphere\", radius_m = 0.005, contact = \"slip\" }\n";
 
-/// The shown triangles are the source's "about 10K"; it does not tell how many bore the mechanics.
+/// The shown triangles are the source's "about 10K"; it does not say how many the mechanics had.
 const KIDNEY: &str = "format = 1\n[organ]\nbuiltin = \"kidney\"\ntriangles = 10000\n\
      builtin_tissue = \"pig-kidney\"\n[model]\nkind = \"hybrid\"\nmechanical_triangles = 688\n\
      [model.enhancement]\nsmoothing = \"shepard\"\n[[tool]]\nname = \"right\"\n\
@@ -43,7 +43,7 @@ pub(crate) fn figure_7_12(rows: &mut Rows<'_>) -> Result<(), Error> {
     Ok(())
 }
 
-/// What the film changes, beside what is printed of photographs.
+/// Measures that the film changes, versus those printed of photographs.
 fn add_looks(rows: &mut Rows<'_>, plain: &RgbaImage, [middle, right]: [&RgbaImage; 2]) {
     let tissue = look::tissue(plain);
     let unlike = look::unlike(&tissue, middle, right);
@@ -90,7 +90,7 @@ struct Picture {
     adapter: String,
 }
 
-/// The organ of `scene` with its tool pressed `depth` [m] into what is in the middle of the picture.
+/// The organ of `scene` with its tool pressed `depth` [m] into the middle of the picture.
 fn picture(scene: &str, depth: f64, arrange: impl Fn(&mut Studio)) -> Result<Picture, Error> {
     let scene = Scene::parse(scene, "built-in scene")?;
     let simulation = Simulation::new(&scene)?;
@@ -107,7 +107,7 @@ fn picture(scene: &str, depth: f64, arrange: impl Fn(&mut Studio)) -> Result<Pic
     })
 }
 
-/// A ball of `radius` [m] that is `depth` [m] deep, held from the upper right.
+/// A ball of `radius` [m] that is `depth` [m] deep, its shaft from the upper right.
 fn pressed(studio: &Studio, simulation: &Simulation, radius: f64, depth: f64) -> Option<Pose> {
     let surface = simulation.surface();
     let tree = AabbTree::new(surface.mesh());

@@ -1,4 +1,4 @@
-//! Progressive cutting (section 7.7): what a blade does to the triangles, and how an opening is seen.
+//! Progressive cutting (section 7.7): triangles under a blade, and pictures of an opening.
 
 pub(crate) mod figure_7_15;
 pub(crate) mod figure_7_16;

@@ -1,4 +1,4 @@
-//! What each method says of the esophagus: the table of `docs/theory/esophagus.md`.
+//! Results of each method for the esophagus: the table of `docs/theory/esophagus.md`.
 
 use palpate_mechanics::contact::Friction;
 use std::sync::Arc;

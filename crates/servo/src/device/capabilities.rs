@@ -1,26 +1,26 @@
 use crate::{DeadMan, Vec3};
 
-/// What a device is. Its frame is right-handed: x right, y up, z toward the user.
+/// The properties of a device. Its frame is right-handed: x right, y up, z toward the user.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Capabilities {
     /// Its name.
     pub name: String,
-    /// Least and greatest corner of where its handle can go [m]; none for everywhere.
+    /// Least and greatest corner of its workspace [m]; none if unlimited.
     pub workspace: Option<[Vec3; 2]>,
     /// The largest force that it displays [N].
     pub peak_force: f64,
-    /// The largest that its motors bear for as long as one likes [N].
+    /// The largest continuous force, which its motors bear without a time limit [N].
     pub continuous_force: f64,
-    /// What a hand holds while it wants forces; none where there is no such switch.
+    /// Its dead-man's switch; none for a device without one.
     pub dead_man: Option<DeadMan>,
-    /// Bit by bit, which of its buttons take all forces of the session off for as long as one is pressed.
+    /// Bit mask of the stop buttons: they take off all forces of the session while pressed.
     pub stop_buttons: u32,
-    /// Whether its forces reach a hand. A mouse takes every force and displays none.
+    /// Whether its forces reach a hand. A mouse accepts every force and displays none.
     pub displays_force: bool,
 }
 
 impl Capabilities {
-    /// One that takes every force and displays none.
+    /// A device that accepts every force and displays none.
     pub fn without_force(name: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -33,7 +33,7 @@ impl Capabilities {
         }
     }
 
-    /// A PHANTOM Premium 1.5: 8.5 N, and 1.4 N for as long as one likes, as its maker states.
+    /// A PHANTOM Premium 1.5: 8.5 N peak and 1.4 N continuous force, as its maker states.
     pub fn premium(name: &str) -> Self {
         Self {
             peak_force: 8.5,

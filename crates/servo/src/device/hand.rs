@@ -1,7 +1,7 @@
 use crate::{Fault, Vec3};
 
-/// A hand that gives way: a mass on a spring and a damper to where it wants to be,
-/// m a = k (x_w − x) + b (v_w − v) + F.
+/// A compliant hand: a mass on a spring and a damper attached to the target position, m a = k (x_w − x) + b (v_w − v) +
+/// F.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HandImpedance {
     /// m, of hand and handle together [kg].
@@ -13,7 +13,7 @@ pub struct HandImpedance {
 }
 
 impl Default for HandImpedance {
-    /// A hand that holds a handle lightly.
+    /// A light grasp of a handle.
     fn default() -> Self {
         Self {
             mass: 0.18,
@@ -26,7 +26,7 @@ impl Default for HandImpedance {
 /// Longest step of its motion [s]: a part in six hundred of the period of a stiff grasp (0.1 kg, 4 kN/m).
 const LONGEST: f64 = 50e-6;
 
-/// Where a hand is and how it moves.
+/// Position and velocity of a hand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct HandState {
     /// [m]
@@ -42,8 +42,8 @@ impl HandImpedance {
         Fault::unless_finite_and_positive("the hand's damping [N s/m]", self.damping)
     }
 
-    /// Moves `state` on for `elapsed` [s] under `force` [N], towards what `wanted` says of a part of that
-    /// time: place [m] and velocity [m/s]. Semi-implicit Euler in steps of 50 µs at most.
+    /// Advances `state` by `elapsed` [s] under `force` [N]; `wanted` gives the target position [m] and velocity [m/s]
+    /// at a fraction of that time. Semi-implicit Euler in steps of 50 µs at most.
     pub(super) fn advance(
         &self,
         state: &mut HandState,

@@ -1,8 +1,8 @@
-//! The seam to devices. The virtual ones and the real ones are the same to everybody above it.
+//! The interface of devices. Virtual and real devices are the same to all callers.
 //!
-//! A device is commanded by a [`ServoLoop`](crate::ServoLoop) alone, for nobody else can make a [`Command`] with a
-//! force: its force is an [`OutputForce`], which the guard makes, and the loop gives it to the device whose
-//! [`Capabilities`] the guard was made for.
+//! Only a [`ServoLoop`](crate::ServoLoop) commands a device, since nothing else can make a [`Command`] with a force:
+//! that force is an [`OutputForce`], which the guard makes, and the loop gives it to the device whose [`Capabilities`]
+//! the guard was made for.
 //!
 //! ```compile_fail,E0624
 //! use palpate_servo::{Command, Vec3};
@@ -31,7 +31,7 @@
 //! }
 //! ```
 //!
-//! What is without force is open to everybody:
+//! Commands without force are public:
 //!
 //! ```
 //! use palpate_servo::{Command, Device, NoDevice, Vec3};
@@ -60,7 +60,7 @@ pub use virtual_device::VirtualDevice;
 
 use crate::{Fault, OutputForce, Vec3};
 
-/// What a device is told at a tick.
+/// The command for a device at a tick.
 #[derive(Debug, PartialEq)]
 pub struct Command {
     /// The time on the loop's clock [s].
@@ -85,31 +85,31 @@ impl Command {
     }
 }
 
-/// What a device answers.
+/// The state that a device returns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DeviceState {
     /// The time on the loop's clock [s].
     pub time: f64,
-    /// Where its handle is [m].
+    /// Position of its handle [m].
     pub position: Vec3,
-    /// How it moves [m/s]; none when the device does not measure it, and then the loop takes it from the
+    /// Velocity of its handle [m/s]; none if the device does not measure it. The loop then computes it from the
     /// positions.
     pub velocity: Option<Vec3>,
     /// The rotation from the handle's frame to the device's.
     pub orientation: Option<UnitQuaternion<f64>>,
     /// From 0, open, to 1, shut [-].
     pub grip: f64,
-    /// Bit by bit, which buttons are pressed.
+    /// Bit mask of the pressed buttons.
     pub buttons: u32,
-    /// Whether somebody is there: false before a hand takes a tool up, as a mouse outside its window, and for a stylus
+    /// Whether a hand holds the handle: false before the first grasp, for a mouse outside its window, and for a stylus
     /// in its inkwell.
     pub present: bool,
     /// Whether it is calibrated, powered and free to display forces.
     pub ready: bool,
-    /// The force that it says it displays [N]; none when it does not say.
+    /// The force that it reports as displayed [N]; none if it does not report one.
     pub displayed: Option<Vec3>,
-    /// Why it took its forces off by itself, while it goes on answering; the loop then takes them off until
-    /// somebody arms again.
+    /// Why it took its forces off by itself although it still answers; the loop then keeps them off until a person arms
+    /// again.
     pub fault: Option<Fault>,
 }
 
@@ -131,41 +131,41 @@ impl DeviceState {
     }
 }
 
-/// What is known of a device whose forces were disabled.
+/// The result of disabling a device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Disabled {
-    /// It took the command for zero force, and displays none.
+    /// It confirmed the command for zero force, and displays none.
     NoForce,
-    /// It did not answer, or cannot say: its own watchdog, or its switch, has to do it.
+    /// It did not answer, or cannot confirm: its own watchdog or switch has to take the force off.
     Unknown,
 }
 
-/// A haptic device, or what stands for one.
+/// A haptic device, or a substitute for one.
 ///
-/// A loop calls [`enable`](Self::enable) when a person armed, [`exchange`](Self::exchange) at every tick, and
+/// A loop calls [`enable`](Self::enable) after a person armed, [`exchange`](Self::exchange) at every tick, and
 /// [`disable`](Self::disable) at once after a fault, at its end, and when it is dropped.
 pub trait Device: Send {
-    /// What it is, and what it can do.
+    /// Its properties.
     fn capabilities(&self) -> &Capabilities;
 
-    /// Lets it display forces, also after it took them off by itself. Before, it answers and displays none.
+    /// Lets it display forces, also after it took them off by itself. Until then it answers and displays none.
     ///
     /// # Errors
     /// When the device refuses; it goes on answering without force.
     fn enable(&mut self) -> Result<(), Fault>;
 
-    /// Force out, state back: the one call of a tick. It allocates nothing, unless the device's protocol cannot do
-    /// without, and waits no longer than the time that the device was opened with.
+    /// Sends the force and returns the state: the one call of a tick. It allocates nothing, unless the device's
+    /// protocol requires it, and waits no longer than the timeout with which the device was opened.
     ///
     /// # Errors
     /// When the device does not answer or reports a fault; the loop then disables it and ends.
     fn exchange(&mut self, command: &Command) -> Result<DeviceState, Fault>;
 
-    /// Takes every force off, and returns when that is done or cannot be known. It can be called at any time and any
-    /// number of times; a device does it by itself when it is dropped.
+    /// Takes every force off, and returns when that is done or cannot be confirmed. It can be called at any time and
+    /// any number of times; dropping a device does the same.
     fn disable(&mut self) -> Disabled;
 
-    /// The scheduler from whose thread the device has to be called; none for one that any thread may call.
+    /// The scheduler on whose thread the device has to be called; none if any thread may call it.
     fn scheduler(&self) -> Option<Box<dyn Scheduler>> {
         None
     }

@@ -1,7 +1,7 @@
 use super::{Capabilities, Command, Device, DeviceState, Disabled};
 use crate::{Fault, Vec3};
 
-/// Nobody: a handle that rests in one place and feels nothing.
+/// No device: a handle at rest in one position that displays no force.
 #[derive(Debug, Clone)]
 pub struct NoDevice {
     capabilities: Capabilities,

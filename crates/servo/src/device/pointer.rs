@@ -1,12 +1,12 @@
-//! A device that is moved from another thread: the mouse in a window.
+//! A device that another thread moves: the mouse in a window.
 //!
-//! Who owns the window decides which place a gesture means and moves the [`PointerHand`] there, some sixty
-//! times a second; the [`Pointer`] follows at every tick, x ← x + (1 − exp(−Δt/τ)) (target − x), so that the
-//! tool glides where the mouse leaps. It takes every force and displays none.
+//! The owner of the window maps a gesture to a position and moves the [`PointerHand`] there, some sixty times a second;
+//! the [`Pointer`] follows at every tick, x ← x + (1 − exp(−Δt/τ)) (target − x), so that the tool moves smoothly where
+//! the mouse jumps. It accepts every force and displays none.
 //!
 //! *How we know*: `devices::a_pointer_glides_to_its_hand`, `devices::a_pointer_that_is_put_down_glides_from_there`.
 //!
-//! *Limits*: the tool is τ behind the mouse, 15 ms unless set otherwise.
+//! *Limits*: the tool lags behind the mouse by τ, 15 ms unless set otherwise.
 
 use nalgebra::UnitQuaternion;
 
@@ -20,32 +20,32 @@ const SMOOTHING: f64 = 0.015;
 #[derive(Debug, Clone, Copy, Default)]
 struct Target {
     position: Option<Vec3>,
-    /// Where it was put down last [m], and how often it was.
+    /// The position [m] at which the tool last appeared, and how often it did.
     put: (Vec3, u32),
     orientation: Option<UnitQuaternion<f64>>,
     grip: f64,
     buttons: u32,
 }
 
-/// The end of a pointer that a window moves.
+/// The window's end of a pointer.
 pub struct PointerHand {
     sender: Sender<Target>,
     target: Target,
 }
 
-/// The end of a pointer that is a device.
+/// The device's end of a pointer.
 pub struct Pointer {
     capabilities: Capabilities,
     receiver: Receiver<Target>,
     smoothing: f64,
     position: Option<Vec3>,
-    /// How often it was put down.
+    /// How often the tool has appeared.
     put: u32,
     time: f64,
 }
 
 impl Pointer {
-    /// A device that nobody holds yet, and the hand that moves it.
+    /// A device without a hand yet, and the hand that moves it.
     pub fn new() -> (Self, PointerHand) {
         let target = Target::default();
         let (sender, receiver) = channel(&target);
@@ -60,7 +60,7 @@ impl Pointer {
         (pointer, PointerHand { sender, target })
     }
 
-    /// The same with another time to follow [s]; zero leaps with the mouse.
+    /// The same with another time constant [s]; zero follows the mouse at once.
     pub fn with_smoothing(mut self, time: f64) -> Self {
         self.smoothing = time.max(0.0);
         self
@@ -68,32 +68,32 @@ impl Pointer {
 }
 
 impl PointerHand {
-    /// Takes the tool up, if it is not held, and moves it to `position` [m].
+    /// Moves the tool to `position` [m]; a tool without a hand appears there.
     pub fn move_to(&mut self, position: Vec3) {
         self.target.position = Some(position);
         self.sender.send(self.target);
     }
 
-    /// Puts the tool down at `start` [m], without a way there, from where it moves to `position` [m].
+    /// Makes the tool appear at `start` [m] without a path to it, and moves it to `position` [m].
     pub fn move_from(&mut self, start: Vec3, position: Vec3) {
         self.target.put = (start, self.target.put.1.wrapping_add(1));
         self.move_to(position);
     }
 
-    /// Turns the handle; none leaves its direction to the scene.
+    /// Turns the handle; with none the scene determines its direction.
     pub fn turn_to(&mut self, orientation: Option<UnitQuaternion<f64>>) {
         self.target.orientation = orientation;
         self.sender.send(self.target);
     }
 
-    /// Closes the grip, from 0, open, to 1, shut [-], and presses `buttons`, bit by bit.
+    /// Closes the grip, from 0, open, to 1, shut [-], and presses `buttons` (bit mask).
     pub fn press(&mut self, grip: f64, buttons: u32) {
         self.target.grip = grip.clamp(0.0, 1.0);
         self.target.buttons = buttons;
         self.sender.send(self.target);
     }
 
-    /// Takes the tool away; the next `move_to` puts it where it says, without a way there.
+    /// Removes the hand; at the next `move_to` the tool appears there, without a path to it.
     pub fn leave(&mut self) {
         self.target.position = None;
         self.sender.send(self.target);

@@ -2,31 +2,31 @@ use nalgebra::UnitQuaternion;
 
 use crate::{Fault, Vec3};
 
-/// A place on a way, and when it is reached.
+/// A waypoint: a position and its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Waypoint {
-    /// When [s].
+    /// Time [s].
     pub time: f64,
-    /// Where [m].
+    /// Position [m].
     pub position: Vec3,
-    /// How the handle is turned.
+    /// Orientation of the handle.
     pub orientation: Option<UnitQuaternion<f64>>,
     /// From 0, open, to 1, shut [-].
     pub grip: f64,
-    /// Bit by bit, which buttons are pressed.
+    /// Bit mask of the pressed buttons.
     pub buttons: u32,
 }
 
-/// What a scripted hand does.
+/// The motion of a scripted hand.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Trajectory {
-    /// Straight lines between places; at rest before the first and after the last.
+    /// Straight lines between waypoints; at rest before the first and after the last.
     Way(Vec<Waypoint>),
     /// center + amplitude sin(2π f t).
     Sine {
         /// The middle [m].
         center: Vec3,
-        /// From the middle to an end [m].
+        /// From the middle to an end of the motion [m].
         amplitude: Vec3,
         /// f [Hz].
         frequency: f64,
@@ -47,10 +47,10 @@ impl Waypoint {
 }
 
 impl Trajectory {
-    /// A way through `places`.
+    /// A path through `places`.
     ///
     /// # Errors
-    /// When there is none, or their times do not rise.
+    /// When there is none, or their times do not increase.
     pub fn way(places: Vec<Waypoint>) -> Result<Self, Fault> {
         let setting = |what, found, expected| Fault::Setting {
             what,
@@ -69,8 +69,8 @@ impl Trajectory {
         Ok(Self::Way(places))
     }
 
-    /// Where the hand is at `time` [s]. Between two places the handle turns about one axis and keeps the
-    /// buttons of the first.
+    /// The state of the hand at `time` [s]. Between two waypoints the handle turns about one axis and keeps the buttons
+    /// of the first.
     pub fn at(&self, time: f64) -> Waypoint {
         match self {
             Self::Way(places) => on_the_way(places, time),
@@ -95,7 +95,7 @@ fn on_the_way(places: &[Waypoint], time: f64) -> Waypoint {
     let (from, to) = (&places[after - 1], &places[after]);
     let part = (time - from.time) / (to.time - from.time);
     let orientation = match (from.orientation, to.orientation) {
-        // Half a turn has no one axis; the first place then counts.
+        // Half a turn has no unique axis; the first waypoint then counts.
         (Some(from), Some(to)) => Some(from.try_slerp(&to, part, 1e-9).unwrap_or(from)),
         (from, _) => from,
     };

@@ -1,11 +1,11 @@
-//! A scripted hand on a handle that is not there, for tests, demonstrations and runs without a device.
+//! A scripted hand on a virtual handle, for tests, demonstrations and runs without a device.
 //!
-//! A stiff hand is where its trajectory says, whatever the force. One that gives way ([`HandImpedance`]) is pushed
-//! off it.
+//! A stiff hand follows its trajectory exactly, whatever the force. The force deflects a compliant hand
+//! ([`HandImpedance`]) from it.
 //!
 //! *How we know*: `devices::a_hand_yields_as_its_spring_says`, `devices::a_hand_swings_at_its_frequency`.
 //!
-//! *Limits*: it has no inertia of links, no friction, no encoder: it is a hand, not a model of a machine.
+//! *Limits*: it has no link inertia, no friction and no encoder: it models a hand, not a machine.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -40,7 +40,7 @@ impl VirtualDevice {
         }
     }
 
-    /// The same, held by a hand that gives way.
+    /// The same with a compliant hand.
     ///
     /// # Errors
     /// When a number of the hand is not above zero.
@@ -50,19 +50,19 @@ impl VirtualDevice {
         Ok(self)
     }
 
-    /// The same with another specification.
+    /// The same with other capabilities.
     pub fn with_capabilities(mut self, capabilities: Capabilities) -> Self {
         self.capabilities = capabilities;
         self
     }
 
-    /// How often it was disabled, to be read also when it is gone.
+    /// How often it was disabled; also readable after it is dropped.
     pub fn stops(&self) -> Arc<AtomicU32> {
         self.stops.clone()
     }
 
-    /// Moves on to `time` [s] under the last force, and takes `force` [N] from then on. What simulates a device under
-    /// another's driver calls it; no hand is there.
+    /// Advances to `time` [s] under the last force, and applies `force` [N] from then on. Stand-ins that simulate a
+    /// device under a real driver call it; no hand is present.
     pub fn advance(&mut self, time: f64, force: &Vec3) -> DeviceState {
         let scripted = self.trajectory.at(time);
         let position = match self.hand {

@@ -2,7 +2,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::Vec3;
 
-/// The links of a PHANTOM Premium 1.5 as far as their weight and their reach go: the kinematics and the statics of
+/// The links of a PHANTOM Premium 1.5, as far as needed for their weight and reach: the kinematics and statics of
 /// [Çavuşoğlu, Feygin and Tendick 2002].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Linkage {
@@ -24,7 +24,7 @@ impl Linkage {
         }
     }
 
-    /// Where the handle is [m], for joints at `angles` [rad]: x right, y up, z toward the user, zero at rest.
+    /// Position of the handle [m] for joint `angles` [rad]: x right, y up, z toward the user, zero at rest.
     pub fn position(&self, angles: &Vec3) -> Vec3 {
         let [l1, l2, ..] = self.lengths;
         let reach = l1 * angles.y.cos() + l2 * angles.z.sin();
@@ -35,7 +35,7 @@ impl Linkage {
         )
     }
 
-    /// The motion of the handle per joint rate, one column for each joint [m].
+    /// The Jacobian: handle motion per joint rate, one column for each joint [m].
     pub fn jacobian(&self, angles: &Vec3) -> Matrix3<f64> {
         let [l1, l2, ..] = self.lengths;
         let (s1, c1) = angles.x.sin_cos();
@@ -49,7 +49,7 @@ impl Linkage {
         ])
     }
 
-    /// The joints at which the handle is at `position` [m]; none where it cannot be. The elbow is bent as at rest.
+    /// The joint angles for a handle at `position` [m]; none if out of reach. The elbow is bent as at rest.
     pub fn angles(&self, position: &Vec3) -> Option<Vec3> {
         let [l1, l2, ..] = self.lengths;
         let (x, z) = (position.x, position.z + l1);
@@ -65,8 +65,7 @@ impl Linkage {
         Some(Vec3::new(x.atan2(z), upper, upper + elbow))
     }
 
-    /// The force on the handle [N] that balances the weight of the links at `position` [m]; none where the handle cannot
-    /// be.
+    /// The force on the handle [N] that balances the weight of the links at `position` [m]; none if out of reach.
     pub fn holding_force(&self, position: &Vec3) -> Option<Vec3> {
         let angles = self.angles(position)?;
         let back = self.jacobian(&angles).transpose().try_inverse()?;

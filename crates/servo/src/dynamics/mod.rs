@@ -1,4 +1,4 @@
-//! What a device adds against its own weight, spring and mass: [`Compensation`], and the [`Linkage`] whose weight it
+//! Compensation of a device's own weight, spring and mass: [`Compensation`], and the [`Linkage`] whose weight it
 //! balances.
 //!
 //! *How we know*: `compensation::…` of the crate `measure`, whose virtual PHANTOM has such a weight, spring and mass.

@@ -1,42 +1,42 @@
-//! When forces are on: Off → Ready → Ramping → Live, and Fault from anywhere.
+//! The stages of arming: Off → Ready → Ramping → Live, and Fault from anywhere.
 
 use crate::Fault;
 
 use super::Limits;
 
-/// How far forces are on.
+/// The stage of arming.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Stage {
-    /// The device is not ready, or nobody is there.
+    /// The device is not ready, or no hand is present.
     #[default]
     Off,
-    /// It is; forces wait until the hand is slow and the force small.
+    /// The device is ready; forces wait until the hand is slow and the force small.
     Ready,
-    /// Forces are raised; this long since [s].
+    /// Forces are ramping up; the time since the start of the ramp [s].
     Ramping(f64),
-    /// They are whole.
+    /// Full forces are on.
     Live,
-    /// They are off, for this reason.
+    /// Forces are off, for this reason.
     Faulted(Fault),
 }
 
-/// What arming looks at.
+/// The inputs of arming.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Conditions {
-    /// Whether the session allows a force, the device is ready and somebody there.
+    /// Whether the session allows a force, the device is ready and a hand is present.
     pub ready: bool,
     /// Whether the session allows a force.
     pub allowed: bool,
-    /// How fast the hand is [m/s].
+    /// Speed of the hand [m/s].
     pub speed: f64,
-    /// How large the force would be [N].
+    /// Magnitude of the commanded force [N].
     pub force: f64,
-    /// Whether somebody asked to arm again.
+    /// Whether a person asked to arm again.
     pub asked: bool,
 }
 
 impl Stage {
-    /// The stage after `dt` [s] more.
+    /// The stage `dt` [s] later.
     #[must_use]
     pub fn next(self, conditions: &Conditions, limits: &Limits, dt: f64) -> Self {
         match self {
@@ -44,7 +44,7 @@ impl Stage {
                 Self::Off
             }
             Self::Faulted(_) => self,
-            // Forces were off meanwhile, be it for less than a tick.
+            // Forces were off in between, if only for less than a tick.
             _ if conditions.asked || !conditions.ready => Self::Off,
             Self::Off => Self::Ready,
             Self::Ready => {
@@ -61,7 +61,7 @@ impl Stage {
         }
     }
 
-    /// The part of a force that is on [-].
+    /// The ramp gain, from 0 to 1 [-].
     pub fn part(self, limits: &Limits) -> f64 {
         match self {
             Self::Off | Self::Ready | Self::Faulted(_) => 0.0,

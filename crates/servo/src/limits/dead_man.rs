@@ -1,18 +1,18 @@
-//! A hand that lets go takes the force with it, within 50 ms.
+//! The dead-man's switch: when the hand releases it, the force drops to zero within 50 ms.
 
 use crate::DeviceState;
 
-/// What a hand holds for as long as it wants forces.
+/// A dead-man's switch: forces are on only while the hand holds it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DeadMan {
-    /// One of these buttons or safety switches, bit by bit.
+    /// One of these buttons or safety switches (bit mask).
     Buttons(u32),
-    /// A grip that is shut at least so far [-].
+    /// A grip that is shut at least this far [-].
     Grip(f64),
 }
 
 impl DeadMan {
-    /// Whether it is held at `state`.
+    /// Whether it is held in `state`.
     pub fn is_held(&self, state: &DeviceState) -> bool {
         match *self {
             Self::Buttons(buttons) => state.buttons & buttons != 0,
@@ -21,21 +21,21 @@ impl DeadMan {
     }
 }
 
-/// How a hand holds it.
+/// The state of a dead-man's switch.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Hold {
-    /// Not at all.
+    /// Not held.
     #[default]
     Free,
-    /// It does.
+    /// Held.
     Held,
-    /// It let go, this long ago [s].
+    /// Released, this long ago [s].
     LettingGo(f64),
 }
 
 impl Hold {
-    /// The hold `dt` [s] later. What was let go of is let go of whole, in `release` [s], whoever takes it up
-    /// meanwhile: forces are armed anew.
+    /// The state `dt` [s] later. A release always takes its full time `release` [s], even if the hand holds the switch
+    /// again meanwhile: forces are then armed anew.
     #[must_use]
     pub fn next(self, held: bool, dt: f64, release: f64) -> Self {
         let since = match self {
@@ -52,7 +52,7 @@ impl Hold {
         }
     }
 
-    /// The part of a force that is left [-].
+    /// The remaining part of a force [-].
     pub fn part(self, release: f64) -> f64 {
         match self {
             Self::Free => 0.0,
@@ -83,7 +83,7 @@ mod tests {
         let release = 0.050;
         let mut hold = Hold::Held;
         for tick in 1..50 {
-            // Taking it up again does not bring it back.
+            // Holding it again does not restore the force.
             hold = hold.next(tick > 20, 1e-3, release);
             // A line from one to zero.
             assert!((hold.part(release) - (1.0 - f64::from(tick) / 50.0)).abs() < 1e-12);

@@ -9,7 +9,7 @@ use super::watchdog::{Verdict, judge_gap, judge_silence};
 use super::{Interventions, Limits};
 use crate::{Capabilities, DeviceState, Fault, Vec3};
 
-/// The force of a tick, within every limit. The guard makes it, and nobody else; all may make one that is zero.
+/// The force of a tick, within every limit. Only the guard makes it; anyone can make a zero force.
 #[derive(Debug, PartialEq)]
 pub struct OutputForce {
     force: Vec3,
@@ -31,16 +31,17 @@ impl OutputForce {
     }
 }
 
-/// A force that a controller wants, and what is known at the tick.
+/// The force that a controller commands, and the inputs of the limits at a tick.
 #[derive(Debug, Clone, Copy)]
 pub struct CommandedForce {
-    /// The force [N]; any number, or none.
+    /// The force [N]; any number, also not finite.
     pub force: Vec3,
-    /// What is wanted besides against the device's own weight, spring and mass [N].
+    /// The additional force that compensates the device's own weight, spring and mass [N].
     pub compensation: Vec3,
     /// The velocity of the hand [m/s].
     pub velocity: Vec3,
-    /// How far what it is made of is beyond its time [s], below zero before; none for what does not age.
+    /// How far the age of the model's answer exceeds its validity [s], negative before; none for a force that does not
+    /// age.
     pub overdue: Option<f64>,
     /// How long the device has had its last force [s].
     pub gap: f64,
@@ -50,7 +51,7 @@ pub struct CommandedForce {
     pub asked: bool,
 }
 
-/// All stages in their order, and what they remember. Nothing reaches a device but through it.
+/// All stages in their order, with their state. No force reaches a device without it.
 #[derive(Debug, Clone)]
 pub struct Guard {
     limits: Limits,
@@ -60,9 +61,9 @@ pub struct Guard {
     hold: Hold,
     thermal: ThermalModel,
     passivity: Passivity,
-    /// Where the hand was at the last tick [m].
+    /// Position of the hand at the last tick [m].
     position: Option<Vec3>,
-    /// What was sent last, and before that, which the device had until now.
+    /// The last force sent, and the one before, which the device had until now.
     last: Sent,
     before: Sent,
     faults: u64,
@@ -72,29 +73,29 @@ pub struct Guard {
 /// The two parts of a force that was sent.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sent {
-    /// Of the controller and the walls [N].
+    /// From the controller and the walls [N].
     rendered: Vec3,
-    /// Of both [N].
+    /// With the compensation [N].
     whole: Vec3,
 }
 
-/// What of a device the stages ask for.
+/// The properties of a device that the stages need.
 #[derive(Debug, Clone, Copy)]
 struct Bounds {
     workspace: Option<[Vec3; 2]>,
     dead_man: Option<super::DeadMan>,
     /// The largest force that may be sent [N].
     most: f64,
-    /// The largest that it displays, and that its motors bear [N].
+    /// The largest force that it displays, and the largest that its motors bear continuously [N].
     peak: f64,
     continuous: f64,
 }
 
 impl Guard {
-    /// Off, with `limits`, for a device and ticks of `period` [s].
+    /// A guard in stage off, with `limits`, for a device and ticks of `period` [s].
     ///
     /// # Errors
-    /// When a limit is not a number above zero.
+    /// When a limit is not positive.
     pub fn new(limits: Limits, capabilities: &Capabilities, period: f64) -> Result<Self, Fault> {
         limits.check()?;
         Fault::unless_positive(
@@ -132,27 +133,27 @@ impl Guard {
         })
     }
 
-    /// How far forces are on.
+    /// The stage of arming.
     pub fn stage(&self) -> Stage {
         self.stage
     }
 
-    /// The part of a force that is on [-].
+    /// The gain on forces: ramp times dead-man's switch [-].
     pub fn part(&self) -> f64 {
         self.stage.part(&self.limits) * self.hold.part(self.limits.release)
     }
 
-    /// The largest force that may be sent now [N].
+    /// The current upper bound of the force [N].
     pub fn most(&self) -> f64 {
         self.thermal.most(self.device.most, self.device.continuous)
     }
 
-    /// Whether a fault keeps forces off until somebody arms them.
+    /// Whether a fault keeps forces off until a person arms again.
     pub(crate) fn is_latched(&self) -> bool {
         self.limits.latched
     }
 
-    /// How many faults there were.
+    /// Number of faults.
     pub fn faults(&self) -> u64 {
         self.faults
     }
@@ -162,17 +163,17 @@ impl Guard {
         self.interventions
     }
 
-    /// What was sent last of what the controller wants [N].
+    /// The controller's part of the last force sent [N].
     pub fn rendered(&self) -> Vec3 {
         self.last.rendered
     }
 
-    /// What was sent last against the device's own weight, spring and mass [N].
+    /// The compensation in the last force sent, against the device's own weight, spring and mass [N].
     pub fn compensation(&self) -> Vec3 {
         self.last.whole - self.last.rendered
     }
 
-    /// Takes forces off for a reason from outside.
+    /// Takes forces off for an external reason.
     pub fn trip(&mut self, fault: Fault) {
         if !matches!(self.stage, Stage::Faulted(_)) {
             self.faults += 1;
@@ -181,13 +182,13 @@ impl Guard {
         self.last = Sent::default();
     }
 
-    /// Takes forces off for another reason than the one before, which a person has seen.
+    /// Takes forces off for a new reason, after a person has acknowledged the last one.
     pub(crate) fn trip_again(&mut self, fault: Fault) {
         self.stage = Stage::Off;
         self.trip(fault);
     }
 
-    /// The force that may be sent for `wish` at `state`, `dt` [s] after the last.
+    /// The output force for `commanded` at `state`, `dt` [s] after the last.
     pub fn pass(
         &mut self,
         commanded: &CommandedForce,
@@ -195,7 +196,7 @@ impl Guard {
         dt: f64,
     ) -> OutputForce {
         self.observe(state, dt);
-        self.follow_hold(state, dt);
+        self.update_dead_man(state, dt);
         let fault = self.fault_of(commanded, state);
         self.last = match fault {
             Some(fault) => {
@@ -209,7 +210,7 @@ impl Guard {
         }
     }
 
-    /// What the last forces did.
+    /// Updates the energy and heat of the last forces.
     fn observe(&mut self, state: &DeviceState, dt: f64) {
         let there = state.present && is_finite(&state.position);
         let place = there.then_some(state.position);
@@ -223,15 +224,15 @@ impl Guard {
         self.before = self.last;
     }
 
-    /// Whether somebody holds the device, also while there is a fault.
-    fn follow_hold(&mut self, state: &DeviceState, dt: f64) {
+    /// Updates the dead-man's switch, also during a fault.
+    fn update_dead_man(&mut self, state: &DeviceState, dt: f64) {
         let held = self
             .device
             .dead_man
             .is_none_or(|switch| switch.is_held(state));
         let hold = self.hold.next(held, dt, self.limits.release);
-        let lets_go = self.hold == Hold::Held && hold != Hold::Held;
-        self.interventions.dead_man_released += u64::from(lets_go && self.part() > 0.0);
+        let is_released = self.hold == Hold::Held && hold != Hold::Held;
+        self.interventions.dead_man_released += u64::from(is_released && self.part() > 0.0);
         self.hold = hold;
     }
 
@@ -262,9 +263,9 @@ impl Guard {
         }
     }
 
-    /// What is sent of what the controller wants [N].
+    /// The controller's part of the output force [N].
     fn render(&mut self, commanded: &CommandedForce, state: &DeviceState, dt: f64) -> Vec3 {
-        // Saturated before and after: a rise towards a long force would else turn it.
+        // Saturated before and after: otherwise limiting the rise towards a large force would turn it.
         let cold = saturate(&commanded.force, self.device.most);
         let damped = self.passivity.control(&cold, self.limits.energy_budget);
         let walls = self.walls(state);
@@ -281,12 +282,12 @@ impl Guard {
         saturate(&risen, most)
     }
 
-    /// The most that a force may rise in `dt` [s] [N].
+    /// The largest rise of a force in `dt` [s] [N].
     fn rise(&self, dt: f64) -> f64 {
         self.limits.slew * dt.min(self.period)
     }
 
-    /// How far forces are on after `dt` [s] more.
+    /// Advances the stage of arming by `dt` [s].
     fn arm(&mut self, commanded: &CommandedForce, state: &DeviceState, dt: f64) {
         let conditions = Conditions {
             ready: commanded.allowed && state.ready && state.present && self.hold != Hold::Free,
@@ -313,7 +314,7 @@ impl Guard {
         if on && speed > limit {
             return Some(Fault::TooFast { speed, limit });
         }
-        // Before the first answer there is no force that could be too old.
+        // Before the first answer no force can be too old.
         let overdue = commanded
             .overdue
             .filter(|overdue| on && overdue.is_finite());

@@ -1,26 +1,26 @@
-/// How often the stages changed a force.
+/// How often each stage changed a force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
 pub struct Interventions {
-    /// Times that a hand let go of its dead-man's switch.
+    /// Releases of the dead-man's switch.
     pub dead_man_released: u64,
-    /// Ticks without force, after one that was too late.
+    /// Ticks without force, after one that missed its deadline.
     pub deadline_missed: u64,
-    /// Ticks with an answer of the model beyond its time, which fades.
+    /// Ticks with an overdue, fading answer of the model.
     pub faded: u64,
-    /// Ticks in which energy was kept from the hand.
+    /// Ticks in which the passivity controller dissipated energy.
     pub damped: u64,
     /// Ticks in a wall of the workspace.
     pub walls: u64,
-    /// Ticks in which a force was shortened to the largest that is allowed.
+    /// Ticks in which the force was saturated at the limit.
     pub saturated: u64,
-    /// Ticks in which motors that were warm had less than that.
+    /// Ticks in which the thermal limit saturated the force.
     pub thermally_limited: u64,
-    /// Ticks in which a force rose as fast as it may.
+    /// Ticks in which the slew rate limited the force.
     pub rate_limited: u64,
 }
 
 impl Interventions {
-    /// All of them, whichever stage it was.
+    /// The sum over all stages.
     pub fn count(&self) -> u64 {
         let Self {
             dead_man_released,

@@ -1,9 +1,8 @@
-//! How large a force may be.
+//! The limit of the force's magnitude.
 
 use crate::Vec3;
 
-/// `force` [N], shortened to `most` [N] where it is longer. Its direction stays, which limits on each axis
-/// would turn.
+/// `force` [N], saturated at the magnitude `most` [N]. Its direction stays; limits on each axis would turn it.
 pub fn saturate(force: &Vec3, most: f64) -> Vec3 {
     // Squares of a force beyond 1e154 N would be infinite.
     let largest = force.amax();
@@ -17,7 +16,7 @@ pub fn saturate(force: &Vec3, most: f64) -> Vec3 {
         return *force;
     }
     let shortened = scaled * (most / size);
-    // Rounding may leave it a last digit too long.
+    // Rounding may leave it one last digit too large.
     shortened * (most / shortened.norm()).min(1.0)
 }
 

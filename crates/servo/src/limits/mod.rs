@@ -1,30 +1,28 @@
-//! What a force passes before it reaches a hand. The order is fixed; each stage is a small type or
-//! function of its own.
+//! The limits that a force passes before it reaches a hand. The order is fixed; each stage is a small type or function
+//! of its own.
 //!
-//! 1. A force or a state that is no number is no force, and a fault; so is what a device reports of itself.
+//! 1. A force or state that is not finite is a fault and gives no force; so does a fault that the device reports.
 //! 2. A hand faster than 1 m/s is a fault.
-//! 3. [`watchdog`]: a device that had to keep a force much too long is a fault, and so is a model whose answer
-//!    is overdue by 10 ms, in which its force has faded; a device that had to keep one too long gets none for a
-//!    tick.
-//! 4. [`dead_man`]: what is let go of has no force 50 ms later, and is armed anew.
+//! 3. [`watchdog`]: it is a fault if a device had to keep a force much too long, or if a model's answer is overdue by
+//!    10 ms, in which its force has faded; a device that had to keep a force too long gets none for a tick.
+//! 4. [`dead_man`]: after a release the force drops to zero within 50 ms, and is armed anew.
 //! 5. [`arming`]: no force before the session allows one ([`crate::supervisor`]), the device is ready and held, the
 //!    hand slow and the force small; then it is raised over half a second.
 //! 6. [`passivity`]: a hand gets back at most the energy that it put in.
 //! 7. [`walls`]: a soft wall before the ends of the workspace.
-//! 8. [`magnitude`]: at most 3 N, and at most what the device displays, by shortening the vector; half of it
-//!    where no dead-man's switch is; [`heat`]: at most what its motors bear.
+//! 8. [`magnitude`]: at most 3 N, and at most what the device displays, by saturating the vector; half of it without a
+//!    dead-man's switch; [`thermal`]: at most what its motors bear.
 //! 9. [`slew`]: a force rises by at most 400 N/s and falls at once.
 //!
-//! What is added against the device's own weight, spring and mass passes stages 1 to 5, 8 (what the device displays, and
-//! its motors bear) and 9 with the rest: what is sent is one force, an [`OutputForce`].
+//! The compensation of the device's own weight, spring and mass passes stages 1 to 5, 8 (the device's peak force, and
+//! the thermal limit) and 9 with the rest: the sum is one force, an [`OutputForce`].
 //!
-//! A fault keeps forces off until somebody arms them again. What the stages did is counted
-//! ([`Interventions`]).
+//! A fault keeps forces off until a person arms again. [`Interventions`] counts the actions of the stages.
 //!
 //! *How we know*: `limits::nothing_passes_the_limits`, `chain::…`, `passivity::…`, and the tests of each stage.
 //!
-//! *Limits*: no second thread watches over a loop that hangs in its device; that is left to the device's own
-//! watchdog. No virtual coupling: tissue is softer than what needs one.
+//! *Limits*: no second thread guards a loop that hangs in its device; that is left to the device's own watchdog. No
+//! virtual coupling: tissue is softer than the stiffness that would need one.
 
 pub mod arming;
 pub mod dead_man;
@@ -45,7 +43,7 @@ pub use interventions::Interventions;
 use crate::extrapolate::FADE;
 use crate::{Capabilities, Fault};
 
-/// The numbers of the stages.
+/// The numerical limits of the stages.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// Largest magnitude of a force [N].
@@ -58,25 +56,26 @@ pub struct Limits {
     pub arming_speed: f64,
     /// Largest force with which they are armed [N].
     pub arming_force: f64,
-    /// Time in which an armed force is raised to its whole [s].
+    /// Time in which an armed force ramps up to full [s].
     pub ramp: f64,
     /// Width of the wall before the ends of the workspace [m].
     pub wall: f64,
-    /// How much longer than a tick a device may keep a force before it gets none [s].
+    /// How much longer than a tick a device may keep a force before it gets zero force [s].
     pub late: f64,
-    /// How much longer before that is a fault [s].
+    /// How much longer than a tick it may keep one before that is a fault [s].
     pub much_too_late: f64,
     /// How long a model's answer may be overdue before that is a fault [s].
     pub silence: f64,
-    /// Time in which a force is gone from a hand that lets go of its dead-man's switch [s].
+    /// Time in which the force drops to zero after a release of the dead-man's switch [s].
     pub release: f64,
-    /// The part of the largest force that is displayed without such a switch [-].
+    /// The part of the largest force that is allowed without such a switch [-].
     pub without_dead_man: f64,
-    /// The energy that may come out of a contact beyond what a hand put in [J]; infinite to leave it alone.
+    /// The energy budget: energy that may come out of a contact beyond what a hand put in [J]; infinite disables the
+    /// passivity controller.
     pub energy_budget: f64,
-    /// τ, in which motors cool [s].
+    /// τ, thermal time constant of the motors [s].
     pub heat_time: f64,
-    /// Whether a fault keeps forces off until somebody arms them; else they are armed when it is over.
+    /// Whether a fault keeps forces off until a person arms again; otherwise arming restarts when the fault ends.
     pub latched: bool,
 }
 
@@ -103,8 +102,8 @@ impl Default for Limits {
 }
 
 impl Limits {
-    /// The limits for a device. Where no force reaches a hand nothing can hurt it: a mouse may be as fast
-    /// as it likes, and a fault ends by itself.
+    /// The limits for a device. A device without force is harmless: a mouse may have any speed, and a fault ends by
+    /// itself.
     pub fn of(capabilities: &Capabilities) -> Self {
         let default = Self::default();
         if capabilities.displays_force {
@@ -122,8 +121,8 @@ impl Limits {
         }
     }
 
-    /// The limits of a machine that no hand holds, such as an indenter: it has nothing to let go of, and it is
-    /// there to do work.
+    /// The limits of a machine that no hand holds, such as an indenter: it has no dead-man's switch, and it is meant to
+    /// do work.
     pub fn without_hand() -> Self {
         Self {
             without_dead_man: 1.0,

@@ -1,4 +1,4 @@
-//! How fast a force may rise.
+//! The limit of a force's rate of rise.
 
 use crate::Vec3;
 
@@ -35,7 +35,7 @@ mod tests {
         assert_eq!(limit_rise(&one, &(one * 0.2), 0.4), one * 0.2);
         assert_eq!(limit_rise(&one, &none, 0.4), none);
         assert_eq!(limit_rise(&one, &-one, 0.4), -one * 0.4);
-        // What does not turn stays: 1 N to the right, and 0.4 N of the 2 N upward.
+        // The component along the last force stays: 1 N to the right, and 0.4 N of the 2 N upward.
         let up = limit_rise(&one, &(one + Vec3::y() * 2.0), 0.4);
         assert!((up - Vec3::new(1.0, 0.4, 0.0)).norm() < 1e-15);
     }

@@ -1,29 +1,28 @@
-//! How long a motor may be loaded: beyond its continuous force it warms up.
+//! Thermal model of a motor: beyond its continuous force it warms up.
 
-/// What the motors have had lately: the mean of the square of the force, which forgets with a time τ.
-/// τ d(q²)/dt = F² − q².
+/// Thermal load of the motors: the mean square of the force, with a time constant τ. τ d(q²)/dt = F² − q².
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ThermalModel {
     square: f64,
 }
 
-/// The part of the continuous force from which on the largest force is folded back [-].
+/// The part of the continuous force from which on the limit of the force decreases [-].
 const FOLDING: f64 = 0.8;
 
 impl ThermalModel {
-    /// Counts a `force` [N] that was there for `dt` [s], and forgets with `time` [s].
+    /// Applies a `force` [N] for `dt` [s], with the time constant `time` [s].
     pub fn add(&mut self, force: f64, dt: f64, time: f64) {
         let part = -(-dt / time).exp_m1();
         self.square += (force * force - self.square) * part;
     }
 
-    /// q, the force that would have warmed them as much [N].
+    /// q, the constant force with the same thermal load [N].
     pub fn load(&self) -> f64 {
         self.square.sqrt()
     }
 
-    /// The largest force that may be sent now [N]: `most` [N] until q reaches 0.8 of the `continuous` force
-    /// [N], from there on a line down to the continuous force itself, at which q stays.
+    /// The current limit of the force [N]: `most` [N] until q reaches 0.8 of the `continuous` force [N], then linear
+    /// down to the continuous force itself, at which q stays.
     pub fn most(&self, most: f64, continuous: f64) -> f64 {
         let part = (self.load() / continuous - FOLDING) / (1.0 - FOLDING);
         if part <= 0.0 || most <= continuous {

@@ -1,4 +1,4 @@
-//! A soft wall before the ends of a device's workspace, so that a hand does not run into its stops.
+//! A soft wall at the ends of a device's workspace, so that a hand does not hit its mechanical stops.
 
 use crate::Vec3;
 

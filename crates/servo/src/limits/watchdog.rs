@@ -1,20 +1,20 @@
-//! What becomes of a force that a device had to keep too long, or whose model is silent.
+//! Deadlines: a force that a device had to keep too long, or a silent model.
 
 use crate::Fault;
 
-/// What the last gap between two commands means for the next force.
+/// The consequence of the last gap between two commands for the next force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Verdict {
-    /// Nothing.
+    /// No consequence.
     InTime,
-    /// It is zero.
+    /// The next force is zero.
     NoForce,
-    /// Forces are off.
+    /// Forces go off.
     Faulted(Fault),
 }
 
-/// Judges a `gap` [s] between two commands that were to be `period` [s] apart: beyond the period by more
-/// than `late` [s] the next force is zero, by more than `much_too_late` [s] it is a fault.
+/// Judges a `gap` [s] between two commands with the nominal `period` [s]: beyond the period by more than `late` [s] the
+/// next force is zero, by more than `much_too_late` [s] it is a fault.
 pub fn judge_gap(gap: f64, period: f64, late: f64, much_too_late: f64) -> Verdict {
     let beyond = gap - period;
     if beyond > much_too_late {
@@ -27,7 +27,7 @@ pub fn judge_gap(gap: f64, period: f64, late: f64, much_too_late: f64) -> Verdic
     Verdict::InTime
 }
 
-/// Judges how long what a force is made of has been `overdue` [s].
+/// Judges for how long the model's answer has been `overdue` [s].
 pub fn judge_silence(overdue: f64, limit: f64) -> Verdict {
     if overdue > limit {
         return Verdict::Faulted(Fault::StaleModel { overdue, limit });

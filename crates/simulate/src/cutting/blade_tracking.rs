@@ -9,23 +9,23 @@ use crate::simulation::Simulation;
 use crate::state::ToolState;
 use crate::tool::Tool;
 
-/// An edge that cuts.
+/// A cutting edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Blade {
-    /// Where it is on the resting surface.
+    /// Its point on the resting surface.
     pub(crate) contact_point: ContactPoint,
-    /// Where the tip would be that is not held back [m].
+    /// Position of the tip without resistance [m].
     tip: Vec3,
 }
 
-/// Whether a tool that touches cuts.
+/// Whether a tool in contact cuts.
 pub(super) fn is_down(tool: &Tool, state: &ToolState) -> bool {
     let by_hand = cuts(tool.kind) && state.pose.is_some_and(|pose| pose.cut);
     state.contact.is_some() && (by_hand || state.broken_layers > 0)
 }
 
-/// Leads the edge of a tool that cuts along the surface, as far as its resistance lets it, and has the tissue
-/// held there.
+/// Moves the edge of a cutting tool along the surface, as far as its resistance permits, and attaches the contact to
+/// the tissue there.
 pub(crate) fn track_blade(
     simulation: &Simulation,
     model: &CuttingModel,
@@ -41,12 +41,12 @@ pub(crate) fn track_blade(
     };
     let tip = Vec3::from(pose.position_m);
     let frame = contact.place.frame;
-    let flat = |way: &Vec3| {
-        let local = frame.tr_mul(way);
+    let flat = |motion: &Vec3| {
+        let local = frame.tr_mul(motion);
         frame * Vector3::new(local.x, local.y, 0.0)
     };
     let blade = state.blade.unwrap_or_else(|| {
-        // It begins where the tissue is held.
+        // It begins at the contact location.
         let held = tip - flat(&(tip - contact.place.point));
         let contact_point = follow(
             &simulation.surface,
@@ -80,7 +80,7 @@ pub(crate) fn track_blade(
     let depth = contact.depth;
     if let Some(contact) = &mut state.contact {
         contact.place = place(
-            &simulation.ground(tool),
+            &simulation.rest_surface(tool),
             tool,
             &contact_point,
             depth,
@@ -89,7 +89,7 @@ pub(crate) fn track_blade(
     }
 }
 
-/// How far the tip goes ahead of an edge that `resistance` [N] holds back before that goes on [m].
+/// How far the tip moves ahead of an edge with this `resistance` [N] before the edge moves [m].
 fn reach(resistance: f64, tool: &Tool, state: &ToolState) -> f64 {
     if tool.kind == ToolKind::Scissors {
         return 0.0;

@@ -9,19 +9,19 @@ use crate::Contact;
 use crate::simulation::Simulation;
 use crate::state::SimulationState;
 
-/// A blade that is farther from its goal than this many of the surface's typical edges has left it [-].
+/// A blade that is farther from its goal than this many typical edges of the surface has left it [-].
 const LEFT: f64 = 3.0;
 
-/// A blade that is farther from where it was a step before [m] was lifted in between: no hand is that fast.
+/// A blade that is farther from its position a step before [m] was lifted in between: no hand is that fast.
 const LEAP: f64 = 5e-3;
 
-/// A blade that opens the surface goes on in an earlier opening where it has come this near to its middle, and one
-/// that goes along in an opening begins another where it has left its middle this far behind, in widths of an opening
-/// [-]: between the two it stays what it is, so that a path along the edge is not a row of punctures.
+/// A blade that opens the surface continues in an earlier opening once it is this close to its middle, and one that
+/// moves within an opening begins another one once it is this far from its middle, in widths of an opening [-]: between
+/// the two it does not change, so that a path along the edge is not a row of punctures.
 const ENTERS: f64 = 0.5;
 pub(super) const LEAVES: f64 = 1.5;
 
-/// What the force of a tool opens, and what its blade does. Called when the forces are known.
+/// Opens tissue by the force of a tool, and moves its blade. Called after the forces are known.
 pub(crate) fn advance(
     simulation: &Simulation,
     model: &CuttingModel,
@@ -65,7 +65,7 @@ pub(crate) fn advance(
         layers: reached.max(own.broken_layers),
     };
     let mut opened = all.go_on(simulation, model, &edge);
-    // What is pressed gives way under the whole tip, what is cut in its opening alone.
+    // Under pressure the tissue gives way under the whole tip, a cut only in its opening.
     let under = under.filter(|_| gives_way);
     let below = opening_at(&all.parts, &blade.contact_point.point, LEAVES * model.width);
     for part in [under, below].into_iter().flatten() {
@@ -79,24 +79,24 @@ pub(crate) fn advance(
     own.row.events = own.row.events | opened.events;
 }
 
-/// The edge of a tool that cuts.
+/// The edge of a cutting tool.
 struct Edge {
     tool: usize,
-    /// Where it is on the resting surface.
+    /// Its point on the resting surface.
     contact_point: ContactPoint,
     contact: Contact,
-    /// How many layers it opens where it is.
+    /// Number of layers that it opens there.
     layers: usize,
 }
 
-/// What a step has opened.
+/// The openings of a step.
 #[derive(Debug, Clone, Copy, Default)]
 struct Opened {
     events: Events,
     lag: usize,
 }
 
-/// The events of layers that are opened from `open` on up to `layers`.
+/// The events for opening the layers from `open` up to `layers`.
 fn events(model: &CuttingModel, open: usize, layers: usize) -> Events {
     if !model.is_layered {
         return Event::Cut.into();
@@ -110,10 +110,10 @@ fn events(model: &CuttingModel, open: usize, layers: usize) -> Events {
 }
 
 impl Cuts {
-    /// Moves the blade of a tool to where its `edge` is, or puts it down there.
+    /// Moves the blade of a tool to its `edge`, or puts it down there.
     fn go_on(&mut self, simulation: &Simulation, model: &CuttingModel, edge: &Edge) -> Opened {
         if edge.layers == 0 {
-            // It scratches.
+            // The blade scratches.
             self.lift(simulation, edge.tool);
             return Opened::default();
         }
@@ -145,7 +145,7 @@ impl Cuts {
         };
         self.set_blade(at);
         self.largest_lag = self.largest_lag.max(progress.lag);
-        // A vertex may wait for its edge to be opened.
+        // A vertex may have to wait until its edge is open.
         if progress.opened > 0 || self.surface.mesh().vertices().len() != vertices {
             self.version += 1;
         }
@@ -163,7 +163,7 @@ impl Cuts {
         opened
     }
 
-    /// Ends the opening of the surface where an earlier cut has opened it.
+    /// Stops opening the surface where an earlier cut has opened it.
     fn enter_opening(&mut self, simulation: &Simulation, at: Vec3) {
         self.surface.end(&simulation.surface).ok();
         self.version += 1;
@@ -195,7 +195,7 @@ impl Cuts {
         self.leave_opening(simulation, model, edge)
     }
 
-    /// Goes along in an opening, and begins to open the surface where that ends.
+    /// Moves within an opening, and begins to open the surface where that ends.
     fn leave_opening(
         &mut self,
         simulation: &Simulation,
@@ -220,7 +220,7 @@ impl Cuts {
         self.version += 1;
         let mut opened = Opened::default();
         if model.is_layered {
-            // It goes into the tissue before it goes along.
+            // It enters the tissue before it moves along.
             let cut_path = *cut_path;
             self.extend(cut_path, edge);
             opened.events = events(model, 0, edge.layers);
@@ -228,7 +228,7 @@ impl Cuts {
         opened
     }
 
-    /// Adds a part from where `stroke` has come to.
+    /// Adds a part from the last point of `stroke`.
     fn extend(&mut self, cut_path: CutPath, edge: &Edge) {
         let at = edge.contact_point.point;
         let before = self.parts[cut_path.before.parts.min(self.parts.len())..].last();
@@ -238,9 +238,9 @@ impl Cuts {
             normal: edge.contact.rest_normal(),
             begins,
             layers: edge.layers,
-            felt: edge.layers,
+            in_mechanics: edge.layers,
         });
-        // Each part can be deepened once per layer that is still closed.
+        // Each part can be deepened once per closed layer.
         let room = Event::OPENS_LAYER.len() * self.parts.len();
         self.deepened
             .reserve(room.saturating_sub(self.deepened.len()));
@@ -249,7 +249,7 @@ impl Cuts {
         }
     }
 
-    /// Opens a part of a cut down to `layers`, as part of the cut that is being made.
+    /// Opens a part of a cut down to `layers`, as part of the cut in progress.
     fn deepen(&mut self, model: &CuttingModel, part: usize, layers: usize) -> Events {
         let before = self.parts[part].layers;
         if !model.is_layered || self.cut_path.is_none() || before >= layers {
@@ -269,11 +269,11 @@ impl Cuts {
         self.version += u64::from(cut_path.opens);
         let before = cut_path.before;
         if cut_path.opens {
-            // A blade that has opened nothing leaves the surface as it was, and a puncture of its layers.
+            // A blade that has opened nothing leaves the surface unchanged, and a puncture of its layers.
             self.surface.end(&simulation.surface).ok();
         }
         for part in &mut self.parts {
-            part.felt = part.layers;
+            part.in_mechanics = part.layers;
         }
         let has_opened = self.parts.len() > before.parts
             || self.deepened.len() > before.deepened

@@ -7,46 +7,46 @@ use super::gape::Gape;
 use super::parts::{CutPart, nearest, opening_at};
 use crate::Simulation;
 
-/// Parts and cuts for which there is room from the beginning: beyond, a step may allocate.
-const ROOM: usize = 1024;
+/// Initial capacity for parts and cuts: beyond, a step may allocate.
+const CAPACITY: usize = 1024;
 
 /// The cuts of an organ.
 #[derive(Debug, Clone)]
 pub struct Cuts {
     pub(super) surface: CutSurface,
-    /// The cut that is being made.
+    /// The cut in progress.
     pub(super) cut_path: Option<CutPath>,
     /// The path of all cuts over the resting surface.
     pub(super) parts: Vec<CutPart>,
     /// Parts that were opened to more layers, in the order in which that happened.
     pub(super) deepened: Vec<Deepened>,
-    /// What there was before each cut that can be undone.
+    /// The sizes before each cut that can be undone.
     pub(super) before: Vec<Mark>,
-    /// How far they are moved to gape, and of which version that is.
+    /// The gape displacements, and the version to which they belong.
     gape: Gape,
     gapes: u64,
-    /// Where the vertices are now [m].
+    /// Current positions of the vertices [m].
     places: Vec<Vec3>,
     pub(crate) version: u64,
     pub(super) largest_lag: usize,
 }
 
-/// A cut that is being made.
+/// A cut in progress.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct CutPath {
-    /// By which tool.
+    /// The tool that makes it.
     pub(super) tool: usize,
-    /// Where the opening has come to [m].
+    /// End of the opening [m].
     pub(super) at: Vec3,
-    /// Where the blade is [m].
+    /// Position of the blade [m].
     pub(super) blade: Vec3,
-    /// Whether it opens the surface; else it goes along in an opening.
+    /// Whether it opens the surface; else it moves within an opening.
     pub(super) opens: bool,
-    /// What there was before it.
+    /// The sizes before it.
     pub(super) before: Mark,
 }
 
-/// How much there is of all that a cut adds to.
+/// The sizes of all lists that a cut extends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Mark {
     pub(super) parts: usize,
@@ -59,12 +59,12 @@ pub(super) struct Mark {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Deepened {
     pub(super) part: usize,
-    /// How many were open before.
+    /// Number of open layers before.
     pub(super) before: usize,
 }
 
 impl Cuts {
-    /// None yet.
+    /// No cuts.
     pub(crate) fn new(simulation: &Simulation, model: &CuttingModel) -> Self {
         let surface = CutSurface::new(&simulation.surface, model.method);
         let [vertices, triangles] = surface.room();
@@ -74,17 +74,17 @@ impl Cuts {
             places,
             surface,
             cut_path: None,
-            gape: Gape::with_room(vertices, triangles),
+            gape: Gape::with_capacity(vertices, triangles),
             gapes: 0,
-            parts: Vec::with_capacity(ROOM),
-            deepened: Vec::with_capacity(ROOM * Event::OPENS_LAYER.len()),
-            before: Vec::with_capacity(ROOM),
+            parts: Vec::with_capacity(CAPACITY),
+            deepened: Vec::with_capacity(CAPACITY * Event::OPENS_LAYER.len()),
+            before: Vec::with_capacity(CAPACITY),
             version: 0,
             largest_lag: 0,
         }
     }
 
-    /// None any more, as at the beginning, but for the version. It allocates nothing.
+    /// Removes all cuts; the version continues. It allocates nothing.
     pub(crate) fn reset(&mut self) {
         self.surface.close_all();
         self.places.clear();
@@ -96,7 +96,7 @@ impl Cuts {
         self.before.clear();
         self.largest_lag = 0;
         self.version += 1;
-        // What is closed gapes nowhere.
+        // A closed cut does not gape.
         self.gape.clear();
         self.gapes = self.version;
     }
@@ -106,25 +106,28 @@ impl Cuts {
         self.surface.mesh()
     }
 
-    /// The same with what is known of its edges and vertices.
+    /// The same with its edges and vertices.
     pub fn surface(&self) -> &CutSurface {
         &self.surface
     }
 
-    /// Where the vertices of [`Self::mesh`] are now, gaping [m].
+    /// Current positions of the vertices of [`Self::mesh`], gaping [m].
     pub fn places(&self) -> &[Vec3] {
         &self.places
     }
 
-    /// How far a vertex of a rim is moved to gape [m], and with it what lies below; zero elsewhere.
+    /// Gape displacement of a rim vertex and of the points below it [m]; zero elsewhere.
     pub(crate) fn gape_of_rim(&self, vertex: u32) -> Vec3 {
         let is_known = (vertex as usize) < self.places.len();
         let is_on_rim = is_known && self.surface.opening(NodeId(vertex)) != Vec3::zeros();
-        let way = self.gape.ways().get(vertex as usize);
-        way.filter(|_| is_on_rim).copied().unwrap_or_default()
+        let displacement = self.gape.displacements().get(vertex as usize);
+        displacement
+            .filter(|_| is_on_rim)
+            .copied()
+            .unwrap_or_default()
     }
 
-    /// Another number whenever the triangles are others.
+    /// Changes whenever the triangles change.
     pub fn version(&self) -> u64 {
         self.version
     }
@@ -134,12 +137,12 @@ impl Cuts {
         self.cut_path.is_some() || !self.before.is_empty()
     }
 
-    /// How many cuts there are that can be undone.
+    /// Number of cuts that can be undone.
     pub fn count(&self) -> usize {
         self.before.len()
     }
 
-    /// The path of all cuts over the resting surface, with the layers that are open in each part.
+    /// The path of all cuts over the resting surface, with the number of open layers in each part.
     pub fn parts(&self) -> &[CutPart] {
         &self.parts
     }
@@ -149,7 +152,8 @@ impl Cuts {
         self.cut_path.is_some()
     }
 
-    /// The vertices of the openings: their numbers, where they are at rest [m], and where to they open [-].
+    /// The vertices of the openings: their numbers, their positions at rest [m], and the directions in which they open
+    /// [-].
     pub(crate) fn openings(
         &self,
         simulation: &Simulation,
@@ -176,19 +180,19 @@ impl Cuts {
         self.length_through(1)
     }
 
-    /// Length of all cuts that go through so many layers, over the resting surface [m].
+    /// Length of all cuts through this number of layers, over the resting surface [m].
     pub fn length_through(&self, layers: usize) -> f64 {
         let deep = self.parts.iter().filter(|part| part.layers >= layers);
         // A sum of nothing is -0.
         deep.fold(0.0, |sum, part| sum + part.length())
     }
 
-    /// Triangles between a blade and the end of its opening, at most so far.
+    /// The largest number of triangles so far between a blade and the end of its opening.
     pub fn largest_lag(&self) -> usize {
         self.largest_lag
     }
 
-    /// Closes the last cut again. Whether there was one; while one is being made there is none.
+    /// Undoes the last cut. Returns whether there was one; while a cut is in progress there is none.
     pub(crate) fn undo(&mut self) -> bool {
         if self.is_being_made() {
             return false;
@@ -200,15 +204,15 @@ impl Cuts {
         for last in self.deepened.drain(mark.deepened..).rev() {
             let part = &mut self.parts[last.part];
             part.layers = last.before;
-            part.felt = last.before;
+            part.in_mechanics = last.before;
         }
         self.parts.truncate(mark.parts);
         self.version += 1;
         true
     }
 
-    /// Follows the organ to where its vertices are moved [m], and those of the openings in `rims` by so much. It allocates where
-    /// the triangles are more than there is room for.
+    /// Updates the shape to the displacements of the organ's vertices [m], and the openings in `rims` to theirs. It
+    /// allocates if the triangles exceed the capacity.
     pub(crate) fn follow(
         &mut self,
         simulation: &Simulation,
@@ -226,23 +230,23 @@ impl Cuts {
         for (number, by) in rims {
             self.places[number as usize] = rest[number as usize] + by;
         }
-        for (place, way) in self.places.iter_mut().zip(self.gape.ways()) {
-            *place += way;
+        for (place, displacement) in self.places.iter_mut().zip(self.gape.displacements()) {
+            *place += displacement;
         }
     }
 
-    /// Whether it has to follow at once: its triangles are others than those whose places are known.
+    /// Whether an update is due at once, because the triangles have changed.
     pub(crate) fn is_behind(&self) -> bool {
         self.gapes != self.version
     }
 
-    /// The part of a cut that is nearest to a place, within `reach` [m].
+    /// The part of a cut that is closest to a point, within `reach` [m].
     pub(super) fn part_near(&self, place: &Vec3, reach: f64) -> Option<usize> {
         let near = nearest(&self.parts, place).filter(|near| near.distance < reach)?;
         Some(near.part)
     }
 
-    /// How many layers were open at a blade before its tool began to cut there.
+    /// Number of layers that were open at a blade before its tool began to cut there.
     pub(super) fn open_before(&self, model: &CuttingModel, tool: usize, place: &Vec3) -> usize {
         let own = self.cut_path.filter(|cut_path| cut_path.tool == tool);
         if !model.is_layered || own.is_some_and(|cut_path| cut_path.opens) {

@@ -2,23 +2,23 @@ use std::collections::VecDeque;
 
 use palpate_geometry::{CutSurface, NodeId, Vec3};
 
-/// Passes by which an opening is spread over the triangles beside it.
+/// Passes that spread an opening over the neighbouring triangles.
 const PASSES: usize = 100;
 
-/// How far each vertex of `cut` is moved when it gapes up to `width` [m] for the eye: a slit is widest in its
-/// middle, as an ellipse is. What is beside it moves along, less and less up to the width of the slit away: each
-/// vertex as the mean of its neighbours, so that no triangle folds over.
+/// Display displacement of each vertex of `cut` when it gapes up to `width` [m]: a slit is widest in its middle, like
+/// an ellipse. Its surroundings move along, less and less up to the width of the slit away: each vertex as the mean of
+/// its neighbours, so that no triangle folds over.
 pub fn gape(cut: &CutSurface, width: f64) -> Vec<Vec3> {
     let mut gape = Gape::default();
     gape.follow(cut, width);
-    gape.ways
+    gape.displacements
 }
 
-/// The same with its memory, which is kept for the next step of a cut.
+/// The same with its buffers, which are reused in the next step of a cut.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Gape {
-    /// How far each vertex is moved [m].
-    ways: Vec<Vec3>,
+    /// Displacement of each vertex [m].
+    displacements: Vec<Vec3>,
     /// The ends of the open edges.
     rims: Vec<[NodeId; 2]>,
     /// The vertices of these, ascending.
@@ -31,15 +31,15 @@ pub(super) struct Gape {
     /// The vertex of a rim from which each vertex was reached.
     source: Vec<Option<NodeId>>,
     waiting: VecDeque<NodeId>,
-    /// Vertices beside a rim that are on none.
+    /// Vertices near a rim that are on none.
     free: Vec<NodeId>,
 }
 
 impl Gape {
-    /// Memory for a surface of so many vertices and triangles.
-    pub(super) fn with_room(vertices: usize, triangles: usize) -> Self {
+    /// Buffers for a surface of this number of vertices and triangles.
+    pub(super) fn with_capacity(vertices: usize, triangles: usize) -> Self {
         Self {
-            ways: Vec::with_capacity(vertices),
+            displacements: Vec::with_capacity(vertices),
             rims: Vec::with_capacity(triangles),
             on_rim: Vec::with_capacity(2 * triangles),
             from_end: Vec::with_capacity(vertices),
@@ -51,36 +51,40 @@ impl Gape {
         }
     }
 
-    /// Nothing gapes.
+    /// Resets all displacements.
     pub(super) fn clear(&mut self) {
-        self.ways.clear();
+        self.displacements.clear();
     }
 
-    /// How far each vertex is moved [m].
-    pub(super) fn ways(&self) -> &[Vec3] {
-        &self.ways
+    /// Displacement of each vertex [m].
+    pub(super) fn displacements(&self) -> &[Vec3] {
+        &self.displacements
     }
 
-    /// Follows `cut`, which gapes up to `width` [m].
+    /// Updates to `cut`, which gapes up to `width` [m].
     pub(super) fn follow(&mut self, cut: &CutSurface, width: f64) {
         self.find_rims(cut);
         self.measure_rims(cut);
         let lengths = self.on_rim.iter().map(|node| self.from_end[node.index()]);
         let half = lengths.fold(0.0, f64::max).max(1e-12);
-        self.ways.clear();
-        self.ways.resize(cut.mesh().vertices().len(), Vec3::zeros());
+        self.displacements.clear();
+        self.displacements
+            .resize(cut.mesh().vertices().len(), Vec3::zeros());
         for node in &self.on_rim {
             let part = 1.0 - self.from_end[node.index()] / half;
             let open = (1.0 - part * part).max(0.0).sqrt();
-            self.ways[node.index()] = 0.5 * width * open * cut.opening(*node);
+            self.displacements[node.index()] = 0.5 * width * open * cut.opening(*node);
         }
         self.find_neighbours(cut);
         self.find_free(cut, 1.5 * width);
         for _ in 0..PASSES {
             for node in &self.free {
                 let around = &self.around[self.begins[node.index()]..self.begins[node.index() + 1]];
-                let sum: Vec3 = around.iter().map(|other| self.ways[other.index()]).sum();
-                self.ways[node.index()] = sum / around.len() as f64;
+                let sum: Vec3 = around
+                    .iter()
+                    .map(|other| self.displacements[other.index()])
+                    .sum();
+                self.displacements[node.index()] = sum / around.len() as f64;
             }
         }
     }
@@ -111,15 +115,15 @@ impl Gape {
                 self.from_end[node.index()] = 0.0;
             }
         }
-        // As often as a rim is long, at most; rims are short.
+        // At most as many rounds as a rim is long; rims are short.
         for _ in 0..self.on_rim.len() {
             let mut changed = false;
             for [a, b] in &self.rims {
                 let length = (vertices[a.index()] - vertices[b.index()]).norm();
                 for (from, to) in [(a, b), (b, a)] {
-                    let way = self.from_end[from.index()] + length;
-                    if way < self.from_end[to.index()] {
-                        self.from_end[to.index()] = way;
+                    let distance = self.from_end[from.index()] + length;
+                    if distance < self.from_end[to.index()] {
+                        self.from_end[to.index()] = distance;
                         changed = true;
                     }
                 }
@@ -128,13 +132,15 @@ impl Gape {
                 break;
             }
         }
-        // A loop without an end is as open as any.
+        // A loop without an end is fully open.
         let known = self.on_rim.iter().map(|node| self.from_end[node.index()]);
-        let longest = known.filter(|way| way.is_finite()).fold(0.0, f64::max);
+        let longest = known
+            .filter(|distance| distance.is_finite())
+            .fold(0.0, f64::max);
         for node in &self.on_rim {
-            let way = &mut self.from_end[node.index()];
-            if way.is_infinite() {
-                *way = longest.max(1e-9);
+            let distance = &mut self.from_end[node.index()];
+            if distance.is_infinite() {
+                *distance = longest.max(1e-9);
             }
         }
     }
@@ -160,7 +166,7 @@ impl Gape {
                 *next += 2;
             }
         }
-        // Each has come to where the next one begins.
+        // Each one has reached the start of the next.
         self.begins.copy_within(0..count, 1);
         self.begins[0] = 0;
     }

@@ -1,34 +1,35 @@
-//! Cutting: where a blade opens the organ, what it feels, and what lies under the opening (section 7.7).
+//! Cutting: where a blade opens the organ, the resistance of the tissue, and the tissue below the opening (section
+//! 7.7).
 //!
 //! ```text
-//! contact ──lead──▶ blade on the surface ──advance──▶ CutSurface (openings) ──place──▶ what is seen
+//! contact ──track─▶ blade on the surface ──advance──▶ CutSurface (openings) ──place──▶ display mesh
 //!    ▲                     │ lags by R d/k                    │
 //!    └──── force ──────────┘                                  └──▶ facets of the slit ──▶ mechanics
 //! ```
 //!
-//! A tool is a blade while its `cut` is 1 and it is scissors or a hook, or, whatever it is, once its normal force
-//! has passed the limit of the layer that is bare under it and as long as it touches then: the two ways of the
-//! source (section 7.8). Each layer is opened by itself:
+//! A tool is a blade while its `cut` is 1 and it is scissors or a hook, or, whatever its kind, once its normal force
+//! has exceeded the limit of the exposed layer under it and as long as it then touches: the two ways of the source
+//! (section 7.8). Each layer opens by itself:
 //!
-//! - a blade opens the layers whose lower faces its edge has reached, by its depth below the surface at rest; one
-//!   that is shallower than the outermost layer scratches and opens nothing;
-//! - the layer that is bare gives way to a normal force above its own limit, one layer a step.
+//! - a blade opens the layers whose lower faces its edge has reached, by its depth below the surface at rest; one that
+//!   is shallower than the outermost layer scratches and opens nothing;
+//! - the exposed layer gives way to a normal force above its own limit, one layer per step.
 //!
-//! Where the outermost layer is open, a blade goes on in the opening and opens what is below. The innermost layer
-//! opens as the others do; that is a perforation. An organ without layers is one, and a blade cuts it to the depth
-//! of `[cutting]`.
+//! Where the outermost layer is open, a blade continues in the opening and opens the layers below. The innermost layer
+//! opens as the others do; that is a perforation. An organ without layers has one, and a blade cuts it to the depth of
+//! `[cutting]`.
 //!
-//! *Equations*: a cut takes R d of work per length, R being a layer's toughness and d how much of the layer the edge
-//! is in, so an edge that is drawn through layers is held back by no more than Σ R d [N]: it takes the tissue along
-//! until that is reached, then goes on, a slider with friction that makes no energy. With the contact's tangential
-//! stiffness k the opening lags behind the tip by Σ R d/k. Scissors cut between their blades: Σ R d is on the jaws
+//! *Equations*: a cut takes the work R d per length, R being a layer's toughness and d the depth of the edge within the
+//! layer, so at most Σ R d [N] resists an edge that is drawn through layers: the edge takes the tissue along until that
+//! force is reached, then moves on, a slider with friction that generates no energy. With the contact's tangential
+//! stiffness k the opening lags behind the tip by Σ R d/k. Scissors cut between their blades: Σ R d acts on the jaws
 //! and nothing lags.
 //!
 //! *How we know*: `cutting::…`, `layers::…`.
 //!
-//! *Limits*: one blade at a time opens the outermost layer; a second one waits. A tip that slips is not held back. A
-//! layer below the outermost opens part by part of the cut above it, which are as long as the surface's edges. What
-//! a deepened cut yields is known when the blade is lifted. A blade follows the surface at rest, as contacts do.
+//! *Limits*: one blade at a time opens the outermost layer; a second one waits. Nothing resists a tip that slips. A
+//! layer below the outermost opens part by part of the cut above it; the parts are as long as the surface's edges. The
+//! compliance of a deepened cut changes when the blade is lifted. A blade follows the surface at rest, as contacts do.
 
 mod blade_tracking;
 mod cut_path;

@@ -5,39 +5,39 @@ use palpate_geometry::{CutMethod, Surface};
 use crate::Error;
 use crate::walls::typical_wall;
 
-/// How deep a cut goes without layers [m], and in parts of the organ's wall [-], whichever is less.
+/// Depth of a cut without layers [m], and in parts of the organ's wall [-], whichever is less.
 const DEPTH: f64 = 0.002;
 const OF_THE_WALL: f64 = 0.5;
 
-/// A cut through this part of the wall is one through all of it, which parts to so many times the wall's thickness: a wall is not
-/// everywhere as thick [-].
+/// A cut through this part of the wall counts as one through all of it; it parts the sides to this many times the
+/// wall's thickness, since a wall is not everywhere as thick [-].
 const THROUGH: f64 = 0.9;
 const BEYOND: f64 = 1.5;
 
 /// Rounding of depths that are sums of decimal numbers [m].
 const ROUNDING: f64 = 1e-9;
 
-/// How an organ is cut.
+/// The cutting model of an organ.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CuttingModel {
     pub(crate) method: CutMethod,
-    /// Whether forces follow a cut.
+    /// Whether cuts change the forces.
     pub(crate) changes_force: bool,
-    /// Whether the scene has layers; else the organ is one, which a blade always cuts to its depth.
+    /// Whether the scene has layers; else the organ is one layer, which a blade always cuts to its depth.
     pub(crate) is_layered: bool,
     /// From outside to inside; at least one.
     pub(crate) layers: Vec<CutLayer>,
-    /// The names of the layers that the scene names.
+    /// The names of the layers in the scene.
     pub(crate) names: Vec<String>,
-    /// No blade goes deeper [m].
+    /// Largest depth of a blade [m].
     deepest: f64,
     /// Thickness of the organ's wall [m].
     wall: f64,
-    /// How far an opening gapes [m].
+    /// Gape of an opening [m].
     pub(crate) width: f64,
 }
 
-/// A layer as a blade meets it.
+/// A layer, for a blade.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct CutLayer {
     /// Depth of its upper face below the surface at rest [m].
@@ -46,12 +46,12 @@ pub(crate) struct CutLayer {
     pub(crate) bottom: f64,
     /// Work of a cut per area of its face [J/m²].
     toughness: f64,
-    /// The normal force at which it gives way to any tool where it is bare [N].
+    /// The normal force at which it gives way to any tool where it is exposed [N].
     pub(crate) limit: Option<f64>,
 }
 
 impl CuttingModel {
-    /// That of `scene`; none where nothing can cut and no layer can give way.
+    /// The model of `scene`; none if nothing can cut and no layer can give way.
     ///
     /// # Errors
     /// When the layers or a cut are thicker than the organ.
@@ -104,8 +104,8 @@ impl CuttingModel {
         Ok(wanted.then_some(model))
     }
 
-    /// How many layers a blade opens whose edge is `depth` [m] below the surface at rest: those whose lower faces it
-    /// has reached.
+    /// Number of layers that a blade opens whose edge is `depth` [m] below the surface at rest: those whose lower faces
+    /// it has reached.
     pub(super) fn reached(&self, depth: f64) -> usize {
         if !self.is_layered {
             return 1;
@@ -115,8 +115,8 @@ impl CuttingModel {
         opened.count()
     }
 
-    /// What holds back an edge at `depth` [m] where `open` layers are cut already [N]: R d of each layer, d being
-    /// how much of it the edge is in.
+    /// The resistance to an edge at `depth` [m] where `open` layers are already cut [N]: R d of each layer, d being the
+    /// depth of the edge within it.
     pub(super) fn resistance(&self, open: usize, depth: f64) -> f64 {
         let edge = if self.is_layered {
             depth.min(self.deepest)
@@ -128,7 +128,7 @@ impl CuttingModel {
         each.sum()
     }
 
-    /// How deep a cut through `layers` of them is [m].
+    /// Depth of a cut through `layers` of them [m].
     pub(crate) fn depth_of(&self, layers: usize) -> f64 {
         match layers.checked_sub(1).and_then(|last| self.layers.get(last)) {
             Some(layer) => layer.bottom,
@@ -136,7 +136,7 @@ impl CuttingModel {
         }
     }
 
-    /// How deep the sides of a cut through `layers` of them part [m]: beyond the wall where nearly all of it is cut.
+    /// Depth of the parted sides of a cut through `layers` of them [m]: beyond the wall if nearly all of it is cut.
     pub(crate) fn slit_depth(&self, layers: usize) -> f64 {
         let depth = self.depth_of(layers);
         match depth > THROUGH * self.wall {
@@ -145,7 +145,7 @@ impl CuttingModel {
         }
     }
 
-    /// Said to whoever prepares the simulation: a blade that can open nothing.
+    /// A warning about a blade that can open nothing.
     pub(crate) fn warning(&self) -> Option<String> {
         let outer = self.layers[0].bottom;
         (self.is_layered && self.reached(f64::INFINITY) == 0).then(|| {

@@ -1,7 +1,7 @@
 use palpate_geometry::Vec3;
 
-/// An opening at one place is this wide, and one along a cut reaches this far beyond its ends on both sides together,
-/// in widths of a cut [-].
+/// Width of an opening at one place, and extent of one along a cut beyond its ends on both sides together, in widths of
+/// a cut [-].
 const PUNCTURE: f64 = 0.5;
 
 /// A straight part of a cut on the resting surface. One without length is a puncture, where a cut begins.
@@ -11,22 +11,22 @@ pub struct CutPart {
     pub ends: [Vec3; 2],
     /// Unit outward normal of the surface there [-].
     pub normal: Vec3,
-    /// Whether a cut begins with it; else it goes on from the end of the part before.
+    /// Whether it starts a cut; else it continues from the end of the part before.
     pub begins: bool,
-    /// How many layers are open in it, from outside.
+    /// Number of open layers in it, from outside.
     pub layers: usize,
-    /// How many of them the mechanics know of: those that were open when a blade was last lifted.
-    pub(crate) felt: usize,
+    /// Number of them that the mechanics include: those that were open when a blade was last lifted.
+    pub(crate) in_mechanics: usize,
 }
 
-/// The place on a part that is nearest to another place.
+/// The point on a part that is closest to another point.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Near {
     /// Number of the part.
     pub(super) part: usize,
-    /// How far away it is [m].
+    /// Distance [m].
     pub(super) distance: f64,
-    /// Where along the part the other place lies, beyond 0 and 1 outside of it [-].
+    /// Coordinate of the other point along the part, below 0 and above 1 outside it [-].
     along: f64,
 }
 
@@ -69,7 +69,7 @@ pub(super) fn nearest(parts: &[CutPart], place: &Vec3) -> Option<Near> {
     found
 }
 
-/// The part in whose opening, `width` [m] wide, `place` [m] lies: beside the cut, or close beyond its ends.
+/// The part in whose opening, `width` [m] wide, `place` [m] lies: next to the cut, or just beyond its ends.
 pub(super) fn opening_at(parts: &[CutPart], place: &Vec3, width: f64) -> Option<usize> {
     let near = nearest(parts, place)?;
     let number = near.part;
@@ -96,7 +96,7 @@ mod tests {
             normal: Vec3::z(),
             begins,
             layers: 1,
-            felt: 1,
+            in_mechanics: 1,
         }
     }
 

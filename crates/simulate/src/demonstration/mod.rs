@@ -1,5 +1,5 @@
-//! A script that does a task, at the pace of a person: it sees what a trainee sees, the forces, and knows the task's
-//! numbers besides. It shows a way; it is no surgeon, and no standard of skill.
+//! A script that demonstrates a task at the pace of a person: it uses the forces, which a trainee sees, and the task's
+//! numbers. It shows one way to do the task; it is no surgeon, and no standard of skill.
 //!
 //! *How we know*: `demonstration::…`.
 //!
@@ -20,11 +20,11 @@ use crate::polyline::Polyline;
 use crate::{Simulation, SimulationState, SimulationWorkspace, step};
 use ways::{RestSurface, cut, depths, found, pulled};
 
-/// Speed through the air [m/s], and in the tissue or towards it [m/s].
+/// Speed through the air [m/s], and in or towards the tissue [m/s].
 const FREE: f64 = 0.025;
 const SLOW: f64 = 0.005;
 
-/// How fast a pull follows what is missing of its force [m/(N s)].
+/// Gain of a pull: its speed per missing force [m/(N s)].
 const FOLLOWS: f64 = 0.03;
 
 /// A demonstration without a time limit ends after this time [s].
@@ -79,7 +79,7 @@ enum Step {
     Mark,
     /// States a diameter [m].
     State(f64),
-    /// Keeps a pull or a push [N], for ever.
+    /// Keeps up a pull or a push [N], without end.
     Pull {
         tool: usize,
         wanted: Vec3,
@@ -87,14 +87,13 @@ enum Step {
 }
 
 impl Demonstration {
-    /// Of the task of `scene`, which `simulation` was made of; none where there is nothing to do, or no tool to do it
-    /// with.
+    /// From the task of `scene`, from which `simulation` was made; none if the task has no goal, or no tool can do it.
     pub fn new(scene: &Scene, simulation: &Simulation) -> Option<Self> {
-        let ground = RestSurface(simulation);
+        let rest = RestSurface(simulation);
         let steps = match &scene.task.goal {
             Goal::Free => return None,
             Goal::Find { target_m, size, .. } => {
-                let mut steps = found(&ground, &Vec3::from(*target_m));
+                let mut steps = found(&rest, &Vec3::from(*target_m));
                 if let Some(size) = size {
                     steps.extend([Step::Wait(1.5), Step::State(2.0 * size.radius_m)]);
                 }
@@ -112,7 +111,7 @@ impl Demonstration {
                 };
                 let tool = scene.tools.iter().position(named)?;
                 let direction = direction.map_or(-Vec3::y(), |(own, _)| Vec3::from(own));
-                pulled(&ground, tool, *force_n * direction.normalize())
+                pulled(&rest, tool, *force_n * direction.normalize())
             }
             Goal::Cut { line, layers, .. } => {
                 let of = |kinds: &[ToolKind]| {
@@ -122,7 +121,7 @@ impl Demonstration {
                 let blade = of(&[ToolKind::Scissors, ToolKind::Hook])?;
                 let depths = depths(simulation, layers.unwrap_or(1));
                 let line = Polyline::new(line)?;
-                cut(&ground, &line, &depths, blade, of(&[ToolKind::Grasper]))
+                cut(&rest, &line, &depths, blade, of(&[ToolKind::Grasper]))
             }
             Goal::Touch(touch) => {
                 let number = |name: &String| scene.tools.iter().position(|own| own.name == *name);
@@ -138,13 +137,13 @@ impl Demonstration {
         })
     }
 
-    /// The session of a demonstration of the task of `scene`, which `simulation` was made of, at the step of the model:
-    /// until the task is over, or for its time limit. `watch` gets the part [-] that is done and may cancel it. None
-    /// where there is nothing to do, no tool to do it with, or it was cancelled.
+    /// The session of a demonstration of the task of `scene`, from which `simulation` was made, at the step of the
+    /// model: until the task is over, or for its time limit. `on_progress` receives the completed part [-] and may cancel it.
+    /// None if the task has no goal, no tool can do it, or it was cancelled.
     pub fn record(
         scene: &Scene,
         simulation: &Simulation,
-        watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+        on_progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Option<Session> {
         let mut script = Self::new(scene, simulation)?;
         let tools: Vec<String> = scene.tools.iter().map(|tool| tool.name.clone()).collect();
@@ -161,7 +160,7 @@ impl Demonstration {
             if time > longest || matches!(performance.status(), Status::Over { .. }) {
                 break;
             }
-            if number % 50 == 0 && watch(time / longest).is_break() {
+            if number % 50 == 0 && on_progress(time / longest).is_break() {
                 return None;
             }
             let elapsed = if number == 0 { 0.0 } else { period };
@@ -198,7 +197,7 @@ impl Demonstration {
         })
     }
 
-    /// The tools after another `elapsed` [s], under `forces` on them [N]; none for those that are not held.
+    /// The tools after another `elapsed` [s], under `forces` on them [N]; none for absent tools.
     pub fn follow(&mut self, elapsed: f64, forces: &[Vec3]) -> &[Option<ShownTool>] {
         self.marks = false;
         self.states = None;
@@ -226,9 +225,9 @@ impl Demonstration {
                     None => true,
                     Some(own) => {
                         // Half a second from open to shut.
-                        let way = *to - own.grip;
-                        let moved = way.abs().min(2.0 * left);
-                        own.grip += moved * way.signum();
+                        let remaining = *to - own.grip;
+                        let moved = remaining.abs().min(2.0 * left);
+                        own.grip += moved * remaining.signum();
                         left -= 0.5 * moved;
                         (own.grip - *to).abs() < 1e-12
                     }
@@ -245,11 +244,11 @@ impl Demonstration {
                         cuts: false,
                     });
                     own.cuts = *cuts;
-                    let way = *to - own.tip;
-                    let moved = way.norm().min(*speed * left);
+                    let remaining = *to - own.tip;
+                    let moved = remaining.norm().min(*speed * left);
                     left -= moved / *speed;
-                    match moved < way.norm() {
-                        true => own.tip += moved * way.normalize(),
+                    match moved < remaining.norm() {
+                        true => own.tip += moved * remaining.normalize(),
                         false => own.tip = *to,
                     }
                     let arrived = own.tip == *to;
@@ -276,12 +275,12 @@ impl Demonstration {
         &self.tools
     }
 
-    /// Whether it has just marked where it is.
+    /// Whether it has just marked its position.
     pub fn marks(&self) -> bool {
         self.marks
     }
 
-    /// The diameter that it has just stated [m]: that of the task, for a script knows it.
+    /// The diameter that it has just stated [m]: that of the task, which a script knows.
     pub fn states(&self) -> Option<f64> {
         self.states
     }

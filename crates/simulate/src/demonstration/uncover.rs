@@ -1,8 +1,8 @@
-//! A place that the organ hides from a tool: where to grasp what is in the way, and how far to lift it.
+//! Uncovering a target that the organ hides from a tool: where to grasp the organ, and how far to lift it.
 //!
-//! The straight way from the target to the tool's trocar is turned about the target until it is clear of the organ. The rim
-//! is the part of the organ that is nearest to the clear way where the straight one leaves the organ. It then goes back by
-//! what was turned there, and some more.
+//! The straight path from the target to the tool's trocar is turned about the target until it is clear of the organ.
+//! The rim is the part of the organ that is nearest to the clear path, at the point where the straight path leaves the
+//! organ. It is lifted by the turn at that point, and some more.
 
 use nalgebra::{Rotation3, Unit};
 use palpate_files::scene::TouchGoal;
@@ -12,39 +12,39 @@ use super::ways::{BITE, RestSurface, grasped};
 use super::{FREE, SLOW, Step};
 use crate::Simulation;
 
-/// Ways are turned by so much at a time [rad], to so many sides, and no farther [rad].
+/// Paths are turned in steps of this angle [rad], to this many sides, and at most this far [rad].
 const TURN: f64 = 0.01;
 const SIDES: u32 = 36;
 const FARTHEST: f64 = 1.2;
 
-/// A way that is clear passes the organ at this distance from its shaft [m].
+/// A clear path passes the organ at this distance from its shaft [m].
 const CLEAR: f64 = 0.001;
 
-/// How much farther than to the straight way the rim is lifted [m]: beside the jaws it sags, and the shaft is thick.
-const ABOVE_WAY: f64 = 0.010;
+/// Additional lift of the rim beyond the straight path [m]: next to the jaws it sags, and the shaft is thick.
+const LIFT_MARGIN: f64 = 0.010;
 
-/// Before the target, where the tool comes in and where it slows down [m].
-const COMES_IN: f64 = 0.09;
+/// Distances from the target at which the tool comes in and slows down [m].
+const APPROACH: f64 = 0.09;
 const SLOWS: f64 = 0.002;
 
-/// A straight way from a target to where its tool comes from.
+/// A straight path from a target to the trocar of its tool.
 struct AccessPath<'s> {
     simulation: &'s Simulation,
     target: Vec3,
     /// Away from the target, with its length [m].
     outward: Vec3,
-    /// Of the shaft, with what is clear around it [m].
+    /// Radius of the shaft with its clearance [m].
     radius: f64,
 }
 
-/// The rim of what is in the way.
+/// The rim of the hiding part of the organ.
 struct Rim {
     place: Vec3,
-    /// The way by which it has to be lifted [m].
+    /// The required displacement of the rim [m].
     lift: Vec3,
 }
 
-/// Touches the target with the first of the tools; the second one lifts what is in the way of it.
+/// Touches the target with the first of the tools; the second one lifts the organ out of the way.
 pub(super) fn touched(
     simulation: &Simulation,
     goal: &TouchGoal,
@@ -60,21 +60,21 @@ pub(super) fn touched(
     let on = target + own.overhang() * normal;
     let outward = match own.trocar {
         Some(trocar) => trocar - on,
-        None => 2.0 * COMES_IN * normal,
+        None => 2.0 * APPROACH * normal,
     };
-    let way = AccessPath {
+    let path = AccessPath {
         simulation,
         target: on,
         outward,
         radius: own.shaft_radius() + CLEAR,
     };
     let mut steps = Vec::new();
-    if let (Some(holder), Some(rim)) = (holder, way.rim()) {
-        let ground = RestSurface(simulation);
-        steps.extend(grasped(&ground, holder, &rim.place));
+    if let (Some(holder), Some(rim)) = (holder, path.rim()) {
+        let rest = RestSurface(simulation);
+        steps.extend(grasped(&rest, holder, &rim.place));
         steps.push(Step::Move {
             tool: holder,
-            to: ground.over(&rim.place, -BITE) + rim.lift,
+            to: rest.over(&rim.place, -BITE) + rim.lift,
             speed: SLOW,
             cuts: false,
         });
@@ -86,7 +86,7 @@ pub(super) fn touched(
         cuts: false,
     };
     steps.extend([
-        before(COMES_IN.min(0.8 * outward.norm()), FREE),
+        before(APPROACH.min(0.8 * outward.norm()), FREE),
         Step::Wait(0.5),
         before(SLOWS, FREE),
     ]);
@@ -104,7 +104,7 @@ impl AccessPath<'_> {
         !tree.is_near_segment(mesh, ends, self.radius)
     }
 
-    /// The least turned way that is clear; none where none is.
+    /// The path with the least turn that is clear; none if none is.
     fn clear(&self) -> Option<Vec3> {
         let along = self.outward.normalize();
         let aside = along.cross(&Vec3::z()).try_normalize(1e-6);
@@ -118,24 +118,24 @@ impl AccessPath<'_> {
                 Rotation3::from_axis_angle(&Unit::new_unchecked(axis), turn) * self.outward
             })
         };
-        turns.flat_map(sides).find(|way| self.is_clear(way))
+        turns.flat_map(sides).find(|path| self.is_clear(path))
     }
 
-    /// The rim of what is in the way; none where nothing is, or nothing can be lifted out of it.
+    /// The rim of the hiding part; none if nothing hides the target, or nothing can be lifted out of the way.
     fn rim(&self) -> Option<Rim> {
         if self.is_clear(&self.outward) {
             return None;
         }
         let clear = self.clear()?;
         let (mesh, tree) = (self.simulation.surface.mesh(), &self.simulation.tree);
-        // Where the straight way leaves the organ, the rim is below it.
+        // Where the straight path leaves the organ, the rim is below it.
         let length = self.outward.norm();
         let (from, inward) = (self.target + self.outward, -self.outward / length);
         let leaves = tree.cast(mesh, &from, &inward, length)?;
         let part = 1.0 - leaves.distance / length;
         let nearest = tree.nearest(mesh, &(self.target + part * clear));
         let back = part * (self.outward - clear);
-        let lift = back.norm() + ABOVE_WAY;
+        let lift = back.norm() + LIFT_MARGIN;
         Some(Rim {
             place: nearest.on.position,
             lift: lift * back.try_normalize(1e-9)?,

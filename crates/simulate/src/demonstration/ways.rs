@@ -1,4 +1,4 @@
-//! Ways over the surface of an organ at rest.
+//! Paths over the surface of an organ at rest.
 
 use palpate_geometry::Vec3;
 
@@ -6,24 +6,24 @@ use super::{FREE, SLOW, Step};
 use crate::Simulation;
 use crate::polyline::Polyline;
 
-/// How far over the surface a tip waits [m].
+/// Height of a waiting tip over the surface [m].
 const ABOVE: f64 = 0.012;
 
-/// How deep a probe presses [m], and a grasper before its jaws shut [m].
+/// Depth of a probe's press [m], and of a grasper before its jaws shut [m].
 const PRESS: f64 = 0.005;
 pub(super) const BITE: f64 = 0.0016;
 
-/// How far beside the line the other hand holds [m], and how far it pulls away from it [m].
+/// Distance from the line at which the other hand holds [m], and its pull away from the line [m].
 const ASIDE: f64 = 0.0055;
 const STRETCH: f64 = 0.0005;
 
-/// How far a cut goes on beyond the ends of its line [m].
+/// Overshoot of a cut beyond the ends of its line [m].
 const BEYOND: f64 = 0.002;
 
-/// Points of a way over the surface are this far apart [m].
+/// Spacing of the points of a path over the surface [m].
 const SPACING: f64 = 0.001;
 
-/// The surface at rest, as a script looks at it.
+/// The rest surface, as a script uses it.
 pub(super) struct RestSurface<'s>(pub(super) &'s Simulation);
 
 impl RestSurface<'_> {
@@ -35,13 +35,13 @@ impl RestSurface<'_> {
         (nearest.on.position, normal)
     }
 
-    /// So far above the surface [m], or below it.
+    /// At this height above the surface [m], or below it.
     pub(super) fn over(&self, place: &Vec3, height: f64) -> Vec3 {
         let (point, normal) = self.at(place);
         point + height * normal
     }
 
-    /// Where the surface faces a direction, in its middle [m].
+    /// The middle of the part of the surface that faces a direction [m].
     pub(super) fn facing(&self, direction: &Vec3) -> Vec3 {
         let mesh = self.0.surface().mesh();
         let (low, high) = mesh.bounds();
@@ -52,9 +52,9 @@ impl RestSurface<'_> {
     }
 }
 
-/// Presses beside a place, and on it.
-pub(super) fn found(ground: &RestSurface<'_>, target: &Vec3) -> Vec<Step> {
-    let (_, normal) = ground.at(target);
+/// Presses next to a place, and on it.
+pub(super) fn found(rest: &RestSurface<'_>, target: &Vec3) -> Vec<Step> {
+    let (_, normal) = rest.at(target);
     let across = normal.cross(&Vec3::z()).try_normalize(1e-6);
     let across = across.unwrap_or(Vec3::x());
     let along = normal.cross(&across);
@@ -69,7 +69,7 @@ pub(super) fn found(ground: &RestSurface<'_>, target: &Vec3) -> Vec<Step> {
         let place = target + aside;
         let to = |height: f64, speed: f64| Step::Move {
             tool: 0,
-            to: ground.over(&place, height),
+            to: rest.over(&place, height),
             speed,
             cuts: false,
         };
@@ -84,17 +84,17 @@ pub(super) fn found(ground: &RestSurface<'_>, target: &Vec3) -> Vec<Step> {
 }
 
 /// Grasps where the surface faces the pull, and pulls.
-pub(super) fn pulled(ground: &RestSurface<'_>, tool: usize, wanted: Vec3) -> Vec<Step> {
-    let place = ground.facing(&wanted.normalize());
-    let mut steps = grasped(ground, tool, &place);
+pub(super) fn pulled(rest: &RestSurface<'_>, tool: usize, wanted: Vec3) -> Vec<Step> {
+    let place = rest.facing(&wanted.normalize());
+    let mut steps = grasped(rest, tool, &place);
     steps.push(Step::Pull { tool, wanted });
     steps
 }
 
-pub(super) fn grasped(ground: &RestSurface<'_>, tool: usize, place: &Vec3) -> Vec<Step> {
+pub(super) fn grasped(rest: &RestSurface<'_>, tool: usize, place: &Vec3) -> Vec<Step> {
     let to = |height: f64, speed: f64| Step::Move {
         tool,
-        to: ground.over(place, height),
+        to: rest.over(place, height),
         speed,
         cuts: false,
     };
@@ -108,7 +108,7 @@ pub(super) fn grasped(ground: &RestSurface<'_>, tool: usize, place: &Vec3) -> Ve
     ]
 }
 
-/// How deep a blade goes to open each layer but the next [m]: half way between their lower faces.
+/// Depth of a blade that opens each layer but the next [m]: half way between their lower faces.
 pub(super) fn depths(simulation: &Simulation, layers: usize) -> Vec<f64> {
     let bottoms = simulation.cut_depths();
     let depth = |number: usize| {
@@ -121,9 +121,9 @@ pub(super) fn depths(simulation: &Simulation, layers: usize) -> Vec<f64> {
     (0..layers.min(bottoms.len())).map(depth).collect()
 }
 
-/// Where the hand holds that does not cut [m], and in which direction it pulls there: beside the middle of an open line
-/// and outside of a closed one, on the side that a left hand comes from.
-fn hold(ground: &RestSurface<'_>, line: &Polyline) -> (Vec3, Vec3) {
+/// The position at which the non-cutting hand holds [m], and the direction of its pull there: next to the middle of an
+/// open line and outside a closed one, on the side of the left hand.
+fn hold(rest: &RestSurface<'_>, line: &Polyline) -> (Vec3, Vec3) {
     if line.is_closed() {
         let leftmost = line.points().min_by(|one, other| one.x.total_cmp(&other.x));
         let leftmost = leftmost.unwrap_or_else(|| line.at(0.0));
@@ -137,15 +137,15 @@ fn hold(ground: &RestSurface<'_>, line: &Polyline) -> (Vec3, Vec3) {
     }
     let middle = 0.5 * line.length();
     let along = (line.at(middle + SPACING) - line.at(middle)).normalize();
-    let (middle, normal) = ground.at(&line.at(middle));
+    let (middle, normal) = rest.at(&line.at(middle));
     let aside = normal.cross(&along).normalize();
     let aside = if aside.x > 0.0 { -aside } else { aside };
     (middle + ASIDE * aside, aside)
 }
 
-/// Holds beside a line, if something can hold, and cuts along it, once for each depth.
+/// Holds the tissue next to a line, if a tool can hold, and cuts along it, once for each depth.
 pub(super) fn cut(
-    ground: &RestSurface<'_>,
+    rest: &RestSurface<'_>,
     line: &Polyline,
     depths: &[f64],
     blade: usize,
@@ -153,16 +153,16 @@ pub(super) fn cut(
 ) -> Vec<Step> {
     let mut steps = Vec::new();
     if let Some(tool) = grasper {
-        let (place, aside) = hold(ground, line);
-        steps.extend(grasped(ground, tool, &place));
+        let (place, aside) = hold(rest, line);
+        steps.extend(grasped(rest, tool, &place));
         steps.push(Step::Move {
             tool,
-            to: ground.over(&place, -BITE) + STRETCH * aside,
+            to: rest.over(&place, -BITE) + STRETCH * aside,
             speed: SLOW,
             cuts: false,
         });
     }
-    // A closed line has no end before it, and goes around again beyond it.
+    // A closed line has no end for the overshoot, and continues around beyond it.
     let start = if line.is_closed() { 0.0 } else { -BEYOND };
     let length = line.length() + BEYOND - start;
     let pieces = (length / SPACING).ceil() as u32;
@@ -170,7 +170,7 @@ pub(super) fn cut(
         let place = |piece: u32| line.at(start + length * f64::from(piece) / f64::from(pieces));
         let over = |piece: u32, height: f64, speed: f64, cuts: bool| Step::Move {
             tool: blade,
-            to: ground.over(&place(piece), height),
+            to: rest.over(&place(piece), height),
             speed,
             cuts,
         };

@@ -1,15 +1,15 @@
-//! The organ that is seen: every vertex carried by the displacements of the mechanical triangles.
+//! The displayed organ: the displacements of the mechanical triangles, interpolated at every vertex.
 
 use palpate_geometry::{NodeId, Vec3};
 use palpate_mechanics::enhance::Press;
 use palpate_mechanics::surface_response::PressedTip;
 
-use super::enhanced_surface::SeenContact;
+use super::enhanced_surface::DisplayedContact;
 use super::{GlobalModel, GlobalWorkspace};
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, ToolState};
 
-/// Where a vertex goes [m]; it stays where its displacement is no number.
+/// New position of a vertex [m]; a vertex whose displacement is not finite stays.
 pub(super) fn moved(from: &Vec3, by: &Vec3) -> Vec3 {
     match by.iter().all(|component| component.is_finite()) {
         true => from + by,
@@ -18,7 +18,7 @@ pub(super) fn moved(from: &Vec3, by: &Vec3) -> Vec3 {
 }
 
 impl GlobalModel {
-    /// Moves all vertices of the shown surface, if it is time.
+    /// Updates all vertices of the displayed surface, if it is due.
     pub(crate) fn deform(
         &self,
         simulation: &Simulation,
@@ -58,7 +58,7 @@ impl GlobalModel {
         }
     }
 
-    /// Sums the displacements of all triangles [m] that the tips and the jaws make.
+    /// Sums the displacements of all triangles [m] due to the tips and the jaws.
     pub(super) fn sum_field(
         &self,
         simulation: &Simulation,
@@ -71,7 +71,7 @@ impl GlobalModel {
         sums.fill(0.0);
         let modulus = simulation.material.at_rest.youngs_modulus();
         for (tool, own) in simulation.tools.iter().zip(tools) {
-            let contact = SeenContact::of(tool, own);
+            let contact = DisplayedContact::of(tool, own);
             if let (Some(contact), Some(load)) = (contact, self.load(tool, own)) {
                 let tip = self.pressed(&contact.press, &(-own.elastic / modulus));
                 self.response.add_field_of_tip(&load, &tip.force, sums);
@@ -104,7 +104,8 @@ impl GlobalModel {
         self.sum_field(simulation, &state.tools, workspace);
         let tools = simulation.tools.iter().zip(&state.tools);
         for (contact, (tool, own)) in organ.contacts.iter_mut().zip(tools) {
-            *contact = SeenContact::of(tool, own).or_else(|| SeenContact::of_hold(tool, own));
+            *contact =
+                DisplayedContact::of(tool, own).or_else(|| DisplayedContact::of_hold(tool, own));
         }
         for (vector, sums) in organ
             .displacements
@@ -114,7 +115,7 @@ impl GlobalModel {
             let [x, y, z] = sums.map(f64::from);
             *vector = Vec3::new(x, y, z);
         }
-        // Exactly where the jaws have them: influences are reciprocal to some percent only.
+        // Exactly as the jaws prescribe: influences are reciprocal to some percent only.
         for hold in state
             .tools
             .iter()

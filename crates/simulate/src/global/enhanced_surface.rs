@@ -9,27 +9,27 @@ use crate::state::ToolState;
 use crate::tool::Tool;
 use crate::{Error, Simulation};
 
-/// What moves the shown surface of a whole organ, at one instant.
+/// The displacement field of a displayed organ-scale model, at one instant.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OrganField {
-    /// Of the mechanical triangles [m].
+    /// Displacements of the mechanical triangles [m].
     pub(crate) displacements: Vec<Vec3>,
     /// Per tool, if it touches.
-    pub(crate) contacts: Vec<Option<SeenContact>>,
+    pub(crate) contacts: Vec<Option<DisplayedContact>>,
 }
 
-/// A tool that touches the shown surface.
+/// A tool that touches the displayed surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct SeenContact {
+pub(crate) struct DisplayedContact {
     pub(crate) triangle: TriangleId,
-    /// Where it touches, at rest [m].
+    /// Its contact point, at rest [m].
     pub(crate) place: Vec3,
-    /// What it does to the mechanical surface.
+    /// Its action on the mechanical surface.
     pub(crate) press: Press,
 }
 
 impl OrganField {
-    /// That of an untouched organ; none where no whole organ answers.
+    /// The field of an untouched organ; none without an organ-scale model.
     pub(crate) fn at_rest(simulation: &Simulation) -> Option<Self> {
         let global = simulation.global.as_ref()?;
         Some(Self {
@@ -38,38 +38,38 @@ impl OrganField {
         })
     }
 
-    /// Makes it that of an untouched organ. It allocates nothing.
+    /// Resets to an untouched organ. It allocates nothing.
     pub(crate) fn return_to_rest(&mut self) {
         self.displacements.fill(Vec3::zeros());
         self.contacts.fill(None);
     }
 
-    /// Takes over `other`, which is of the same simulation; nothing is allocated.
+    /// Copies `other`, which is of the same simulation; nothing is allocated.
     pub(crate) fn copy(&mut self, other: &Self) {
         self.displacements.copy_from_slice(&other.displacements);
         self.contacts.copy_from_slice(&other.contacts);
     }
 }
 
-impl SeenContact {
-    /// Of a tool whose jaws hold the organ: the faces of jaws carry it as a flat tip of their area does.
+impl DisplayedContact {
+    /// For a tool whose jaws hold the organ: the faces of the jaws move it like a flat tip of their area.
     pub(super) fn of_hold(tool: &Tool, state: &ToolState) -> Option<Self> {
         let (hold, jaws) = (state.grip.hold.as_ref()?, tool.jaws?);
         let radius = (Swept::face(&jaws) / std::f64::consts::PI).sqrt();
         let press = Press {
-            at: hold.seen.at?,
+            at: hold.displayed.at?,
             tip: Tip::Flat { radius },
             displacement: hold.displaced(),
             own: Vec3::zeros(),
         };
         Some(Self {
-            triangle: hold.seen.triangle,
-            place: hold.seen.place,
+            triangle: hold.displayed.triangle,
+            place: hold.displayed.place,
             press,
         })
     }
 
-    /// Of a tool, if its tip touches.
+    /// For a tool whose tip touches.
     pub(super) fn of(tool: &Tool, state: &ToolState) -> Option<Self> {
         let contact = state.contact.as_ref()?;
         let press = Press {
@@ -86,12 +86,12 @@ impl SeenContact {
     }
 }
 
-/// The surface of a whole organ with finer triangles around its contacts, for who looks at it: made of what
-/// a simulation tells, at the display's rate, by no thread of the touch.
+/// The displayed surface of an organ-scale model, refined around its contacts: computed from the field of a simulation,
+/// at the display's rate, by no thread of the touch.
 #[derive(Debug, Clone)]
 pub struct EnhancedSurface {
     model: EnhancementModel,
-    /// Of the vertices that are there without a patch.
+    /// Displacements of the vertices without a patch.
     carrier: Carrier,
     field: SurfaceField,
     patch: EnhancedPatch,
@@ -105,7 +105,7 @@ pub struct EnhancedSurface {
 }
 
 impl EnhancedSurface {
-    /// As `settings` say; none where the simulation moves the same vertices by itself, or has no whole organ.
+    /// With these `settings`; none if the simulation moves the same vertices by itself, or has no organ-scale model.
     ///
     /// # Errors
     /// When there are too many levels.
@@ -133,7 +133,7 @@ impl EnhancedSurface {
         }))
     }
 
-    /// Moves it to where `field` has the organ; whether its triangles are other ones now.
+    /// Updates to `field`; returns whether its triangles have changed.
     ///
     /// # Panics
     /// When the field is that of another organ.
@@ -151,7 +151,7 @@ impl EnhancedSurface {
         }
         self.presses.clear();
         self.presses.extend(contacts.map(|contact| Press {
-            // A curved patch lies over the place that is touched, and has to meet the tip as well.
+            // A curved patch covers the contact, and has to meet the tip as well.
             displacement: contact.press.displacement + contact.place
                 - self.patch.nearest(&contact.place),
             ..contact.press
@@ -163,17 +163,17 @@ impl EnhancedSurface {
         anew
     }
 
-    /// At rest: the vertices of the shown surface, then those of the finer triangles.
+    /// At rest: the vertices of the displayed surface, then those of the finer triangles.
     pub fn mesh(&self) -> &TriangleMesh {
         &self.mesh
     }
 
-    /// Where the vertices of [`Self::mesh`] are now [m].
+    /// Current positions of the vertices of [`Self::mesh`] [m].
     pub fn places(&self) -> &[Vec3] {
         &self.places
     }
 
-    /// The new vertices, as means of three vertices of the shown surface with weights [-].
+    /// The new vertices, as means of three vertices of the displayed surface with weights [-].
     pub fn new_vertices(&self) -> impl Iterator<Item = ([NodeId; 3], [f64; 3])> {
         let shown = self.model.surface().mesh();
         let new = &self.patch.sites()[self.patch.corners().len()..];

@@ -1,25 +1,25 @@
-//! What all jaws hold of one organ: triangles whose displacements are prescribed.
+//! The tissue that all jaws hold of one organ: triangles with prescribed displacements.
 //!
-//! With Ξ_hh the compliance of the held parts (triangles, or several with the mean of their displacements), d
-//! their displacements and c what the tips carry them by, the forces on them are f = E Ξ_hh⁻¹ (d − c) (4.7).
-//! Ξ_hh is symmetric and positive definite; it is factored by Cholesky where other parts are held than in the
-//! step before, and a step only substitutes back. `press` eliminates them from the equations of the tips. A tool
-//! feels −Σ f of its own, and answers a way of its jaws with S = E Σ Ξ_hh⁻¹ over its own.
+//! With Ξ_hh the compliance of the held parts (triangles, or several with the mean of their displacements), d their
+//! displacements and c those due to the tips, the forces on them are f = E Ξ_hh⁻¹ (d − c) (4.7). Ξ_hh is symmetric and
+//! positive definite; Cholesky's method factors it when the held parts change, and a step only substitutes back.
+//! `press` eliminates them from the equations of the tips. A tool feels −Σ f of its own parts, and has the stiffness S
+//! = E Σ Ξ_hh⁻¹ over its own.
 //!
-//! What a tip's load yields where nothing is held, W, is more than what held parts take of it: W − Tᵀ E Ξ_hh⁻¹ T is
-//! positive definite in every elastic organ. Collocation on a few large triangles misses that, also where tip and jaws
-//! share no triangle (`random_scenes::…`: the root of the largest eigenvalue of W⁻¹ Tᵀ E Ξ_hh⁻¹ T is 1.2 to 2.4 there,
-//! with a thousandth of the tip's load or none on what is held), and a tip would be moved against its force. There T is
-//! taken smaller, so that this root is [`MOST_CARRIED`], and it is told as [`Limit::Carried`].
+//! Held parts reduce the compliance W of a tip's load by less than W itself: W − Tᵀ E Ξ_hh⁻¹ T is positive definite in
+//! every elastic organ. Collocation on a few large triangles violates that, even if tip and jaws share no triangle
+//! (`random_scenes::…`: the root of the largest eigenvalue of W⁻¹ Tᵀ E Ξ_hh⁻¹ T is 1.2 to 2.4 there, with a thousandth
+//! of the tip's load or none on the held parts), and a tip would move against its force. There T is reduced, so that
+//! this root is [`MOST_CARRIED`], and [`Limit::Carried`] reports it.
 //!
 //! [`Limit::Carried`]: palpate_mechanics::Limit::Carried
 //!
 //! *How we know*: `grip::agreement::…`: the same elements anew, finite elements, a tube pulled at both sides;
 //! `grip::energy::a_closed_way_gives_no_energy`.
 //!
-//! *Limits*: S leaves out that tips beside the jaws yield. A few constant triangles lack the peak of traction at
-//! the edge of a patch: six are 11 % too soft on every mesh, sixteen parts 2 %. Where triangles are larger than
-//! the jaws, as much is held as they are large.
+//! *Limits*: S ignores the compliance of tips next to the jaws. A few constant triangles lack the peak of traction at
+//! the edge of a patch: six are 11 % too soft on every mesh, sixteen parts 2 %. Where triangles are larger than the
+//! jaws, the held area is as large as they are.
 
 use nalgebra::Matrix3;
 use palpate_geometry::Vec3;
@@ -35,25 +35,25 @@ use crate::state::ToolState;
 /// A pivot smaller than this part of its diagonal is rounding [-]: influences have 24 bits.
 const LEAST_PIVOT: f64 = 1e-6;
 
-/// The equations of what is held. They are made again where they are not those that are wanted.
+/// The equations of the held parts. They are set up again when the held parts change.
 #[derive(Debug)]
 pub(super) struct HeldWorkspace {
-    /// The tool of each three of them, and the end of their triangles.
-    who: Vec<(usize, usize)>,
+    /// For each part, its tool and the end index of its triangles.
+    owners: Vec<(usize, usize)>,
     triangles: Vec<HeldTriangle>,
-    is_sound: bool,
-    /// Of the slit that is in them.
+    is_solved: bool,
+    /// Version of the slit in the equations.
     slit: u64,
     /// The rows of the lower half of Ξ_hh [1/m], then of its factor.
     matrix: Vec<f64>,
     right: Vec<f64>,
-    /// On the held parts [N].
+    /// Forces on the held parts [N].
     forces: Vec<Vec3>,
     /// Compliance [m/N] of part k to a force on tip i, at k tools + i.
     to_tips: Vec<Matrix3<f64>>,
-    /// What tip i is moved less by a force on tip j because the held parts stand still [m/N], at i tools + j.
+    /// Reduction of the displacement of tip i under a force on tip j by the held parts [m/N], at i tools + j.
     fixes: Vec<Matrix3<f64>>,
-    /// By how much a tip and the held parts carry each other more than is possible, where they do.
+    /// Where the coupling of a tip with the held parts exceeded its bound, by how much.
     bounded: Vec<Option<Reached>>,
     /// Σ Ξ_hh⁻¹ over each tool's parts [m].
     stiffness: Vec<Matrix3<f64>>,
@@ -63,9 +63,9 @@ impl HeldWorkspace {
     pub(super) fn new(tools: usize) -> Self {
         let most = tools * MOST_PARTS;
         Self {
-            who: Vec::with_capacity(most),
+            owners: Vec::with_capacity(most),
             triangles: Vec::with_capacity(tools * MOST_TRIANGLES),
-            is_sound: false,
+            is_solved: false,
             slit: 0,
             matrix: vec![0.0; 9 * most * most],
             right: vec![0.0; 3 * most],
@@ -77,20 +77,20 @@ impl HeldWorkspace {
         }
     }
 
-    /// How many parts bear forces: none where their equations have no answer.
+    /// Number of parts with a valid solution: none if their equations have no solution.
     fn answered(&self) -> usize {
-        if self.is_sound { self.who.len() } else { 0 }
+        if self.is_solved { self.owners.len() } else { 0 }
     }
 
     /// Held triangles with their tools and forces [N].
     pub(super) fn forces(&self) -> impl Iterator<Item = (usize, TouchId, Vec3)> {
         (0..self.answered()).flat_map(move |k| {
             let triangles = self.part(k).iter();
-            triangles.map(move |one| (self.who[k].0, one.touch, self.forces[k] * one.weight))
+            triangles.map(move |one| (self.owners[k].0, one.touch, self.forces[k] * one.weight))
         })
     }
 
-    /// Displacement [m] of the tip of tool `number`, one of so many, by the forces on what is held.
+    /// Displacement [m] of the tip of tool `number`, one of so many, due to the forces on the held parts.
     pub(super) fn carries(&self, number: usize, tools: usize) -> Vec3 {
         let forces = self.forces.iter().take(self.answered()).enumerate();
         forces
@@ -98,18 +98,19 @@ impl HeldWorkspace {
             .sum()
     }
 
-    /// How much less tip `moved` yields [m/N] to a force on tip `loaded`, of so many tools, than if nothing were held.
+    /// Reduction of the compliance [m/N] of tip `moved` to a force on tip `loaded`, of so many tools, by the held
+    /// parts.
     pub(super) fn fixes(&self, moved: usize, loaded: usize, tools: usize) -> Matrix3<f64> {
         self.fixes[moved * tools + loaded]
     }
 
-    /// How far the coupling of a tip with what is held was bounded, where it was.
+    /// The bound that acted on the coupling of a tip with the held parts, if it did.
     pub(super) fn bounded(&self, number: usize) -> Option<Reached> {
         self.bounded[number]
     }
 
-    /// Bounds the coupling of a tip, one of so many tools, with what is held. `yields` is what its load yields where
-    /// nothing is held [m/N]: what held parts take of that is less than all of it.
+    /// Bounds the coupling of a tip, one of so many tools, with the held parts. `yields` is the compliance of its load
+    /// without held parts [m/N]: held parts reduce it by less than all of it.
     fn bound(&mut self, number: usize, tools: usize, yields: &Matrix3<f64>) {
         let coupling = coupling(&self.fixes(number, number, tools), yields);
         if coupling <= MOST_CARRIED {
@@ -120,7 +121,7 @@ impl HeldWorkspace {
             used: MOST_CARRIED,
         });
         let part = MOST_CARRIED / coupling;
-        for k in 0..self.who.len() {
+        for k in 0..self.owners.len() {
             self.to_tips[k * tools + number] *= part;
         }
         for other in 0..tools {
@@ -129,13 +130,13 @@ impl HeldWorkspace {
         }
     }
 
-    /// Finds that for all tips of an organ of Young's modulus `modulus` [Pa].
+    /// Computes the coupling for all tips of an organ of Young's modulus `modulus` [Pa].
     fn fix(&mut self, tools: usize, modulus: f64) {
         self.fixes.fill(Matrix3::zeros());
-        if !self.is_sound {
+        if !self.is_solved {
             return;
         }
-        let parts = self.who.len();
+        let parts = self.owners.len();
         let size = 3 * parts;
         for loaded in 0..tools {
             for axis in 0..3 {
@@ -167,11 +168,11 @@ impl HeldWorkspace {
 
     /// The triangles of part `k`.
     fn part(&self, k: usize) -> &[HeldTriangle] {
-        let start = k.checked_sub(1).map_or(0, |before| self.who[before].1);
-        &self.triangles[start..self.who[k].1]
+        let start = k.checked_sub(1).map_or(0, |before| self.owners[before].1);
+        &self.triangles[start..self.owners[k].1]
     }
 
-    /// Whether the equations are those of what `tools` hold.
+    /// Whether the equations match the parts that `tools` hold.
     fn is_of(&self, tools: &[ToolState]) -> bool {
         let mut k = 0;
         for (number, tool) in tools.iter().enumerate() {
@@ -181,36 +182,37 @@ impl HeldWorkspace {
                 .into_iter()
                 .flat_map(|patch| patch.parts())
             {
-                let same =
-                    k < self.who.len() && self.who[k].0 == number && self.part(k) == triangles;
+                let same = k < self.owners.len()
+                    && self.owners[k].0 == number
+                    && self.part(k) == triangles;
                 if !same {
                     return false;
                 }
                 k += 1;
             }
         }
-        k == self.who.len()
+        k == self.owners.len()
     }
 
     /// Displacement of part `i` from a unit force on part `j`, times E [1/m], before they are factored.
     fn block(&self, i: usize, j: usize) -> Matrix3<f64> {
-        let size = 3 * self.who.len();
+        let size = 3 * self.owners.len();
         let (row, column) = (3 * i.max(j), 3 * i.min(j));
         let block = Matrix3::from_fn(|a, b| self.matrix[size * (row + a) + column + b]);
         if i < j { block.transpose() } else { block }
     }
 
-    /// How far E times the parts of tool `number` are moved [N/m], in their order, when they bear `force` [N]
-    /// by their `shares` [-] beside what others hold, whose forces are those of the last equations. Before
-    /// they are factored.
+    /// Displacements times E of the parts of tool `number` [N/m], in their order, when they bear `force` [N] by their
+    /// `shares` [-] in addition to the parts of other tools, whose forces are those of the last equations. Call before
+    /// the factorization.
     pub(super) fn borne<'a>(
         &'a self,
         number: usize,
         force: Vec3,
         shares: impl Iterator<Item = f64> + Clone + 'a,
     ) -> impl Iterator<Item = Vec3> + 'a {
-        let of_tool = move |k: &usize| self.who[*k].0 == number;
-        let all = 0..self.who.len();
+        let of_tool = move |k: &usize| self.owners[*k].0 == number;
+        let all = 0..self.owners.len();
         all.clone().filter(of_tool).map(move |moved| {
             let own = all.clone().filter(of_tool).zip(shares.clone());
             let own = own.map(|(k, share)| self.block(moved, k) * force * share);
@@ -220,26 +222,26 @@ impl HeldWorkspace {
         })
     }
 
-    /// Factors what was set up for so many tools, if it can be.
+    /// Factors the matrix for this number of tools, if possible.
     pub(super) fn factor(&mut self, tools: usize) {
-        let size = 3 * self.who.len();
+        let size = 3 * self.owners.len();
         let matrix = &mut self.matrix[..size * size];
-        self.is_sound = cholesky(matrix, size);
+        self.is_solved = cholesky(matrix, size);
         self.stiffness.fill(Matrix3::zeros());
-        if !self.is_sound {
+        if !self.is_solved {
             return;
         }
         for number in 0..tools {
             for axis in 0..3 {
                 let right = &mut self.right[..size];
-                for (three, (tool, _)) in right.chunks_exact_mut(3).zip(&self.who) {
+                for (three, (tool, _)) in right.chunks_exact_mut(3).zip(&self.owners) {
                     three.fill(0.0);
                     three[axis] = f64::from(u8::from(*tool == number));
                 }
                 substitute(matrix, right);
                 let column: Vec3 = right
                     .chunks_exact(3)
-                    .zip(&self.who)
+                    .zip(&self.owners)
                     .filter(|(_, (tool, _))| *tool == number)
                     .map(|(three, _)| Vec3::from_column_slice(three))
                     .sum();
@@ -248,9 +250,9 @@ impl HeldWorkspace {
         }
     }
 
-    /// Takes over what `tools` hold.
+    /// Takes over the parts that `tools` hold.
     fn fill(&mut self, tools: &[ToolState]) {
-        self.who.clear();
+        self.owners.clear();
         self.triangles.clear();
         for (number, tool) in tools.iter().enumerate() {
             for (_, triangles) in tool
@@ -260,14 +262,14 @@ impl HeldWorkspace {
                 .flat_map(|patch| patch.parts())
             {
                 self.triangles.extend_from_slice(triangles);
-                self.who.push((number, self.triangles.len()));
+                self.owners.push((number, self.triangles.len()));
             }
         }
     }
 }
 
 impl GlobalModel {
-    /// Makes the equations of what `tools` hold ready, if they are not; whether they have an answer, where
+    /// Prepares the equations of the parts that `tools` hold, if necessary; returns whether they have a solution, if
     /// anything is held.
     pub(super) fn hold(
         &self,
@@ -282,7 +284,7 @@ impl GlobalModel {
             workspace.held.factor(tools.len());
         }
         let GlobalWorkspace { held, slit, .. } = workspace;
-        for k in 0..held.who.len() {
+        for k in 0..held.owners.len() {
             for (number, tool) in simulation.tools.iter().enumerate() {
                 let mut sum = Matrix3::zeros();
                 if let Some(load) = self.load(tool, &tools[number]) {
@@ -302,13 +304,13 @@ impl GlobalModel {
         held.fix(tools.len(), 1.0 / softness);
         held.bounded.fill(None);
         for (number, tool) in simulation.tools.iter().enumerate() {
-            if let Some(load) = self.load(tool, &tools[number]).filter(|_| held.is_sound) {
+            if let Some(load) = self.load(tool, &tools[number]).filter(|_| held.is_solved) {
                 let more = slit.as_ref().map(|slit| slit.further(number));
                 let yields = self.response.between(&load, &load) + more.unwrap_or_default();
                 held.bound(number, tools.len(), &(yields * softness));
             }
         }
-        held.is_sound
+        held.is_solved
     }
 
     /// Displacement of one held part from a unit force on another, times E [1/m].
@@ -327,19 +329,19 @@ impl GlobalModel {
         sum
     }
 
-    /// Sets up the equations of what `tools` hold, which are to be factored next.
+    /// Sets up the equations of the parts that `tools` hold, to be factored next.
     pub(super) fn assemble(&self, tools: &[ToolState], workspace: &mut GlobalWorkspace) {
         let GlobalWorkspace { held, slit, .. } = workspace;
         held.fill(tools);
-        held.is_sound = false;
+        held.is_solved = false;
         held.slit = slit.as_ref().map_or(0, |slit| slit.version);
         if let Some(slit) = slit {
-            for k in 0..held.who.len() {
+            for k in 0..held.owners.len() {
                 slit.put_part(&self.response, k, held.part(k));
             }
         }
-        let size = 3 * held.who.len();
-        for i in 0..held.who.len() {
+        let size = 3 * held.owners.len();
+        for i in 0..held.owners.len() {
             for j in 0..=i {
                 let mut block = self.between_parts(held.part(i), held.part(j));
                 if let Some(slit) = slit {
@@ -354,7 +356,7 @@ impl GlobalModel {
         }
     }
 
-    /// The forces of all that is held beside those of the tips.
+    /// The forces on all held parts, in addition to those of the tips.
     pub(super) fn answer_held(
         &self,
         simulation: &Simulation,
@@ -363,7 +365,7 @@ impl GlobalModel {
     ) {
         let modulus = simulation.material.at_rest.youngs_modulus();
         let held = &mut workspace.held;
-        let size = 3 * held.who.len();
+        let size = 3 * held.owners.len();
         let right = &mut held.right[..size];
         let mut k = 0;
         for tool in tools.iter() {
@@ -389,7 +391,7 @@ impl GlobalModel {
             if !state.holds() {
                 continue;
             }
-            let own = held.who.iter().zip(&held.forces);
+            let own = held.owners.iter().zip(&held.forces);
             let own = own.filter(|((tool, _), _)| *tool == number);
             state.elastic = -own.map(|(_, force)| force).sum::<Vec3>();
             state.stiffness = held.stiffness[number] * modulus;
@@ -397,8 +399,8 @@ impl GlobalModel {
     }
 }
 
-/// How closely a tip follows what is held [-]: the root of the largest part of what it `yields` [m/N] that held parts
-/// take, which `fixes` is. In an elastic organ it is less than one.
+/// The coupling of a tip with the held parts [-]: the root of the largest part of its compliance `yields` [m/N] that
+/// the held parts remove, which is `fixes`. In an elastic organ it is less than one.
 fn coupling(fixes: &Matrix3<f64>, yields: &Matrix3<f64>) -> f64 {
     if *fixes == Matrix3::zeros() {
         return 0.0;
@@ -410,7 +412,7 @@ fn coupling(fixes: &Matrix3<f64>, yields: &Matrix3<f64>) -> f64 {
     })
 }
 
-/// Puts Cholesky's factor in the place of the lower half of a matrix; false where it has none.
+/// Replaces the lower half of a matrix by its Cholesky factor; false if it has none.
 fn cholesky(matrix: &mut [f64], size: usize) -> bool {
     for i in 0..size {
         let (above, row) = matrix.split_at_mut(size * i);
@@ -431,7 +433,7 @@ fn cholesky(matrix: &mut [f64], size: usize) -> bool {
     true
 }
 
-/// Replaces `right` by the solution with Cholesky's `factor`.
+/// Replaces `right` by the solution with the Cholesky `factor`.
 fn substitute(factor: &[f64], right: &mut [f64]) {
     let size = right.len();
     for i in 0..size {
@@ -451,8 +453,8 @@ fn substitute(factor: &[f64], right: &mut [f64]) {
 mod tests {
     use super::*;
 
-    /// Judge: the definition, for held parts that take a quarter of what a tip yields along one axis, and all of it along
-    /// none. And no tip follows what is held more closely than it can: what is left of its compliance is positive.
+    /// Judge: the definition, for held parts that remove a quarter of a tip's compliance along one axis, and all of it
+    /// along none. And no tip is coupled more closely than possible: the remaining compliance is positive.
     #[test]
     fn held_parts_take_less_than_a_tip_yields() {
         let yields = Matrix3::new(3.0, 0.5, 0.2, 0.5, 2.0, -0.4, 0.2, -0.4, 1.0);
@@ -475,7 +477,7 @@ mod tests {
         assert!(other.norm() < 1e-12 && held.fixes(0, 1, 2) == held.fixes(1, 0, 2).transpose());
     }
 
-    /// Judge: the product. And no factor for a matrix that gives energy.
+    /// Judge: the product. And no factor for a matrix that is not positive definite.
     #[test]
     fn a_factor_solves_its_equations() {
         let matrix = [4.0, 0.0, 0.0, 1.0, 3.0, 0.0, -1.0, 0.5, 2.0];

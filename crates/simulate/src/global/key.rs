@@ -4,11 +4,11 @@ use sha2::{Digest, Sha256};
 
 use super::method::Method;
 
-/// Change with the equations, so that what was stored before is solved anew.
+/// Changes with the equations, so that stored responses are solved anew.
 const BOUNDARY_ELEMENTS: &str = "boundary elements 2";
 const FINITE_ELEMENTS: &str = "condensed finite elements 3";
 
-/// What a response is made from.
+/// The inputs of a response.
 pub(super) struct Ingredients<'a> {
     pub(super) surface: &'a Surface,
     /// [-]
@@ -20,7 +20,7 @@ pub(super) struct Ingredients<'a> {
 }
 
 impl Ingredients<'_> {
-    /// 64 hexadecimal digits that no other ingredients have.
+    /// A key of 64 hexadecimal digits, unique to these inputs.
     pub(super) fn key(&self) -> String {
         let mut hash = Sha256::new();
         match self.method {

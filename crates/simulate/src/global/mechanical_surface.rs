@@ -3,10 +3,10 @@ use palpate_geometry::{AabbTree, SimplifySettings, Surface, simplify_graded};
 use crate::Error;
 use crate::walls::thicknesses;
 
-/// A mesh of at most so many triangles carries its own mechanics.
+/// Largest number of triangles of a mesh that is its own mechanical mesh.
 const MOST_OF_ITS_OWN: usize = 6_000;
 
-/// So many are made of a finer one.
+/// Number of mechanical triangles for a finer mesh.
 const OF_A_FINER_ONE: usize = 5_000;
 
 /// Longest edges in parts of the wall under them [-]. A tip's force is spread over 2.2 of them, which must be less than
@@ -20,8 +20,7 @@ const FINEST: f64 = 0.25;
 /// By how much edges may grow along the way [-].
 const GROWTH: f64 = 0.25;
 
-/// The surface that carries the mechanics of `shown`: itself, or one of at most `wanted` triangles; with
-/// warnings.
+/// The mechanical surface of `shown`: the same surface, or one of at most `wanted` triangles; with warnings.
 pub(super) fn mechanical_surface(
     shown: &Surface,
     wanted: Option<usize>,
@@ -64,7 +63,7 @@ fn sizes(shown: &Surface, triangles: usize) -> Vec<f64> {
             *size = size.min((OF_A_WALL * thickness).max(FINEST * even));
         }
     }
-    // A rim looks along the leaf that it ends.
+    // A rim has the direction of the leaf that it ends.
     let edges = mesh
         .triangles()
         .iter()

@@ -3,7 +3,7 @@ use palpate_geometry::Surface;
 
 use crate::walls::Walls;
 
-/// More tetrahedra are not tried: a wall of so many takes minutes, a thick body some gigabytes.
+/// More tetrahedra are not tried: a wall with so many takes minutes, a thick body some gigabytes.
 pub(super) const MOST_TETRAHEDRA: f64 = 25_000.0;
 
 /// Where a wall is lost between tetrahedra, ones with this part of the edge are tried [-], so many times
@@ -11,7 +11,7 @@ pub(super) const MOST_TETRAHEDRA: f64 = 25_000.0;
 const SHORTER: f64 = 0.8;
 const TRIES: i32 = 3;
 
-/// How a response is solved.
+/// The method that solves a response.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Method {
     BoundaryElements,
@@ -30,8 +30,9 @@ impl Method {
         }
     }
 
-    /// Finite elements for a surface with its walls, where they are wanted: the best first, the next where walls are lost
-    /// between its tetrahedra, of which there are `most`. They alone answer for several tissues.
+    /// Finite-element settings for a surface with its walls, if requested: the best first, the next ones for the case
+    /// that walls are lost between its tetrahedra, of which there are at most `most`. Only finite elements support
+    /// several tissues.
     pub(super) fn finite(
         wanted: ResponseMethod,
         has_regions: bool,

@@ -1,4 +1,4 @@
-//! The whole organ: how its surface answers forces anywhere on it, prepared once (section 4.2).
+//! The organ-scale model: the response of the surface to forces anywhere on it, prepared once (section 4.2).
 //!
 //! ```text
 //! shown surface ──simplify──▶ mechanical surface ─────solved once─────▶ SurfaceResponse ◀──▶ stored file
@@ -6,19 +6,20 @@
 //!       └───────── carried by the displacements of its triangles ◀────────────┘ forces of the tips
 //! ```
 //!
-//! A coarse mesh is enough for the mechanics, since the tip has its own law ([`TipLaw`]) and the organ
-//! around it only yields further; the fine one is what is seen.
+//! A coarse mesh is enough for the mechanics, since the tip has its own law ([`TipLaw`]) and the organ around it only
+//! adds compliance; the fine mesh is for display.
 //!
-//! Boundary elements solve for it, or, where walls are too thin for them (`crate::walls`) or the scene asks for
-//! them, finite elements condensed to the surface. These alone have layers and inclusions, which then cost nothing in a step.
+//! Boundary elements solve for the response, or, where walls are too thin for them (`crate::walls`) or the scene asks
+//! for them, finite elements condensed to the surface. Only these have layers and inclusions, which then cost nothing
+//! in a step.
 //!
-//! Finer triangles around a contact are made by who looks at it ([`EnhancedSurface`]), of what a step tells
+//! The display refines the triangles around a contact ([`EnhancedSurface`]) from the displacement field of a step
 //! ([`OrganField`]).
 //!
 //! *How we know*: `hybrid::…`, `enhanced::…`, `thin_walls::…`, `large_organs::…`.
 //!
-//! *Limits*: the organ around a tip answers as at small strain; nothing of it moves through its anchor. A tip does not
-//! resist that the organ turns under it.
+//! *Limits*: the organ around a tip responds as at small strain; nothing of it moves through its anchor. A tip does not
+//! resist a rotation of the organ under it.
 //!
 //! [`TipLaw`]: palpate_mechanics::TipLaw
 
@@ -60,57 +61,57 @@ use solve::Found;
 pub(crate) use surroundings::surround;
 use take_hold::Candidate;
 
-/// How the whole organ answers.
+/// The organ-scale model.
 #[derive(Debug, Clone)]
 pub(crate) struct GlobalModel {
-    /// Of the mechanical surface.
+    /// The response of the mechanical surface.
     pub(crate) response: SurfaceResponse,
     pub(crate) origin: ResponseOrigin,
-    /// How displacements of its triangles are spread over it, and to the shown surface.
+    /// How displacements of its triangles are interpolated on it, and on the displayed surface.
     pub(crate) enhancement: EnhancementModel,
-    /// The vertices that are shown.
+    /// The displayed vertices.
     pub(crate) carrier: Carrier,
-    /// Around the mechanical surface.
+    /// The boxes around the mechanical surface.
     pub(crate) tree: AabbTree,
 }
 
-/// What was prepared of the whole organ, and where it came from.
+/// The prepared organ-scale response, and its origin.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ResponseOrigin {
-    /// How it was solved, in words.
+    /// The method of solution, in words.
     pub method: &'static str,
     /// Triangles that carry the mechanics.
     pub triangles: usize,
     /// Those of them that can be touched.
     pub touchable: usize,
-    /// Memory that it takes [byte].
+    /// Its memory [byte].
     pub bytes: usize,
-    /// The file that keeps it.
+    /// The file that stores it.
     pub file: Option<PathBuf>,
-    /// Whether it was read from there.
+    /// Whether it was read from that file.
     pub was_kept: bool,
 }
 
-/// Scratch of the whole organ's part in a step.
+/// Scratch of the organ-scale model in a step.
 #[derive(Debug)]
 pub(crate) struct GlobalWorkspace {
     /// Compliance [m/N] of tool i to a force on tool j, at i tools + j.
     between: Vec<Matrix3<f64>>,
     held: HeldWorkspace,
-    /// What cuts do to it, where the mechanics follow them.
+    /// The effect of cuts on it, if the mechanics follow them.
     slit: Option<OrganSlit>,
     between_jaws: Vec<Candidate>,
     /// Displacements of triangles [m], three numbers each.
     sums: Vec<f32>,
     field: SurfaceField,
     presses: Vec<Press>,
-    /// Displacements of the shown vertices [m].
+    /// Displacements of the displayed vertices [m].
     shown: Vec<Vec3>,
 }
 
 impl GlobalModel {
-    /// Finds what the organ adds to a tool's tip, wherever it touches.
-    pub(crate) fn lie_under(
+    /// Computes the compliance that the organ adds to a tool's tip, at every contact location.
+    pub(crate) fn apply_to_tip(
         &self,
         tool: &mut Tool,
         regions: Option<&Regions>,
@@ -127,7 +128,7 @@ impl GlobalModel {
         Ok(())
     }
 
-    /// Scratch for so many tools on an organ that is cut or not.
+    /// Scratch for this number of tools on an organ with or without cuts.
     pub(crate) fn workspace(&self, tools: usize, is_cut: bool) -> GlobalWorkspace {
         let triangles = self.response.parts().triangles;
         GlobalWorkspace {
@@ -143,7 +144,7 @@ impl GlobalModel {
     }
 }
 
-/// What a whole organ's response is made from.
+/// The inputs of an organ-scale response.
 pub(crate) struct GlobalProblem<'a> {
     surface: Surface,
     poissons_ratio: f64,
@@ -151,15 +152,15 @@ pub(crate) struct GlobalProblem<'a> {
     held: Vec<TriangleId>,
     touchable: Vec<TriangleId>,
     walls: Walls,
-    /// Finite elements to try, the best first; without any, boundary elements are meant.
+    /// Finite-element settings to try, the best first; if empty, boundary elements are used.
     finite: Vec<Method>,
     pub(crate) warnings: Vec<String>,
 }
 
-/// The tissues of an organ of several.
+/// The tissues of an organ with several.
 struct OrganRegions<'a> {
     map: &'a RegionMap,
-    /// With moduli in parts of that at the surface.
+    /// With moduli relative to that at the surface.
     laws: Vec<LinearElastic>,
 }
 
@@ -178,7 +179,8 @@ impl<'a> OrganRegions<'a> {
 }
 
 impl<'a> GlobalProblem<'a> {
-    /// That of the organ of `scene`, which is seen as `shown`, of `law` at its surface, and elsewhere of that of its `regions`.
+    /// The inputs for the organ of `scene`, displayed as `shown`, with `law` at its surface, and elsewhere with those
+    /// of its `regions`.
     pub(crate) fn new(
         scene: &Scene,
         shown: &Surface,
@@ -216,9 +218,9 @@ impl<'a> GlobalProblem<'a> {
         scene: &Scene,
         shown: &Surface,
         resources: &Resources,
-        watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+        on_progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<(GlobalModel, Vec<String>), Error> {
-        let (method, found) = self.response(resources, watch)?;
+        let (method, found) = self.response(resources, on_progress)?;
         let parts = found.response.parts();
         let origin = ResponseOrigin {
             method: method.words(),
@@ -249,15 +251,15 @@ impl<'a> GlobalProblem<'a> {
         Ok((model, [self.warnings, found.warnings].concat()))
     }
 
-    /// By finite elements where they are wanted and can be, else by boundary elements.
+    /// By finite elements if they are requested and possible, else by boundary elements.
     fn response(
         &self,
         resources: &Resources,
-        watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+        on_progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<(Method, Found), Error> {
         let mut missed = None;
         for &method in &self.finite {
-            match solve::response(&self.ingredients(method), resources, watch) {
+            match solve::response(&self.ingredients(method), resources, on_progress) {
                 Ok(found) => return Ok((method, found)),
                 Err(error @ Error::Model(palpate_mechanics::Error::BrokenOff)) => {
                     return Err(error);
@@ -266,11 +268,11 @@ impl<'a> GlobalProblem<'a> {
             }
         }
         if let Some(error) = missed.take_if(|_| self.regions.is_some()) {
-            // Boundary elements would not feel them.
+            // Boundary elements would ignore them.
             return Err(error);
         }
         let method = Method::BoundaryElements;
-        let mut found = solve::response(&self.ingredients(method), resources, watch)?;
+        let mut found = solve::response(&self.ingredients(method), resources, on_progress)?;
         found.warnings.extend(missed.map(|error| {
             format!(
                 "the organ is solved by boundary elements, for finite elements have none: {error}"
@@ -297,7 +299,7 @@ impl<'a> GlobalProblem<'a> {
     }
 }
 
-/// The triangles that are held, and those that can be touched.
+/// The fixed triangles, and the touchable ones.
 fn sort(organ: &Organ, surface: &Surface) -> (Vec<TriangleId>, Vec<TriangleId>) {
     let anchor = held_region(&organ.shape, organ.anchor.as_ref());
     let mesh = surface.mesh();

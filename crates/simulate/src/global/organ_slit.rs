@@ -1,13 +1,13 @@
-//! The mechanics of the cuts: the way of the blades over the shown surface as facets of a slit in the mechanical
-//! one, whose faces bear no traction.
+//! The mechanics of the cuts: the path of the blades over the displayed surface as facets of a slit in the mechanical
+//! one, whose faces are free of traction.
 //!
-//! A facet takes the parts of the way that make up its length; what is left of a cut that has ended becomes a
-//! shorter one. The slit is what it is by its facets alone, so that an undone cut leaves nothing.
+//! A facet covers the parts of the path that make up its length; the rest of a completed cut becomes a shorter one. The
+//! facets alone define the slit, so that an undone cut leaves no trace.
 //!
 //! *How we know*: `slit::…` of `mechanics`; `cut_mechanics::…`.
 //!
-//! *Limits*: the contact tells its side of a slit by its place at rest; a cut beyond [`MOST`] facets is seen and
-//! no longer felt, with a warning.
+//! *Limits*: the contact determines its side of a slit from its position at rest; cuts beyond [`MOST`] facets are
+//! displayed but do not change the forces, with a warning.
 
 use nalgebra::Matrix3;
 use palpate_geometry::Vec3;
@@ -25,16 +25,16 @@ use crate::state::ToolState;
 /// Facets of all cuts.
 const MOST: usize = 96;
 
-/// Length of a facet over the depth of the cut [-], and at least [m]: what a tip beside it feels is summed over
+/// Length of a facet over the depth of the cut [-], and at least [m]: its effect on a tip next to it is a sum over
 /// facets.
 const OF_THE_DEPTH: f64 = 0.5;
 const SHORTEST: f64 = 1.2e-3;
 
-/// What is left of a cut has to be this part of a facet's length [-] to be one.
+/// Least length of the rest of a cut, in parts of a facet's length [-].
 const A_REST: f64 = 0.3;
 
-/// The parts of a cut that a facet is of, from the first up to the one before `end`, and the layers that were open
-/// in all of them.
+/// The parts of a cut that a facet covers, from the first up to the one before `end`, and the number of open layers in
+/// all of them.
 #[derive(Debug, Clone, Copy)]
 struct Source {
     first: usize,
@@ -43,35 +43,35 @@ struct Source {
 }
 
 impl Source {
-    /// Whether the parts still are what they were.
+    /// Whether the parts are unchanged.
     fn is_in(&self, parts: &[CutPart]) -> bool {
         let own = parts.get(self.first..self.end);
-        own.is_some_and(|own| own.iter().all(|part| part.felt == self.layers))
+        own.is_some_and(|own| own.iter().all(|part| part.in_mechanics == self.layers))
     }
 }
 
-/// The slit with what forces do to it. It is made again of the cuts where it is lost.
+/// The slit with its response to forces. It is rebuilt from the cuts if it is lost.
 #[derive(Debug)]
 pub(crate) struct OrganSlit {
     slit: Slit,
-    /// Of which parts each facet is.
+    /// The parts of each facet.
     sources: Vec<Source>,
-    /// Parts of the way that were taken, whether they became a facet or not.
+    /// Number of processed parts of the path, whether they became a facet or not.
     taken: usize,
-    /// Length of the facets that could not be [m].
+    /// Total length of the facets that could not be made [m].
     unfelt: f64,
-    /// Another number whenever the facets are others.
+    /// Changes whenever the facets change.
     pub(super) version: u64,
-    /// Of the force of each tool's tip.
+    /// Response to the force of each tool's tip.
     tips: Vec<SlitLoad>,
-    /// Of the force on each part of what jaws hold.
+    /// Response to the force on each held part.
     parts: Vec<SlitLoad>,
     scratch: SlitLoad,
     jumps: SlitJumps,
 }
 
 impl OrganSlit {
-    /// None yet, in an organ that so many tools touch.
+    /// An empty slit, in an organ that this number of tools may touch.
     pub(super) fn new(response: &SurfaceResponse, tools: usize) -> Self {
         let slit = Slit::new(response, MOST);
         let loads = |count: usize| (0..count).map(|_| slit.load()).collect();
@@ -88,10 +88,10 @@ impl OrganSlit {
         }
     }
 
-    /// Follows the cuts as they are now.
+    /// Updates to the current cuts.
     fn follow(&mut self, global: &GlobalModel, model: &CuttingModel, cuts: &Cuts) {
-        let way = cuts.parts();
-        let kept = self.sources.iter().take_while(|source| source.is_in(way));
+        let path = cuts.parts();
+        let kept = self.sources.iter().take_while(|source| source.is_in(path));
         let kept = kept.count();
         if kept < self.sources.len() {
             self.sources.truncate(kept);
@@ -100,23 +100,23 @@ impl OrganSlit {
             self.unfelt = 0.0;
             self.version += 1;
         }
-        if way.len() < self.taken {
-            self.taken = way.len();
+        if path.len() < self.taken {
+            self.taken = path.len();
             self.unfelt = 0.0;
         }
-        while let Some(part) = way.get(self.taken) {
-            let wanted = (OF_THE_DEPTH * model.depth_of(part.felt)).max(SHORTEST);
-            let Some(next) = next(way, self.taken, cuts.goes_on(), wanted) else {
+        while let Some(part) = path.get(self.taken) {
+            let wanted = (OF_THE_DEPTH * model.depth_of(part.in_mechanics)).max(SHORTEST);
+            let Some(next) = next(path, self.taken, cuts.goes_on(), wanted) else {
                 break;
             };
             let first = std::mem::replace(&mut self.taken, next.end);
             if next.is_facet {
-                self.open(global, model, &way[first..next.end], wanted);
+                self.open(global, model, &path[first..next.end], wanted);
             }
         }
     }
 
-    /// Makes facets of about the `wanted` length [m] of a straight part of the way.
+    /// Makes facets of about the `wanted` length [m] from a straight part of the path.
     fn open(&mut self, global: &GlobalModel, model: &CuttingModel, parts: &[CutPart], wanted: f64) {
         let (Some(first), Some(last)) = (parts.first(), parts.last()) else {
             return;
@@ -135,14 +135,14 @@ impl OrganSlit {
                 along: whole,
                 normal: parts.iter().map(|part| part.normal).sum(),
                 length: whole.norm() / count,
-                depth: model.depth_of(first.felt),
+                depth: model.depth_of(first.in_mechanics),
             };
-            // One that cannot be (no room, on an edge of the organ) leaves the organ as stiff as it was.
+            // An impossible facet (no capacity, on an edge of the organ) leaves the stiffness unchanged.
             if self.slit.open(&body, &facet).is_ok() {
                 self.sources.push(Source {
                     first: self.taken - parts.len(),
                     end: self.taken,
-                    layers: first.felt,
+                    layers: first.in_mechanics,
                 });
                 self.version += 1;
             } else {
@@ -151,7 +151,7 @@ impl OrganSlit {
         }
     }
 
-    /// Puts the forces of the tips on the slit.
+    /// Applies the forces of the tips to the slit.
     pub(super) fn put_tips(
         &mut self,
         global: &GlobalModel,
@@ -171,7 +171,7 @@ impl OrganSlit {
         }
     }
 
-    /// Puts a force on part `number` of what jaws hold.
+    /// Applies a force on held part `number`.
     pub(super) fn put_part(
         &mut self,
         response: &SurfaceResponse,
@@ -182,27 +182,27 @@ impl OrganSlit {
         self.slit.put(response, shares(part), None, load);
     }
 
-    /// What it adds to how a tip yields to itself, times E [1/m].
+    /// Its addition to the self-compliance of a tip, times E [1/m].
     pub(super) fn further(&self, tip: usize) -> Matrix3<f64> {
         self.slit.further(&self.tips[tip])
     }
 
-    /// What it adds to how a tip yields to another, times E [1/m].
+    /// Its addition to the compliance between two tips, times E [1/m].
     pub(super) fn between_tips(&self, moved: usize, loaded: usize) -> Matrix3<f64> {
         self.slit.between(&self.tips[moved], &self.tips[loaded])
     }
 
-    /// What it adds to how a held part yields to another, or to itself, times E [1/m].
+    /// Its addition to the compliance of a held part to another, or to itself, times E [1/m].
     pub(super) fn between_parts(&self, moved: usize, loaded: usize) -> Matrix3<f64> {
         self.slit.between(&self.parts[moved], &self.parts[loaded])
     }
 
-    /// What it adds to how a held part yields to a tip, times E [1/m].
+    /// Its addition to the compliance between a held part and a tip, times E [1/m].
     pub(super) fn part_by_tip(&self, part: usize, tip: usize) -> Matrix3<f64> {
         self.slit.between(&self.parts[part], &self.tips[tip])
     }
 
-    /// What it adds to the displacement, times E [N/m], of a part under forces [N] on tips.
+    /// Its addition to the displacement, times E [N/m], of a part under forces [N] on tips.
     pub(super) fn carry(
         &mut self,
         response: &SurfaceResponse,
@@ -216,7 +216,7 @@ impl OrganSlit {
         by.sum()
     }
 
-    /// Adds to `field` what it does under forces over E [m²] on tips and on held parts.
+    /// Adds to `field` its displacement under forces over E [m²] on tips and on held parts.
     pub(super) fn add_field(
         &mut self,
         forces: (
@@ -234,7 +234,7 @@ impl OrganSlit {
 }
 
 impl GlobalModel {
-    /// Follows the cuts of an organ.
+    /// Updates to the cuts of an organ.
     pub(crate) fn follow_cuts(
         &self,
         model: &CuttingModel,
@@ -248,7 +248,7 @@ impl GlobalModel {
 }
 
 impl GlobalWorkspace {
-    /// What to be careful about in the forces of cuts, as sentences.
+    /// Warnings about the forces of cuts, as sentences.
     pub(crate) fn warnings(&self) -> Vec<String> {
         let Some(own) = &self.slit else {
             return Vec::new();
@@ -273,28 +273,28 @@ fn shares(part: &[HeldTriangle]) -> impl Iterator<Item = Share> {
     })
 }
 
-/// What the way becomes next.
+/// The next section of the path.
 struct Next {
     end: usize,
     is_facet: bool,
 }
 
-/// The parts of `way` after `taken` that are the next facet, if they are enough or their cut has ended or becomes
-/// deeper or less deep.
-fn next(way: &[CutPart], taken: usize, goes_on: bool, wanted: f64) -> Option<Next> {
-    let first = way.get(taken)?;
-    let differs = |part: &CutPart| part.begins || part.felt != first.felt;
-    let later = way[taken + 1..].iter().position(differs);
-    let last = later.map_or(way.len(), |later| taken + 1 + later);
+/// The parts of `path` after `taken` that form the next facet, if they are enough, or their cut has ended or changes its
+/// depth.
+fn next(path: &[CutPart], taken: usize, goes_on: bool, wanted: f64) -> Option<Next> {
+    let first = path.get(taken)?;
+    let differs = |part: &CutPart| part.begins || part.in_mechanics != first.in_mechanics;
+    let later = path[taken + 1..].iter().position(differs);
+    let last = later.map_or(path.len(), |later| taken + 1 + later);
     for end in taken + 1..=last {
-        if (way[end - 1].ends[1] - first.ends[0]).norm() >= wanted {
+        if (path[end - 1].ends[1] - first.ends[0]).norm() >= wanted {
             return Some(Next {
                 end,
                 is_facet: true,
             });
         }
     }
-    let rest = (way[last - 1].ends[1] - first.ends[0]).norm();
+    let rest = (path[last - 1].ends[1] - first.ends[0]).norm();
     let ended = later.is_some() || !goes_on;
     ended.then_some(Next {
         end: last,

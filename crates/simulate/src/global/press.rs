@@ -1,16 +1,16 @@
-//! The forces of all tips on one organ: each has its own law and its share of what the organ yields.
+//! The forces of all tips on one organ: each has its own law, and all share the organ's compliance.
 //!
-//! With d_i the displacement of tip i and C_ij the further compliance between tips, d_i = own law(F_i) +
-//! Σ_j C_ij F_j. What jaws hold is linear, and eliminated: with T_i the compliance of the held parts to a force on tip i,
-//! the tips meet an organ whose held parts stand still, C_ij − T_iᵀ E Ξ_hh⁻¹ T_j, and that is carried by what the jaws
-//! alone do. One tip beside jaws is then solved at once, however far the jaws have gone. (Tips and jaws by turns
-//! diverge: under a sphere that is deep the own law is stiffer than C allows for.) Several tips are solved by turns
-//! (Gauss and Seidel), and two apart by some radii need a few sweeps.
+//! With d_i the displacement of tip i and C_ij the compliance in series between tips, d_i = own law(F_i) + Σ_j C_ij
+//! F_j. Held parts are linear, and eliminated: with T_i their compliance to a force on tip i, the tips meet an organ
+//! with fixed held parts, C_ij − T_iᵀ E Ξ_hh⁻¹ T_j, displaced by the jaws alone. One tip next to jaws is then solved at
+//! once, however far the jaws have moved. (Alternating between tips and jaws diverges: under a deep sphere the own law
+//! is stiffer than C allows for.) Several tips are solved in turn (Gauss and Seidel), and two that are some radii apart
+//! need a few sweeps.
 //!
-//! An elastic organ moves nowhere as far as under the tip that presses on it. C of constant triangles and a tip law that
-//! stiffens do not know that of tips on one spot, so it is made sure of: a tip is carried by another at most by
-//! [`MOST_CARRIED`] of what that one moves under itself. So every displacement of a tip, and every force, is bounded by
-//! the ways of the tools. A tip and what jaws hold are bound likewise, see `held`.
+//! An elastic organ moves nowhere as far as under the tip that presses on it. C of constant triangles and a stiffening
+//! tip law violate that for tips on one spot, so it is enforced: another tip displaces a tip by at most
+//! [`MOST_CARRIED`] of its displacement under itself. So the motions of the tools bound every displacement of a tip,
+//! and every force. The coupling of a tip with held parts is bounded likewise, see `held`.
 //!
 //! *How we know*: `hybrid::…`, `grip::jumps::…`, `random_scenes::…`.
 
@@ -26,18 +26,18 @@ use crate::simulation::Simulation;
 use crate::state::ToolState;
 use crate::tool::Tool;
 
-/// Sweeps, of which most are never needed.
+/// Largest number of sweeps, most of which are never needed.
 const MOST_SWEEPS: usize = 60;
 
-/// Change of a force that ends the sweeps, in parts of the largest [-].
+/// Relative change of a force that ends the sweeps [-].
 const SETTLED: f64 = 1e-10;
 
-/// How far a tip is carried by another, at most, of what that one moves the organ by under itself [-]: a displacement of
-/// the ways of two tools grows by 1/(1 − this) at most.
+/// Largest displacement of a tip due to another, relative to that other's displacement under itself [-]: the motions of
+/// two tools cause displacements larger by 1/(1 − this) at most.
 pub(super) const MOST_CARRIED: f64 = 0.99;
 
 impl GlobalModel {
-    /// Where a contact is on the mechanical surface.
+    /// The contact point on the mechanical surface.
     pub(crate) fn locate(
         &self,
         simulation: &Simulation,
@@ -54,7 +54,7 @@ impl GlobalModel {
         }
         let interpolation = self.enhancement.interpolation();
         let near = interpolation.nearest_facing(&self.tree, &place.point, &contact.rest_normal());
-        // The nearest point of a mesh leaps at its edges; the point under the averaged normal does not.
+        // The closest point of a mesh jumps at its edges; the point below the averaged normal does not.
         let from = ContactPoint {
             triangle: near.triangle,
             barycentric: near.barycentric,
@@ -70,14 +70,14 @@ impl GlobalModel {
         }))
     }
 
-    /// How a tool at a site loads the organ; none without a site.
+    /// The load of a tool at a site on the organ; none without a site.
     pub(crate) fn load<'a>(&self, tool: &'a Tool, state: &ToolState) -> Option<TipLoad<'a>> {
         let (field, site) = (tool.field.as_ref()?, state.site?);
         let surface = self.enhancement.interpolation().surface();
         Some(field.at(surface, site.triangle, &site.barycentric))
     }
 
-    /// Finds the elastic force and the stiffness of every tool in contact.
+    /// Computes the elastic force and the stiffness of every tool in contact.
     pub(crate) fn press(
         &self,
         simulation: &Simulation,
@@ -100,7 +100,7 @@ impl GlobalModel {
         self.couple(simulation, tools, softness, workspace);
         let holds = self.hold(simulation, tools, workspace);
         if holds {
-            // Of the jaws alone: no tip has a force yet.
+            // Due to the jaws alone: no tip has a force yet.
             self.answer_held(simulation, tools, workspace);
         }
         let tips = tools.iter().filter(|state| state.contact.is_some()).count();
@@ -113,7 +113,7 @@ impl GlobalModel {
                 change = change.max((force - before).norm());
                 largest = largest.max(force.norm());
             }
-            // One tip alone is done after the first.
+            // A single tip is done after the first.
             if tips < 2 || change <= SETTLED * largest {
                 break;
             }
@@ -161,7 +161,7 @@ impl GlobalModel {
         }
     }
 
-    /// The force of one tool beside those of the others.
+    /// The force of one tool, given those of the others.
     fn answer(
         &self,
         simulation: &Simulation,
@@ -225,7 +225,7 @@ impl GlobalModel {
         }
         state.moves = moved.norm();
         state.own = frame * own;
-        // A tip that slips is carried along by the organ.
+        // The organ moves a slipping tip along its surface.
         state.displaced = frame * (own - compliance * answer.force) + carried;
         state.elastic = frame * answer.force;
         state.stiffness = frame * answer.stiffness * frame.transpose();

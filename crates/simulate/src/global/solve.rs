@@ -10,17 +10,17 @@ use palpate_mechanics::surface_response::{
 
 use super::key::Ingredients;
 use super::method::Method;
-use crate::preparation::tell;
+use crate::preparation::report_progress;
 use crate::{Error, Progress, Resources, Work};
 
-/// Where the response of `ingredients` is stored, or would be.
+/// The file for the stored response of `ingredients`, whether it exists or not.
 fn place(ingredients: &Ingredients<'_>, resources: &Resources) -> Option<PathBuf> {
     let folder = resources.responses.as_ref()?;
-    // A quarter of the digits is enough to tell files apart; the whole key stands in them.
+    // A quarter of the digits is enough to distinguish files; the whole key is inside them.
     Some(folder.join(format!("{}.response", &ingredients.key()[..16])))
 }
 
-/// A response, where it came from, and warnings.
+/// A response, its origin, and warnings.
 pub(super) struct Found {
     pub(super) response: SurfaceResponse,
     /// The file that holds it.
@@ -34,12 +34,12 @@ pub(super) struct Found {
 pub(super) fn response(
     ingredients: &Ingredients<'_>,
     resources: &Resources,
-    watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    on_progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Found, Error> {
     let mut file = place(ingredients, resources);
     let mut warnings = Vec::new();
     if let Some(place) = file.as_ref().filter(|place| place.exists()) {
-        tell(watch, Progress::begin(Work::Reading))?;
+        report_progress(on_progress, Progress::begin(Work::Reading))?;
         match read(ingredients, place, resources.memory) {
             Ok(response) => {
                 return Ok(Found {
@@ -49,13 +49,13 @@ pub(super) fn response(
                     warnings,
                 });
             }
-            // It is made again, in its place.
+            // It is solved again and replaced.
             Err(error) => warnings.push(format!("{error} (done just now)")),
         }
     }
-    let response = solve(ingredients, resources.memory, watch)?;
+    let response = solve(ingredients, resources.memory, on_progress)?;
     if let Some(place) = &file {
-        tell(watch, Progress::begin(Work::Storing))?;
+        report_progress(on_progress, Progress::begin(Work::Storing))?;
         if let Err(error) = store(ingredients, &response, place) {
             warnings.push(format!("the organ's response is not cached: {error}"));
             file = None;
@@ -69,11 +69,11 @@ pub(super) fn response(
     })
 }
 
-/// The response, solved.
+/// Solves the response.
 pub(super) fn solve(
     ingredients: &Ingredients<'_>,
     memory: usize,
-    watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    on_progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<SurfaceResponse, Error> {
     let &Ingredients {
         surface,
@@ -83,7 +83,7 @@ pub(super) fn solve(
         method,
         regions,
     } = ingredients;
-    let mut watch = |solving| watch(of_stage(solving, method));
+    let mut on_progress = |solving| on_progress(of_stage(solving, method));
     let response = match method {
         Method::BoundaryElements => BoundaryProblem {
             surface,
@@ -91,7 +91,7 @@ pub(super) fn solve(
             held,
             touchable,
         }
-        .solve(memory, &mut watch),
+        .solve(memory, &mut on_progress),
         Method::FiniteElements { edge } => CondensedProblem {
             surface,
             poissons_ratio,
@@ -100,7 +100,7 @@ pub(super) fn solve(
             edge,
             regions,
         }
-        .solve(memory, &mut watch),
+        .solve(memory, &mut on_progress),
     };
     Ok(response?)
 }
@@ -155,7 +155,7 @@ fn store(
 ) -> Result<(), Error> {
     let parts = solved.parts();
     if let Some(folder) = place.parent() {
-        // What goes wrong here is told by the writing, with the same name.
+        // Writing reports any error here, with the same name.
         let _ = std::fs::create_dir_all(folder);
     }
     let stored = StoredResponse {

@@ -1,8 +1,8 @@
-//! What an organ yields around each contact of the local model, beyond a half-space.
+//! Compliance of the organ around each contact of the local model, beyond a half-space.
 //!
-//! The particles reach a few tip radii. That the organ ends, is held somewhere and is round is felt from afar, and is
-//! smooth over its surface: boundary elements of a few hundred triangles know it, and where walls bend more than those do, some
-//! thousand tetrahedra.
+//! The particles reach a few tip radii. The effects of the organ's size, anchor and curvature act over a distance, and
+//! are smooth over its surface: boundary elements of a few hundred triangles resolve them, and where walls are too thin
+//! for these, some thousand tetrahedra.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -24,13 +24,14 @@ use crate::Error;
 use crate::tool::Tool;
 use crate::walls::Walls;
 
-/// Triangles that carry it: on a cube, the force under a tip is 1 % too small with so many, 2 % with 300.
+/// Number of mechanical triangles: on a cube, it makes the force under a tip 1 % too small, and 300 triangles 2 %.
 const TRIANGLES: usize = 500;
 
-/// More tetrahedra would take longer than this model may: some seconds.
+/// More tetrahedra would take longer than acceptable for this model: some seconds.
 const MOST_TETRAHEDRA: f64 = 5_000.0;
 
-/// Gives every tool what the organ of `scene`, which is seen as `shown`, yields beyond a half-space; with a warning.
+/// Gives every tool the compliance of the organ of `scene` beyond a half-space; the organ is displayed as `shown`;
+/// returns a warning.
 pub(crate) fn surround(
     tools: &mut [Tool],
     scene: &Scene,

@@ -1,20 +1,19 @@
-//! Which triangles jaws take hold of that shut.
+//! The choice of the triangles that jaws grasp when they shut.
 //!
-//! Those whose centroids lie, where the organ has been moved to, in the box that the jaws sweep; where
-//! triangles are larger than jaws, those of which any part does. Of many so many are taken as there can be
-//! parts, the nearest to the tip and each next one farthest from those before, and the others go with the
-//! nearest of these, up to what one tool can hold.
+//! Those whose displaced centroids lie in the box that the jaws sweep; where triangles are larger than jaws, those of
+//! which any part does. If there are more than the number of parts, the nearest to the tip and each next one farthest
+//! from those before become parts, and the others join the nearest of these, up to the number that one tool can hold.
 //!
-//! The tip's force becomes theirs, by their areas, and where that takes them is where they are held. So
-//! neither force nor organ jumps.
+//! The tip's force is distributed to them by their areas, and they are held at the resulting displacements. So neither
+//! force nor organ jumps.
 
 use palpate_geometry::Vec3;
 use palpate_mechanics::surface_response::TouchId;
 
-use super::enhanced_surface::SeenContact;
+use super::enhanced_surface::DisplayedContact;
 use super::{GlobalModel, GlobalWorkspace};
 use crate::grip::{
-    Held, HeldPart, HeldPatch, HeldTriangle, Hold, MOST_PARTS, MOST_TRIANGLES, SeenHold, Swept,
+    DisplayedHold, Held, HeldPart, HeldPatch, HeldTriangle, Hold, MOST_PARTS, MOST_TRIANGLES, Swept,
 };
 use crate::simulation::Simulation;
 use crate::state::ToolState;
@@ -27,14 +26,14 @@ pub(super) struct Candidate {
     place: Vec3,
     /// First and last x in that frame [m].
     across: (f64, f64),
-    /// To the nearest that is taken, squared [m²], and which part that is.
+    /// Squared distance to the nearest chosen one [m²], and its part.
     apart: f64,
     part: usize,
 }
 
 impl GlobalModel {
-    /// The jaws of tool `number` take hold; whether there is anything between them.
-    pub(crate) fn take_hold(
+    /// The jaws of tool `number` grasp; returns whether there is anything between them.
+    pub(crate) fn grasp(
         &self,
         simulation: &Simulation,
         number: usize,
@@ -60,19 +59,22 @@ impl GlobalModel {
         };
         let pressed = area.min(Swept::face(&jaws));
         let touched = (tools[number].contact, tools[number].site);
-        let before = SeenContact::of(tool, &tools[number]);
+        let before = DisplayedContact::of(tool, &tools[number]);
         loop {
             (tools[number].contact, tools[number].site) = (None, None);
-            let hold = |patch: &HeldPatch, seen, tools: &mut [ToolState]| {
+            let hold = |patch: &HeldPatch, displayed, tools: &mut [ToolState]| {
                 let held = Held::Patch(patch.clone());
-                tools[number].grip.hold = Some(Hold::new(&swept, pressed, thickness, held, seen));
+                tools[number].grip.hold =
+                    Some(Hold::new(&swept, pressed, thickness, held, displayed));
             };
-            let nowhere = before.map_or_else(|| self.seen(simulation, &patch), SeenHold::of);
+            let nowhere =
+                before.map_or_else(|| self.displayed(simulation, &patch), DisplayedHold::of);
             hold(&patch, nowhere, tools);
             self.assemble(tools, workspace);
             self.place(simulation, number, &mut patch, tools, workspace);
-            let seen = before.map_or_else(|| self.seen(simulation, &patch), SeenHold::of);
-            hold(&patch, seen, tools);
+            let displayed =
+                before.map_or_else(|| self.displayed(simulation, &patch), DisplayedHold::of);
+            hold(&patch, displayed, tools);
             workspace.held.factor(tools.len());
             if self.hold(simulation, tools, workspace) {
                 self.answer_held(simulation, tools, workspace);
@@ -90,7 +92,7 @@ impl GlobalModel {
         self.response.touchable()[touch.index()].area
     }
 
-    /// Fills the list of what is between jaws from the field that was summed.
+    /// Lists the triangles between the jaws from the summed field.
     fn find_between(&self, swept: &Swept, tools: &[ToolState], workspace: &mut GlobalWorkspace) {
         let GlobalWorkspace {
             sums, between_jaws, ..
@@ -132,7 +134,7 @@ impl GlobalModel {
         }
     }
 
-    /// The patch of what was divided into parts.
+    /// The patch of the triangles that were divided into parts.
     fn patch(&self, between: &[Candidate]) -> Option<HeldPatch> {
         let of = |part: usize| between.iter().filter(move |one| one.part == part);
         let all: f64 = between.iter().map(|one| self.area(one.touch)).sum();
@@ -157,7 +159,7 @@ impl GlobalModel {
         HeldPatch::new(parts, triangles)
     }
 
-    /// Where the parts of a patch are when they bear the force of the tip, beside all that other tools do.
+    /// Positions of the parts of a patch when they bear the force of the tip, in addition to the action of other tools.
     fn place(
         &self,
         simulation: &Simulation,
@@ -168,7 +170,7 @@ impl GlobalModel {
     ) {
         let softness = 1.0 / simulation.material.at_rest.youngs_modulus();
         let own = patch.clone();
-        // Fewer than were chosen bear all of it.
+        // If there are fewer parts than chosen, these bear all of it.
         let all: f64 = own.parts().map(|(part, _)| part.share).sum();
         let force = -tools[number].elastic / all;
         let shares = own.parts().map(|(part, _)| part.share);
@@ -194,8 +196,8 @@ impl GlobalModel {
         }
     }
 
-    /// The point that shows a patch that no tip has touched: its middle.
-    fn seen(&self, simulation: &Simulation, patch: &HeldPatch) -> SeenHold {
+    /// The displayed point of a patch that no tip has touched: its middle.
+    fn displayed(&self, simulation: &Simulation, patch: &HeldPatch) -> DisplayedHold {
         let parts = || patch.parts().map(|(part, _)| part);
         let all: f64 = parts().map(|part| part.share).sum();
         let middle = parts().map(|part| part.rest * part.share).sum::<Vec3>() / all;
@@ -213,7 +215,7 @@ impl GlobalModel {
                 (nearest.triangle, nearest.on.position)
             }
         };
-        SeenHold {
+        DisplayedHold {
             triangle,
             place,
             at: Some(at),
@@ -222,8 +224,8 @@ impl GlobalModel {
     }
 }
 
-impl SeenHold {
-    fn of(contact: SeenContact) -> Self {
+impl DisplayedHold {
+    fn of(contact: DisplayedContact) -> Self {
         Self {
             triangle: contact.triangle,
             place: contact.place,
@@ -233,8 +235,8 @@ impl SeenHold {
     }
 }
 
-/// Divides what is between jaws into parts, in their order: about the one nearest to the tip, then each time
-/// about the one farthest from those before.
+/// Divides the triangles between the jaws into parts, in their order: around the one nearest to the tip, then each time
+/// around the one farthest from those before.
 fn divide(between: &mut Vec<Candidate>) {
     let near = |one: &Candidate| one.place.norm_squared();
     let first = between.iter().min_by(|a, b| near(a).total_cmp(&near(b)));

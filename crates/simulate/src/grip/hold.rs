@@ -7,71 +7,72 @@ use palpate_mechanics::surface_response::TouchId;
 use super::{HeldPlace, Swept};
 use crate::tool::Tool;
 
-/// Parts that move each for itself, and triangles in all of them, that one tool can hold.
+/// Largest numbers of independently moving parts, and of triangles in all of them, that one tool can hold.
 pub(crate) const MOST_PARTS: usize = 16;
 pub(crate) const MOST_TRIANGLES: usize = 64;
 
-/// Tissue between jaws: a rigid body of their tool, but for what it has slid.
+/// Tissue between jaws: it moves rigidly with the tool, except for its slip.
 #[derive(Debug, Clone)]
 pub(crate) struct Hold {
-    /// The tip [m] and the tool's rotation, when it took hold and now.
+    /// The tip [m] and the tool's rotation, at the start of the grasp and now.
     began: (Vec3, UnitQuaternion<f64>),
     now: (Vec3, UnitQuaternion<f64>),
-    /// Way of the tissue along the jaws, in the tool's frame [m].
+    /// Slip of the tissue along the jaws, in the tool's frame [m].
     slid: Vec3,
-    /// Of a face that presses on it [m²].
+    /// Area of a face that presses on it [m²].
     pub(crate) area: f64,
-    /// Of what is between the jaws, unpressed [m].
+    /// Thickness of the tissue between the jaws, uncompressed [m].
     pub(crate) thickness: f64,
     pub(crate) held: Held,
-    pub(crate) seen: SeenHold,
+    pub(crate) displayed: DisplayedHold,
 }
 
-/// What is held.
+/// The held tissue, by model.
 #[derive(Debug, Clone)]
 #[expect(
     clippy::large_enum_variant,
     reason = "a step that takes hold allocates nothing"
 )]
 pub(crate) enum Held {
-    /// Of the whole organ.
+    /// A patch of the organ-scale model.
     Patch(HeldPatch),
-    /// The local model's.
+    /// A place of the local model.
     Place(HeldPlace),
-    /// The nonlinear model's.
+    /// An area of the nonlinear model.
     Area(HeldArea),
 }
 
-/// What is held of an organ that bends, as a bonded flat tip holds it.
+/// Held tissue of an organ that bends, bonded as to a flat tip.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct HeldArea {
     /// Two tangents and the normal of the surface at rest there [-].
     pub(crate) frame: Matrix3<f64>,
-    /// What the jaws were beyond what they held when they took hold of it under the tip's force [m], in the tool's frame.
+    /// Offset of the jaws from the held tissue at the start of the grasp, under the tip's force [m], in the tool's
+    /// frame.
     pub(crate) offset: Vec3,
-    /// That force, on what they hold [N], in the tool's frame.
+    /// That force, on the held tissue [N], in the tool's frame.
     pub(crate) force: Vec3,
 }
 
-/// Triangles of the mechanical surface, in a few parts: where triangles are small, several in one, each of which
-/// bears by its area. A part's place is the mean of theirs.
+/// Held triangles of the mechanical surface, in a few parts: small triangles share a part, and bear its force by their
+/// areas. A part's position is the mean of theirs.
 #[derive(Debug, Clone)]
 pub(crate) struct HeldPatch {
     parts: [HeldPart; MOST_PARTS],
     count: usize,
-    /// Those of the first part, then those of the next.
+    /// Sorted by part.
     triangles: [HeldTriangle; MOST_TRIANGLES],
 }
 
 /// A part of a patch.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct HeldPart {
-    /// The end of its triangles among all.
+    /// The end index of its triangles.
     pub(crate) end: usize,
-    /// Where it is at rest, and where it was taken hold of [m].
+    /// Its position at rest, and at the start of the grasp [m].
     pub(crate) rest: Vec3,
     pub(crate) at: Vec3,
-    /// Of the patch's area [-].
+    /// Share of the patch's area [-].
     pub(crate) share: f64,
 }
 
@@ -79,19 +80,19 @@ pub(crate) struct HeldPart {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct HeldTriangle {
     pub(crate) touch: TouchId,
-    /// Of its part's area [-].
+    /// Share of its part's area [-].
     pub(crate) weight: f64,
 }
 
-/// The point of the shown surface that shows where the tissue is held.
+/// The point of the displayed surface that represents the held tissue.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct SeenHold {
-    /// Its triangle, and its place at rest [m].
+pub(crate) struct DisplayedHold {
+    /// Its triangle, and its position at rest [m].
     pub(crate) triangle: TriangleId,
     pub(crate) place: Vec3,
-    /// The same on the mechanical surface; none where the local model answers.
+    /// The same on the mechanical surface; none in the local model.
     pub(crate) at: Option<SurfacePoint>,
-    /// How far it was from there when it was taken hold of [m].
+    /// Its displacement from there at the start of the grasp [m].
     pub(crate) displaced: Vec3,
 }
 
@@ -101,7 +102,7 @@ impl Hold {
         area: f64,
         thickness: f64,
         held: Held,
-        seen: SeenHold,
+        displayed: DisplayedHold,
     ) -> Self {
         let began = (swept.tip, swept.turned);
         Self {
@@ -111,11 +112,11 @@ impl Hold {
             area,
             thickness,
             held,
-            seen,
+            displayed,
         }
     }
 
-    /// Goes with its tool.
+    /// Moves with its tool.
     pub(super) fn follow(&mut self, tool: &Tool, pose: &Pose) {
         let tip = Vec3::from(pose.position_m);
         let known = tool.trocar.is_some() || pose.orientation.is_some();
@@ -123,31 +124,31 @@ impl Hold {
             true => {
                 crate::orientation::orientation(&tip, tool.trocar.as_ref(), pose.orientation, None)
             }
-            // Nobody says that it has turned.
+            // The rotation of the tool is unknown.
             false => self.now.1,
         };
         self.now = (tip, turned);
     }
 
-    /// Where held tissue is now that was at `place` [m] when it was taken hold of.
+    /// Current position of held tissue that was at `place` [m] at the start of the grasp.
     pub(crate) fn carried(&self, place: &Vec3) -> Vec3 {
         let within = self.began.1.inverse() * (place - self.began.0);
         self.now.0 + self.now.1 * (within + self.slid)
     }
 
-    /// Where the tissue would be now that the jaws took hold of at the point that shows it, had it not slipped [m].
+    /// Position of the displayed point if the tissue had not slipped [m].
     pub(crate) fn carried_without_slip(&self) -> Vec3 {
-        let within =
-            self.began.1.inverse() * (self.seen.place + self.seen.displaced - self.began.0);
+        let within = self.began.1.inverse()
+            * (self.displayed.place + self.displayed.displaced - self.began.0);
         self.now.0 + self.now.1 * within
     }
 
-    /// A vector of the tool's frame in the scene.
+    /// Rotates a vector of the tool's frame to the scene.
     pub(crate) fn in_scene(&self, vector: &Vec3) -> Vec3 {
         self.now.1 * vector
     }
 
-    /// How far the jaws have turned since they took hold [rad].
+    /// Rotation of the jaws since the start of the grasp [rad].
     pub(crate) fn has_turned(&self) -> f64 {
         self.began.1.angle_to(&self.now.1)
     }
@@ -157,27 +158,27 @@ impl Hold {
         &self.now.1
     }
 
-    /// How far the tissue has slid since [m], in the tool's frame.
+    /// Slip of the tissue so far [m], in the tool's frame.
     pub(crate) fn slid(&self) -> &Vec3 {
         &self.slid
     }
 
-    /// Slides `by` [m] more, in the tool's frame.
+    /// Adds a slip of `by` [m], in the tool's frame.
     pub(super) fn slide(&mut self, by: &Vec3) {
         self.slid += by;
     }
 
-    /// Where the tissue is held, at rest [m].
+    /// Rest position of the held tissue [m].
     pub(crate) fn place(&self) -> Vec3 {
-        self.seen.place
+        self.displayed.place
     }
 
-    /// How far the point that shows it is from its rest now [m].
+    /// Displacement of the displayed point from its rest position [m].
     pub(crate) fn displaced(&self) -> Vec3 {
-        self.carried(&(self.seen.place + self.seen.displaced)) - self.seen.place
+        self.carried(&(self.displayed.place + self.displayed.displaced)) - self.displayed.place
     }
 
-    /// What it holds of the whole organ; none where the local model answers.
+    /// Its patch of the organ-scale model; none in the local model.
     pub(crate) fn patch(&self) -> Option<&HeldPatch> {
         match &self.held {
             Held::Patch(patch) => Some(patch),
@@ -187,7 +188,7 @@ impl Hold {
 }
 
 impl HeldPatch {
-    /// Of so many parts with so many triangles, which are still to be filled in; none without any.
+    /// A patch with these numbers of parts and triangles, to be filled in; none without any.
     pub(crate) fn new(
         parts: impl Iterator<Item = HeldPart>,
         triangles: impl Iterator<Item = (usize, HeldTriangle)>,
@@ -225,7 +226,7 @@ impl HeldPatch {
         })
     }
 
-    /// Its parts, to be put in their places.
+    /// Its parts, mutable, to set their positions.
     pub(crate) fn parts_mut(&mut self) -> &mut [HeldPart] {
         &mut self.parts[..self.count]
     }
@@ -239,7 +240,7 @@ impl HeldPatch {
         &self.triangles[..end]
     }
 
-    /// Holds only the first half of its parts, those that were chosen first; false where there is but one.
+    /// Keeps only the first half of its parts, those that were chosen first; false if there is only one.
     pub(crate) fn halve(&mut self) -> bool {
         let more = self.count > 1;
         self.count = self.count.div_ceil(2);

@@ -2,7 +2,7 @@ use nalgebra::UnitQuaternion;
 use palpate_files::scene::Jaws;
 use palpate_geometry::{Vec3, closest_on_triangle};
 
-/// So far ahead of their ends jaws take hold of what they do not yet straddle [m].
+/// Distance ahead of their ends within which jaws still grasp tissue [m].
 const AHEAD: f64 = 1e-3;
 
 /// The box that open jaws sweep when they shut, in the frame of their tool.
@@ -14,7 +14,7 @@ pub(crate) struct Swept {
     high: Vec3,
 }
 
-/// Places along the jaws, and across, at which a large triangle is looked for.
+/// Sample points along the jaws, and across, for a large triangle.
 const ALONG: usize = 9;
 const ACROSS: [f64; 3] = [0.0, -0.5, 0.5];
 
@@ -35,7 +35,7 @@ impl Swept {
         self.turned.inverse() * (place - self.tip)
     }
 
-    /// The far end of what is drawn in, in the scene [m].
+    /// The far end of the drawn-in tissue, in the scene [m].
     pub(crate) fn ahead(&self) -> Vec3 {
         self.tip - self.turned * Vec3::z() * AHEAD
     }
@@ -47,7 +47,7 @@ impl Swept {
 
     /// Whether a part of a triangle with these corners in the tool's frame lies between the jaws.
     pub(crate) fn reaches(&self, corners: &[Vec3; 3]) -> bool {
-        // Of almost all triangles of an organ this is enough.
+        // Almost all triangles of an organ fail this test.
         let misses = |axis: usize| {
             let along = corners.map(|corner| corner[axis]);
             along.iter().all(|&x| x < self.low[axis]) || along.iter().all(|&x| x > self.high[axis])
@@ -65,8 +65,8 @@ impl Swept {
         })
     }
 
-    /// How much of the jaws' opening tissue from `first` to `last` along x fills [m]: never less than a
-    /// tenth, for a surface has something behind it.
+    /// Thickness of tissue from `first` to `last` along x between the jaws [m]: never less than a tenth of their
+    /// opening, since there is tissue behind a surface.
     pub(crate) fn thickness(&self, first: f64, last: f64) -> f64 {
         let opening = self.high.x - self.low.x;
         let filled = last.min(self.high.x) - first.max(self.low.x);
@@ -79,12 +79,12 @@ impl Swept {
     }
 }
 
-/// With how much each of the `jaws` presses [N] on tissue of `area` [m²], `thickness` [m] and Young's
-/// modulus `modulus` [Pa] at `grip` [-]: a column of neo-Hookean rubber, as far as their force goes.
+/// Force of each of the `jaws` [N] on tissue of `area` [m²], `thickness` [m] and Young's modulus `modulus` [Pa] at
+/// `grip` [-]: a column of neo-Hookean rubber, limited by the jaws' force.
 pub(super) fn press(jaws: &Jaws, area: f64, thickness: f64, grip: f64, modulus: f64) -> f64 {
     let gap = jaws.opening_m * (1.0 - grip);
     let stretch = (gap / thickness).min(1.0);
-    // Shut quite, they press with all that they have.
+    // Completely shut, they press with their full force.
     let column = modulus * area / 3.0 * (stretch.powi(-2) - stretch);
     column.min(jaws.force_n)
 }

@@ -1,25 +1,24 @@
-//! Jaws that hold tissue, pull it, lose some of it and let it go.
+//! Grasping: jaws hold tissue, pull it, lose some of it and release it.
 //!
-//! Jaws that shut take hold of what lies in the box that they sweep (`jaws`): in the whole organ of the
-//! triangles there (`patch`, solved in `global/held.rs`), else of the place under the tip (`place`). From then
-//! on the tissue goes with the tool as a rigid body does, and the tool feels all that it answers, pull too. The
-//! tip itself touches nothing as long: its force at that moment becomes the first of the patch, so that
-//! taking hold makes no jump.
+//! Jaws that shut grasp the tissue in the box that they sweep (`jaws`): in the organ-scale model the triangles there
+//! (`patch`, solved in `global/held.rs`), else the place under the tip (`place`). From then on the tissue moves with
+//! the tool as a rigid body, and the tool feels its whole reaction, pull included. The tip itself has no contact
+//! meanwhile: its force at that moment becomes the first of the patch, so that grasping causes no jump.
 //!
-//! The jaws press on what is between them as on a column of rubber, at most with their own force, and it
-//! slips between two faces (`slip`):
+//! The jaws compress the tissue between them like a column of rubber, at most with their own force, and it slips
+//! between two faces (`slip`):
 //!
 //! ```text
 //! N = min(F_jaws, E A/3 (λ⁻² − λ)),   λ = gap/thickness,   |pull| ≤ 2 μ N
 //! ```
 //!
-//! Tissue that has slid by the length of the jaws is gone, and so is that between jaws that open.
+//! Tissue that has slid by the length of the jaws is lost, and so is tissue between jaws that open.
 //!
 //! *How we know*: `grip::…`.
 //!
-//! *Limits*: small strain, however far the pull; a tool feels a force and no torque, so that work done by
-//! turning it is not felt; what is pulled across the jaws (along the tool's x) never slips; the patch keeps its
-//! size while it slides.
+//! *Limits*: small strain, however far the pull; a tool feels a force and no torque, so that turning the tool does no
+//! work on the hand; a pull across the jaws (along the tool's x) never causes slip; the patch keeps its size while it
+//! slides.
 
 mod hold;
 mod jaws;
@@ -32,7 +31,8 @@ use palpate_geometry::Vec3;
 use palpate_mechanics::finite_spheres::LocalContact;
 
 pub(crate) use hold::{
-    Held, HeldArea, HeldPart, HeldPatch, HeldTriangle, Hold, MOST_PARTS, MOST_TRIANGLES, SeenHold,
+    DisplayedHold, Held, HeldArea, HeldPart, HeldPatch, HeldTriangle, Hold, MOST_PARTS,
+    MOST_TRIANGLES,
 };
 pub(crate) use jaws::Swept;
 pub(crate) use place::{HeldPlace, answer};
@@ -43,18 +43,18 @@ use crate::step::respond_again;
 use crate::tool::Tool;
 use slip::Slides;
 
-/// Jaws that shut beyond this take hold of what is between them [-], and let go when they open to less than
-/// the other: a hand that trembles does neither.
-const TAKES_HOLD: f64 = 0.6;
-const LETS_GO: f64 = 0.4;
+/// Jaws that shut beyond the first value grasp the tissue between them [-], and release it when they open to less than
+/// the second: the hysteresis ignores a trembling hand.
+const GRASPS_ABOVE: f64 = 0.6;
+const RELEASES_BELOW: f64 = 0.4;
 
-/// How often slips are looked for in a step, each changing what the other tool feels.
+/// Passes for slip in a step, since each slip changes the force on the other tool.
 const MOST_SLIPS: usize = 12;
 
-/// What the jaws of a tool do.
+/// The state of a tool's jaws.
 #[derive(Debug, Clone)]
 pub(crate) struct Grip {
-    /// A tool that comes with shut jaws has nothing between them.
+    /// A tool that appears with shut jaws has nothing between them.
     shut: bool,
     /// Whether they shut in this step.
     shuts: bool,
@@ -73,12 +73,17 @@ impl Default for Grip {
     }
 }
 
-/// Moves what the jaws hold along with the tool, or lets it go where they open.
+/// Moves the held tissue with the tool, or releases it where the jaws open.
 pub(crate) fn follow(tool: &Tool, pose: Option<Pose>, state: &mut ToolState) -> Events {
     let own = &mut state.grip;
     let was_shut = own.shut;
     let grip = pose.map_or(1.0, |pose| pose.grip);
-    own.shut = grip > if was_shut { LETS_GO } else { TAKES_HOLD };
+    own.shut = grip
+        > if was_shut {
+            RELEASES_BELOW
+        } else {
+            GRASPS_ABOVE
+        };
     own.shuts = own.shut && !was_shut && tool.jaws.is_some();
     if let (Some(hold), Some(pose), true) = (&mut own.hold, pose, own.shut) {
         hold.follow(tool, &pose);
@@ -90,8 +95,8 @@ pub(crate) fn follow(tool: &Tool, pose: Option<Pose>, state: &mut ToolState) -> 
     }
 }
 
-/// After the forces of a step are found: jaws that have shut take hold, and held tissue slips where it is
-/// pulled too hard.
+/// After the forces of a step are known: jaws that have shut grasp, and held tissue slips where the pull exceeds
+/// friction.
 pub(crate) fn act(
     simulation: &Simulation,
     elapsed: f64,
@@ -100,10 +105,10 @@ pub(crate) fn act(
 ) {
     for number in 0..simulation.tools.len() {
         if state.tools[number].grip.shuts {
-            take_hold(simulation, number, state, workspace);
+            grasp(simulation, number, state, workspace);
         }
     }
-    // What one tool loses, the others feel.
+    // The other tools take over the load that one tool loses.
     slide(simulation, elapsed, state, workspace);
     while lose(simulation, state, workspace) {
         slide(simulation, elapsed, state, workspace);
@@ -113,7 +118,7 @@ pub(crate) fn act(
     }
 }
 
-/// Until no tool pulls more than it can hold.
+/// Repeats until no tool pulls more than it can hold.
 fn slide(
     simulation: &Simulation,
     elapsed: f64,
@@ -135,7 +140,7 @@ fn slide(
     }
 }
 
-/// Lets go what has slid out of its jaws; whether there was any.
+/// Releases tissue that has slid out of the jaws; returns whether there was any.
 fn lose(
     simulation: &Simulation,
     state: &mut SimulationState,
@@ -157,7 +162,7 @@ fn lose(
     lost
 }
 
-fn take_hold(
+fn grasp(
     simulation: &Simulation,
     number: usize,
     state: &mut SimulationState,
@@ -166,13 +171,13 @@ fn take_hold(
     let touched = state.tools[number].contact.is_some();
     let took = if let (Some(global), Some(workspace)) = (&simulation.global, &mut workspace.global)
     {
-        global.take_hold(simulation, number, &mut state.tools, workspace)
+        global.grasp(simulation, number, &mut state.tools, workspace)
     } else if let Some(organ) = state.bent_organ() {
-        organ.take_hold(simulation, number, state)
+        organ.grasp(simulation, number, state)
     } else {
         let tool = &simulation.tools[number];
         let workspace = &mut workspace.models[number];
-        place::take_hold(simulation, tool, &mut state.tools[number], workspace)
+        place::grasp(simulation, tool, &mut state.tools[number], workspace)
     };
     let own = &mut state.tools[number];
     if let (true, Some(at)) = (took, own.grip.hold.as_ref().map(Hold::place)) {
@@ -186,12 +191,12 @@ fn take_hold(
 }
 
 impl Grip {
-    /// What is held of the whole organ.
+    /// Its patch of the organ-scale model.
     pub(crate) fn patch(&self) -> Option<&HeldPatch> {
         self.hold.as_ref()?.patch()
     }
 
-    /// The held place of the local model, and how far it is displaced [m].
+    /// The held place of the local model, and its displacement [m].
     pub(crate) fn shown_place(&self) -> Option<(LocalContact, Vec3)> {
         let hold = self.hold.as_ref()?;
         match &hold.held {
@@ -212,13 +217,13 @@ impl ToolState {
         self.contact.is_some() || self.holds()
     }
 
-    /// How far the tissue between its jaws is from its rest [m].
+    /// Displacement of the tissue between its jaws from rest [m].
     pub(crate) fn pulled(&self) -> f64 {
         let hold = self.grip.hold.as_ref();
         hold.map_or(0.0, |hold| hold.displaced().norm())
     }
 
-    /// With how much each jaw presses on what they hold [N].
+    /// Force of each jaw on the tissue that they hold [N].
     fn press(&self, simulation: &Simulation, tool: &Tool) -> f64 {
         let modulus = simulation.material.at_rest.youngs_modulus();
         match (&self.grip.hold, &tool.jaws, &self.pose) {
@@ -229,8 +234,7 @@ impl ToolState {
         }
     }
 
-    /// The rotation of its jaws; where neither trocar nor quaternion says it, that of the surface at its
-    /// contact, or upright.
+    /// The rotation of its jaws; without trocar and quaternion that of the surface at its contact, or upright.
     fn turned(&self, tool: &Tool, pose: &Pose) -> nalgebra::UnitQuaternion<f64> {
         let normal = self.contact.map(|contact| contact.normal());
         crate::orientation::orientation(

@@ -1,17 +1,17 @@
-//! What jaws hold where the local model answers: a place bonded to them.
+//! Held tissue in the local model: a place bonded to the jaws.
 //!
-//! The area of a jaw's face, as a disc, is the touching area of a bonded tip whose tangential and normal
-//! stiffness pull as well as they push. A model of tips that slip knows no tangential one; theirs is that
-//! of the half-space, in the ratio of the normal ones.
+//! The area of a jaw's face, as a disc, is the contact area of a bonded tip whose tangential and normal stiffness act
+//! in pull and push. A model of slipping tips has no tangential stiffness; theirs is that of the half-space, in the
+//! ratio of the normal ones.
 //!
-//! *Limits*: linear however far it is pulled; two graspers do not feel one another.
+//! *Limits*: linear for any pull; two graspers do not interact.
 
 use nalgebra::Matrix3;
 use palpate_geometry::Vec3;
 use palpate_mechanics::contact::{Friction, half_space_stiffness, half_space_tangential_stiffness};
 use palpate_mechanics::finite_spheres::{FiniteSphereWorkspace, LocalContact, Response};
 
-use super::hold::SeenHold;
+use super::hold::DisplayedHold;
 use super::{Held, Hold, Swept};
 use crate::contact;
 use crate::simulation::Simulation;
@@ -22,13 +22,13 @@ use crate::tool::Tool;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct HeldPlace {
     pub(crate) place: LocalContact,
-    /// Where the tip was [m], and its elastic force [N], when it took hold.
+    /// The tip [m], and its elastic force [N], at the start of the grasp.
     tip: Vec3,
     force: Vec3,
 }
 
-/// Takes hold of the place that the tool touches, or would touch a little ahead.
-pub(super) fn take_hold(
+/// Grasps the place at the tool's contact, or a little ahead of it.
+pub(super) fn grasp(
     simulation: &Simulation,
     tool: &Tool,
     state: &mut ToolState,
@@ -37,7 +37,7 @@ pub(super) fn take_hold(
     let (Some(swept), Some(jaws)) = (state.swept(tool), tool.jaws) else {
         return false;
     };
-    let ahead = || contact::detect(&simulation.ground(tool), tool, None, &swept.ahead());
+    let ahead = || contact::detect(&simulation.rest_surface(tool), tool, None, &swept.ahead());
     let Some(contact) = state.contact.or_else(ahead) else {
         return false;
     };
@@ -47,7 +47,7 @@ pub(super) fn take_hold(
     };
     let mut place = contact.place;
     place.radius = (Swept::face(&jaws) / std::f64::consts::PI).sqrt();
-    let seen = SeenHold {
+    let displayed = DisplayedHold {
         triangle: place.triangle,
         place: place.point,
         at: None,
@@ -59,12 +59,12 @@ pub(super) fn take_hold(
         force: state.elastic,
     });
     let area = Swept::face(&jaws);
-    state.grip.hold = Some(Hold::new(&swept, area, jaws.opening_m, held, seen));
+    state.grip.hold = Some(Hold::new(&swept, area, jaws.opening_m, held, displayed));
     answer(simulation, tool, state, workspace);
     true
 }
 
-/// The force of a held place on its tool, and its stiffness; whether there is one.
+/// The force of a held place on its tool, and its stiffness; returns whether there is one.
 pub(crate) fn answer(
     simulation: &Simulation,
     tool: &Tool,

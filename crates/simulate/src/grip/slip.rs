@@ -1,4 +1,4 @@
-//! Tissue that slides between two faces: the pull along them is at most what friction bears.
+//! Slip of tissue between two faces: friction limits the pull along them.
 //!
 //! Tissue can slide sideways and out of the open end, never toward the joint. With q the pull along the faces,
 //! S the stiffness of the patch there and a the part of a new force that does not relax at once, a slide δ
@@ -8,8 +8,9 @@
 //! |q′| = 2 μ N,   q′ = q − a S δ,   δ = γ q′   ⟹   q′ = (1 + γ a S)⁻¹ q
 //! ```
 //!
-//! |q′| falls with γ ≥ 0. The tissue goes where it is pulled, so that a slide only takes energy. Where another tool
-//! touches the organ, more or less of the pull goes than S says; the next slide is as much shorter or longer.
+//! |q′| falls with γ ≥ 0. The tissue moves in the direction of the pull, so that a slide only dissipates energy. Where
+//! another tool touches the organ, the pull falls more or less than by S; the next slide is shorter or longer
+//! accordingly.
 
 use nalgebra::{Matrix2, Matrix3, Vector2};
 use palpate_geometry::Vec3;
@@ -18,20 +19,19 @@ use crate::simulation::Simulation;
 use crate::state::ToolState;
 use crate::tool::Tool;
 
-/// A pull beyond what friction bears that is none [-].
+/// Excess pull over friction that counts as none [-].
 const BEYOND: f64 = 1e-9;
 
-/// What the slides of a step have done so far.
+/// The slides of a step so far.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Slides {
-    /// The direction of the pull before the last one [-] and how far it was beyond what friction bears [N]; none before
-    /// the first.
+    /// The direction of the last but one pull [-] and its excess over the friction limit [N]; none before the first.
     before: Option<(Vector2<f64>, f64)>,
-    /// The length of a slide over that in an organ which only this tool touches [-].
+    /// The length of a slide relative to that in an organ that only this tool touches [-].
     longer: f64,
 }
 
-/// A slide is longer or shorter by that at most [-]: the coupling of two tools is bounded (`global`).
+/// Largest factor by which a slide is longer or shorter [-]: the coupling of two tools is bounded (`global`).
 const LONGEST: f64 = 200.0;
 
 impl Slides {
@@ -40,14 +40,14 @@ impl Slides {
         longer: 1.0,
     };
 
-    /// How long the next slide is [-], where the `pull` [N] is beyond the `limit` [N] that friction bears: the secant
-    /// through the last two.
+    /// Length of the next slide [-], where the `pull` [N] exceeds the friction `limit` [N]: the secant through the last
+    /// two.
     fn next(&mut self, pull: &Vector2<f64>, limit: f64) -> f64 {
         let size = pull.norm();
         if let Some((direction, beyond)) = self.before.replace((pull / size, size - limit)) {
-            let gone = 1.0 - (pull.dot(&direction) - limit) / beyond;
-            self.longer = match gone > 0.0 {
-                true => (self.longer / gone).clamp(1.0 / LONGEST, LONGEST),
+            let removed = 1.0 - (pull.dot(&direction) - limit) / beyond;
+            self.longer = match removed > 0.0 {
+                true => (self.longer / removed).clamp(1.0 / LONGEST, LONGEST),
                 false => 1.0,
             };
         }
@@ -55,7 +55,7 @@ impl Slides {
     }
 }
 
-/// Slides the tissue of a tool where it is pulled too hard; whether it has.
+/// Slides the tissue of a tool where the pull exceeds friction; returns whether it has.
 pub(super) fn slip(
     simulation: &Simulation,
     tool: &Tool,
@@ -67,7 +67,7 @@ pub(super) fn slip(
     };
     let limit = 2.0 * jaws.friction * state.press(simulation, tool);
     let series = &simulation.material.prony;
-    let felt = |elastic: Vec3| {
+    let rendered = |elastic: Vec3| {
         let mut history = state.history;
         history.advance(series, elastic, elapsed)
     };
@@ -75,8 +75,8 @@ pub(super) fn slip(
         return false;
     };
     let turned = hold.turned().to_rotation_matrix();
-    let force = felt(state.elastic);
-    let at_once = (felt(state.elastic + Vec3::x()) - force).x;
+    let force = rendered(state.elastic);
+    let at_once = (rendered(state.elastic + Vec3::x()) - force).x;
     let pull = turned.inverse() * force;
     let stiffness = turned.matrix().tr_mul(&state.stiffness) * turned.matrix() * at_once;
     let Some((by, pull)) = slide(&pull, &stiffness, limit) else {
@@ -89,15 +89,15 @@ pub(super) fn slip(
     true
 }
 
-/// How far tissue slides [m] that is pulled by `pull` [N] and answers with `stiffness` [N/m], all in the tool's frame, and
-/// the part of the pull [N] that it slides by; none where friction bears the `limit` [N] of it.
+/// The slide [m] of tissue under the pull `pull` [N] with `stiffness` [N/m], all in the tool's frame, and the part of
+/// the pull [N] that it removes; none if friction bears it, up to `limit` [N].
 fn slide(pull: &Vec3, stiffness: &Matrix3<f64>, limit: f64) -> Option<(Vec3, Vector2<f64>)> {
     let aside = Vector2::new(pull.y, 0.0);
     let out = Vector2::new(pull.y, pull.z);
     let outward = pull.z < 0.0;
     let pull = if outward { out } else { aside };
     let size = pull.norm();
-    // Not finite is no pull.
+    // A pull that is not finite counts as none.
     if !(size > limit * (1.0 + BEYOND) && size.is_finite()) {
         return None;
     }
@@ -109,7 +109,7 @@ fn slide(pull: &Vec3, stiffness: &Matrix3<f64>, limit: f64) -> Option<(Vec3, Vec
     let left = |gamma: f64| -> Option<Vector2<f64>> {
         (Matrix2::identity() + along * gamma).lu().solve(&pull)
     };
-    // With γ S of a million of a million nothing of the pull is left.
+    // With γ S of a trillion nothing of the pull is left.
     let (mut low, mut high) = (0.0, 1.0 / along.norm());
     while left(high)?.norm() > limit && high * along.norm() < 1e12 {
         low = high;
@@ -155,8 +155,8 @@ mod tests {
         assert!((all.z + 4e-3).abs() < 1e-9, "{all}");
     }
 
-    /// Judge: springs of 2 and of 220 N/m that are taken for 100: the second slide, of the length that the first has
-    /// shown, leaves what friction bears.
+    /// Judge: springs of 2 and of 220 N/m with an assumed stiffness of 100: the second slide, with the length from the
+    /// first, leaves the friction limit.
     #[test]
     fn a_slide_learns_from_the_one_before() {
         for (stiffness, limit) in [(2.0, 0.1), (220.0, 0.0)] {

@@ -1,24 +1,24 @@
 use palpate_servo::{Supervisor, log};
 
-/// What a window asks of the model.
+/// A command from a window to the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ModelCommand {
-    /// Stands still, without a force, until it shall go on.
+    /// Pauses, without a force, until it resumes.
     Pause,
-    /// Goes on.
+    /// Resumes.
     Resume,
-    /// Begins anew with the organ at rest and whole.
+    /// Restarts with the organ at rest and intact.
     Reset,
-    /// Closes the last cut again.
+    /// Undoes the last cut.
     UndoCut,
-    /// Says in the session that a hand means this place, or that it is done.
+    /// Records in the session that a hand means this place, or that it is done.
     Mark,
-    /// Says in the session which diameter was felt [m].
+    /// Records the estimated diameter in the session [m].
     StateDiameter(f64),
 }
 
 impl ModelCommand {
-    /// What it means for the forces of the devices.
+    /// Its consequence for the forces of the devices.
     pub(super) fn supervise(self, supervisor: &Supervisor) {
         match self {
             Self::Pause => supervisor.pause(),
@@ -28,10 +28,10 @@ impl ModelCommand {
     }
 }
 
-/// Orders that have room until the model's next step.
-const ROOM: usize = 64;
+/// Capacity for commands until the model's next step.
+const CAPACITY: usize = 64;
 
 /// The two ends of the channel of commands.
 pub(super) fn commands() -> (log::Writer<ModelCommand>, log::Reader<ModelCommand>) {
-    log::ring(ROOM)
+    log::ring(CAPACITY)
 }

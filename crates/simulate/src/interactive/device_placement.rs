@@ -3,17 +3,17 @@ use palpate_geometry::Vec3;
 
 use crate::{ShaftFriction, Trocar};
 
-/// Where a device stands in the scene: x_scene = origin + scale · rotation x_device. Through a trocar its handle is
+/// The placement of a device in the scene: x_scene = origin + scale · rotation x_device. With a trocar its handle is
 /// the hand, else the tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DevicePlacement {
-    /// Where the device's origin is in the scene [m].
+    /// Position of the device's origin in the scene [m].
     pub origin: Vec3,
     /// The rotation from the device's frame to the scene's.
     pub rotation: UnitQuaternion<f64>,
-    /// Way in the scene over way of the hand [-].
+    /// Motion in the scene over motion of the hand [-].
     pub scale: f64,
-    /// Through which the handle moves the tip; none for a device that moves the tip itself.
+    /// The trocar through which the handle moves the tip; none for a device that moves the tip itself.
     pub trocar: Option<Trocar>,
 }
 
@@ -30,12 +30,12 @@ impl Default for DevicePlacement {
 }
 
 impl DevicePlacement {
-    /// A place of the device [m] in the scene [m].
+    /// Maps a position of the device [m] to the scene [m].
     pub fn place_in_scene(&self, position: &Vec3) -> Vec3 {
         self.origin + self.vector_in_scene(position)
     }
 
-    /// A way [m] or velocity [m/s] of the device in the scene.
+    /// Maps a displacement [m] or velocity [m/s] of the device to the scene.
     pub fn vector_in_scene(&self, vector: &Vec3) -> Vec3 {
         self.rotation * (vector * self.scale)
     }
@@ -46,7 +46,7 @@ impl DevicePlacement {
         self.trocar.map_or(hand, |trocar| trocar.tip(&hand))
     }
 
-    /// What a handle at `position` of the device [m] feels, in the device's frame, of a `force` on the tip [N].
+    /// The force on a handle at `position` of the device [m], in the device's frame, due to a `force` on the tip [N].
     pub fn force_on_handle(&self, position: &Vec3, force: &Vec3) -> Vec3 {
         let hand = self.place_in_scene(position);
         let felt = self
@@ -55,7 +55,7 @@ impl DevicePlacement {
         self.force_in_device(&felt)
     }
 
-    /// The force on the tip [N] that such a handle feels as `force` in the device's frame [N].
+    /// The force on the tip [N] that gives `force` in the device's frame on such a handle [N].
     pub fn force_on_tip(&self, position: &Vec3, force: &Vec3) -> Vec3 {
         let force = self.force_in_scene(force);
         let hand = self.place_in_scene(position);
@@ -63,7 +63,7 @@ impl DevicePlacement {
             .map_or(force, |trocar| trocar.force_on_tip(&hand, &force))
     }
 
-    /// What the abdominal wall does to such a handle, in the device's frame [N], `dt` [s] after the last.
+    /// The force of the abdominal wall on such a handle, in the device's frame [N], `dt` [s] after the last.
     pub fn wall_force(&self, position: &Vec3, friction: &mut ShaftFriction, dt: f64) -> Vec3 {
         let Some(trocar) = &self.trocar else {
             return Vec3::zeros();
@@ -72,12 +72,12 @@ impl DevicePlacement {
         self.force_in_device(&trocar.wall_force(&hand, friction, dt))
     }
 
-    /// A force in the scene's frame in the device's [N]. Ways are scaled, forces are not.
+    /// Maps a force from the scene's frame to the device's [N]. Displacements are scaled, forces are not.
     pub fn force_in_device(&self, force: &Vec3) -> Vec3 {
         self.rotation.inverse() * force
     }
 
-    /// A force in the device's frame in the scene's [N].
+    /// Maps a force from the device's frame to the scene's [N].
     pub fn force_in_scene(&self, force: &Vec3) -> Vec3 {
         self.rotation * force
     }

@@ -9,11 +9,11 @@ use super::DevicePlacement;
 use super::force_renderer::{ForceRenderer, hand_over};
 use crate::{Error, Simulation};
 
-/// The device of a tool and where it stands.
+/// The device of a tool and its placement.
 pub struct PlacedDevice {
     /// The device.
     pub device: Box<dyn Device>,
-    /// Where it stands.
+    /// Its placement.
     pub placement: DevicePlacement,
 }
 
@@ -34,24 +34,24 @@ pub(super) struct ModelEndpoint {
     pub(super) placement: DevicePlacement,
 }
 
-/// Readings of a device's loop.
+/// The readers' ends of a device's loop.
 pub(super) struct Watch {
     pub(super) samples: log::Reader<Sample>,
     pub(super) report: Receiver<LoopReport>,
 }
 
-/// A device with its loop, split into its ends for the threads that run it.
+/// A device with its loop, split into its endpoints for the threads that run it.
 pub(super) struct DeviceEndpoints {
     pub(super) servo: ServoLoop,
-    pub(super) line: ModelEndpoint,
+    pub(super) endpoint: ModelEndpoint,
     pub(super) watch: Watch,
-    /// Who its loop is, and when it ticks.
+    /// Name of its loop, and time of its last tick.
     pub(super) watched: Watched,
     /// Whether its forces reach a hand.
     pub(super) displays_force: bool,
 }
 
-/// The ends of every device, none for a tool without a device.
+/// The endpoints of every device, none for a tool without a device.
 pub(super) fn device_endpoints(
     simulation: &Simulation,
     devices: Vec<Option<PlacedDevice>>,
@@ -98,7 +98,7 @@ impl DeviceEndpoints {
             },
             displays_force,
             servo,
-            line: ModelEndpoint {
+            endpoint: ModelEndpoint {
                 samples: reader.latest,
                 answers,
                 placement,

@@ -6,14 +6,14 @@ use palpate_servo::{AffineForce, Controller, DeviceState, Extrapolator, HandOver
 use super::DevicePlacement;
 use crate::ShaftFriction;
 
-/// What makes a force of the model's answers at every tick of the servo loop.
+/// Renders a force from the model's answers at every tick of the servo loop.
 pub struct ForceRenderer {
     answers: Receiver<AffineForce>,
     extrapolator: Extrapolator,
     placement: DevicePlacement,
     force_scale: f64,
     friction: ShaftFriction,
-    /// What the abdominal wall did last, in the device's frame [N].
+    /// Last force of the abdominal wall, in the device's frame [N].
     of_wall: Vec3,
     time: f64,
 }
@@ -69,7 +69,7 @@ impl Controller for ForceRenderer {
     }
 }
 
-/// The scene's word as the servo loop has it.
+/// The servo loop's value for a scene's word.
 pub(super) fn hand_over(word: scene::HandOver) -> HandOver {
     match word {
         scene::HandOver::LocalModel => HandOver::LocalModel,

@@ -5,23 +5,22 @@ use palpate_servo::AffineForce;
 use crate::state::ToolState;
 use crate::tool::Tool;
 
-/// What the servo loop is told of `tool` after a step, in the scene's frame: f₀ is the relaxed force, K
-/// the stiffness at once, for tissue does not relax within two steps. A force that would pull is handed
-/// over as it is, and the loop leaves the pull out: a hand that turns around meets the tissue where it is.
-/// What jaws hold pulls and pushes.
-/// `time` [s] is that of the pose.
+/// The force that the servo loop receives for `tool` after a step, in the scene's frame: f₀ is the relaxed force, K the
+/// instantaneous stiffness, since tissue does not relax within two steps. A pulling force is handed over unchanged, and
+/// the loop removes the pull: a hand that turns around meets the tissue at its current position. Tissue held by jaws
+/// pulls and pushes. `time` [s] is that of the pose.
 pub fn affine_force(tool: &Tool, state: &ToolState, time: f64) -> AffineForce {
     let organ = of_organ(tool, state, time);
     let Some(pose) = &state.pose else {
         return organ;
     };
     let pushed = state.is_pushed().then(|| state.pushed.force.normalize());
-    // A tip that a wall wraps around has no law of its own: its points push it, as they do a shaft.
+    // A tip inside a wrapping wall has no law of its own: the wall's points push it like a shaft.
     let has_law = organ.contact && organ.gradient != nalgebra::Matrix3::zeros();
     let normal = match (has_law, state.stopped.normal, pushed) {
         (_, None, None) => return organ,
         (false, Some(normal), None) | (false, None, Some(normal)) => normal,
-        // Two surfaces that push have no one normal.
+        // Two surfaces that push have no common normal.
         _ => Vec3::zeros(),
     };
     let force = organ.force + state.stopped.force + state.pushed.force;
@@ -48,7 +47,7 @@ fn of_organ(tool: &Tool, state: &ToolState, time: f64) -> AffineForce {
     };
     let normal = contact.normal();
     let gradient = match tool.bond == Friction::Frictionless || contact.slides {
-        // Along the surface nothing holds the tip.
+        // Without friction nothing holds the tip along the surface.
         true => -normal.dot(&(state.stiffness * normal)) * normal * normal.transpose(),
         false => -state.stiffness,
     };

@@ -18,14 +18,14 @@ use super::recorder::{SessionRecorder, Unwritten};
 use super::{ModelCommand, ModelReport, Quality, ROWS, Snapshot};
 use crate::{Error, SessionFolderWriter, Simulation};
 
-/// The model on a thread and a servo loop per device on others, on the machine's clock. Dropping it takes all forces off,
-/// ends the threads and stops the devices.
+/// An interaction on the machine's clock: the model on a thread and a servo loop per device on others. Dropping it
+/// takes all forces off, ends the threads and stops the devices.
 pub struct Interaction {
     stop: Arc<AtomicBool>,
     model: Option<JoinHandle<ModelReport>>,
     servos: Vec<Option<ServoThread>>,
     watches: Vec<Option<Watch>>,
-    /// After the loops that it watches.
+    /// Dropped after the loops that it watches.
     watch: WatchThread,
     recorder: SessionRecorder,
     rows: log::Reader<SessionRow>,
@@ -36,12 +36,12 @@ pub struct Interaction {
     clock: Clock,
 }
 
-/// What surrounds a touch.
+/// The environment of a touch.
 #[derive(Clone, Copy)]
 pub struct Environment<'a> {
-    /// Servers that send it to other programs.
+    /// Servers that publish it to other programs.
     pub publishers: &'a [Publisher],
-    /// Whether the program was asked to end; no device has a force then.
+    /// Whether the program received a request to end; every device is then without force.
     pub is_ended: fn() -> bool,
 }
 
@@ -55,11 +55,11 @@ impl Default for Environment<'_> {
     }
 }
 
-/// What runs beside the model, in the order of the tools.
+/// The background parts next to the model, in the order of the tools.
 #[derive(Default)]
 struct Running {
     servos: Vec<Option<ServoThread>>,
-    lines: Vec<Option<super::endpoints::ModelEndpoint>>,
+    endpoints: Vec<Option<super::endpoints::ModelEndpoint>>,
     watches: Vec<Option<Watch>>,
 }
 
@@ -77,7 +77,7 @@ impl Interaction {
         Self::start_in(&Environment::default(), prepared, devices, settings)
     }
 
-    /// The same with a model that was prepared beside the caller, in an `environment`.
+    /// The same with a model that the caller has prepared, in an `environment`.
     ///
     /// # Errors
     /// As for [`start`](Self::start).
@@ -88,7 +88,7 @@ impl Interaction {
         settings: ServoSettings,
     ) -> Result<Self, Error> {
         let supervisor = Supervisor::armed();
-        let PreparedModel { model, seen } = prepared.published_by(environment.publishers);
+        let PreparedModel { model, viewer } = prepared.published_by(environment.publishers);
         let simulation = model.simulation.clone();
         let parts = device_endpoints(&simulation, devices, settings, &supervisor)?;
         let displays = parts.iter().flatten().any(|parts| parts.displays_force);
@@ -104,7 +104,7 @@ impl Interaction {
         let watch = WatchThread::start(watch, clock)?;
         let Running {
             servos,
-            lines,
+            endpoints,
             watches,
         } = Running::start(parts, clock)?;
         let channels = Channels {
@@ -114,7 +114,7 @@ impl Interaction {
         };
         let stop = Arc::new(AtomicBool::new(false));
         let (asked, period) = (stop.clone(), simulation.step());
-        let model = ModelLoop::new(model, lines, channels);
+        let model = ModelLoop::new(model, endpoints, channels);
         let thread = std::thread::Builder::new().name("model".to_owned());
         let handle = thread.spawn(move || run(model, clock, period, &asked));
         Ok(Self {
@@ -126,18 +126,18 @@ impl Interaction {
             recorder,
             rows: read_rows,
             commands: give,
-            snapshots: seen,
+            snapshots: viewer,
             replacing,
             supervisor,
             clock,
         })
     }
 
-    /// Goes on with another model, the organ at rest, while all devices stay open and their loops run: forces are off for
-    /// some milliseconds and are armed again. `environment` is that of the start.
+    /// Continues with another model, the organ at rest, while all devices stay open and their loops run: forces are off
+    /// for some milliseconds and are armed again. `environment` is that of the start.
     ///
     /// # Errors
-    /// When the loops of this touch do not serve the other model, or the model thread has ended.
+    /// When the loops of this touch do not fit the other model, or the model thread has ended.
     pub fn replace_model(
         &mut self,
         environment: &Environment<'_>,
@@ -148,13 +148,13 @@ impl Interaction {
         Ok(())
     }
 
-    /// The latest that there is to see.
+    /// The latest snapshot.
     pub fn snapshot(&mut self) -> &Snapshot {
         self.snapshots.latest()
     }
 
-    /// Sends a command to the model, which processes it before its next step; in a pause no device has a force from its next
-    /// tick on.
+    /// Sends a command to the model, which processes it before its next step; in a pause every device is without force
+    /// from its next tick on.
     pub fn send(&mut self, command: ModelCommand) {
         command.supervise(&self.supervisor);
         self.commands.add(command);
@@ -165,28 +165,27 @@ impl Interaction {
         self.supervisor.trip();
     }
 
-    /// What arms the forces of all devices and takes them off.
+    /// Arms the forces of all devices and takes them off.
     pub fn supervisor(&self) -> &Supervisor {
         &self.supervisor
     }
 
-    /// Says that who shows this to a person is alive. Forces are taken off when that is not said again within
-    /// [`SILENCE`](palpate_servo::supervisor::SILENCE); who never says it need not.
+    /// Reports that the program that shows the touch is alive. After the first report, forces go off if the next one
+    /// does not come within [`SILENCE`](palpate_servo::supervisor::SILENCE).
     pub fn report_alive(&self) {
         self.supervisor.report(self.clock.now());
     }
 
-    /// Records a session: everything begins anew, and every row from then on is written.
+    /// Records a session: everything restarts, and every row from then on is written.
     pub fn record(&mut self, writer: SessionFolderWriter) {
         self.recorder.record(writer);
         self.send(ModelCommand::Reset);
     }
 
-    /// Ends the recording; what was recorded is on the disk then. Rows that are a twentieth of a second old may
-    /// still be missing.
+    /// Ends the recording; its rows are then on the disk. Rows of the last twentieth of a second may still be missing.
     ///
     /// # Errors
-    /// When a row could not be written; all are in memory then, for [`record_elsewhere`](Self::record_elsewhere).
+    /// When a row could not be written; all rows are then in memory, for [`record_elsewhere`](Self::record_elsewhere).
     pub fn end_recording(&mut self) -> Result<(), Error> {
         self.recorder.end()
     }
@@ -196,7 +195,7 @@ impl Interaction {
         self.recorder.unwritten()
     }
 
-    /// Writes the recording elsewhere, from its beginning on, also when it has ended; one that goes on goes on there.
+    /// Writes the recording from its start to another folder, also after its end; a running one continues there.
     ///
     /// # Errors
     /// When a row cannot be written there either, or not all are in memory.
@@ -204,18 +203,18 @@ impl Interaction {
         self.recorder.record_elsewhere(writer)
     }
 
-    /// The rows of the session that nobody has read yet.
+    /// The unread rows of the session.
     pub fn rows(&mut self) -> impl Iterator<Item = SessionRow> + '_ {
         self.rows.drain()
     }
 
-    /// The samples of a tool's servo loop that nobody has read yet.
+    /// The unread samples of a tool's servo loop.
     pub fn samples(&mut self, tool: usize) -> impl Iterator<Item = Sample> + '_ {
         let watch = self.watches.get_mut(tool).and_then(Option::as_mut);
         watch.into_iter().flat_map(|watch| watch.samples.drain())
     }
 
-    /// How good the touch was so far; loops tell ten times a second.
+    /// The quality of the touch so far; loops report ten times a second.
     pub fn quality(&mut self) -> Quality {
         let watches = self.watches.iter_mut();
         let loops = watches.map(|watch| watch.as_mut().map(|watch| *watch.report.latest()));
@@ -230,7 +229,7 @@ impl Interaction {
         self.supervisor.arm();
     }
 
-    /// What a person has to know of a device whose driver does not return from a call; none when all answer.
+    /// A sentence for a person about a device whose driver does not return from a call; none if all answer.
     pub fn hung_device(&self) -> Option<String> {
         self.watch.watch().warning()
     }
@@ -244,11 +243,11 @@ impl Interaction {
         model && self.servos.iter().flatten().all(ServoThread::is_running)
     }
 
-    /// Takes all forces off, ends all threads, devices first, and tells how good the touch was. What nobody has read stays
-    /// to be read.
+    /// Takes all forces off, ends all threads, devices first, and returns the quality of the touch. Unread values can
+    /// still be read.
     ///
     /// # Errors
-    /// When a thread panicked, a loop hangs in its device (it is left behind, without a force if it ever returns), or the
+    /// When a thread panicked, a loop hangs in its device (it is abandoned, without a force if it ever returns), or the
     /// recording could not be written.
     pub fn stop(&mut self) -> Result<Quality, Error> {
         self.supervisor.switch_off();
@@ -259,7 +258,7 @@ impl Interaction {
             Some(model) => model.join().map_err(|_| Error::ModelPanicked)?,
             None => self.snapshots.latest().report,
         };
-        // All rows have come through then.
+        // By then all rows have arrived.
         self.recorder.end()?;
         let loops: Result<Vec<Option<LoopReport>>, Fault> =
             loops.into_iter().map(Option::transpose).collect();
@@ -272,7 +271,7 @@ impl Interaction {
 
 impl Drop for Interaction {
     fn drop(&mut self) {
-        // Who wants to know calls `stop`.
+        // `stop` returns the result.
         let _ = self.stop();
     }
 }
@@ -282,22 +281,22 @@ impl Running {
     fn start(parts: Vec<Option<DeviceEndpoints>>, clock: Clock) -> Result<Self, Fault> {
         let mut running = Self::default();
         for parts in parts {
-            let (servo, line, watch) = match parts {
+            let (servo, endpoint, watch) = match parts {
                 None => (None, None, None),
                 Some(parts) => {
                     let servo = ServoThread::start(parts.servo, clock)?;
-                    (Some(servo), Some(parts.line), Some(parts.watch))
+                    (Some(servo), Some(parts.endpoint), Some(parts.watch))
                 }
             };
             running.servos.push(servo);
-            running.lines.push(line);
+            running.endpoints.push(endpoint);
             running.watches.push(watch);
         }
         Ok(running)
     }
 }
 
-/// Steps at whole multiples of the period; what is late is left out, never made up for.
+/// Steps at whole multiples of the period; late steps are skipped, never caught up.
 fn run(mut model: ModelLoop, mut clock: Clock, period: f64, stop: &AtomicBool) -> ModelReport {
     model.priority = raise_model_priority();
     let mut number = (clock.now() / period).ceil() as u64;

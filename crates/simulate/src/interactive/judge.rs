@@ -5,9 +5,9 @@ use super::model_loop::pose;
 use super::{DevicePlacement, ExtrapolationError};
 use crate::{Simulation, SimulationState, SimulationWorkspace, step};
 
-/// How far the forces of a tool's servo loop were off at every tick: `samples` of the device of tool
-/// `number` at `mount` are stepped again, at the loop's own rate, and the force of each step is compared
-/// with the one that the loop made. It takes as long as so many steps.
+/// The extrapolation error of a tool's servo loop at every tick: replays the `samples` of the device of tool `number`
+/// at `mount` at the loop's own rate, and compares the force of each step with the one that the loop made. It takes as
+/// long as that many steps.
 pub fn judge_samples(
     simulation: &Simulation,
     number: usize,
@@ -32,7 +32,7 @@ pub fn judge_samples(
             &mut workspace,
         );
         before = Some(time);
-        // Before the first answer nothing was handed over.
+        // Before the first answer the loop had no force.
         if sample.age.is_some_and(f64::is_finite) {
             error.add(
                 &made(simulation, placement, sample),
@@ -43,7 +43,7 @@ pub fn judge_samples(
     error
 }
 
-/// The force on the tool [N] that a loop made at `sample`, in the scene's frame and not scaled.
+/// The force on the tool [N] that a loop made at `sample`, in the scene's frame and unscaled.
 pub(super) fn made(simulation: &Simulation, placement: &DevicePlacement, sample: &Sample) -> Vec3 {
     let of_model = (sample.commanded - sample.added) / simulation.force_scale();
     placement.force_on_tip(&sample.state.position, &of_model)

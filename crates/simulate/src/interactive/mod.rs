@@ -1,17 +1,18 @@
-//! An organ that answers a hand while it moves: the model beside a servo loop per device and a display.
+//! Real-time interaction: the model runs in parallel with a servo loop per device and a display.
 //!
 //! ```text
 //!  display 60 Hz ◀─latest(Snapshot)─ model thread 200 Hz ─latest(AffineForce)─▶ servo thread 1 kHz ─▶ device
 //!  recorder      ◀─every SessionRow─      step           ◀───latest(Sample)────  extrapolate, limit
 //! ```
 //!
-//! A [`ModelCommand`] (pause, undo, anew) goes to the model by a ring of its own. The recorder writes a session that is
-//! recorded, and hands its rows on to who shows them. A watch thread notices a loop that hangs and a program that shall end
-//! ([`palpate_servo::watch`]). Another model takes over while the devices stay open ([`PreparedModel`]).
+//! A [`ModelCommand`] (pause, resume, undo, reset) reaches the model through a ring of its own. The recorder writes a
+//! session that is recorded, and passes its rows on for display. A watch thread detects a loop that hangs and a request
+//! to end the program ([`palpate_servo::watch`]). Another model can take over while the devices stay open
+//! ([`PreparedModel`]).
 //!
-//! Nobody waits for anybody: what was not read is replaced, and what finds no room is counted.
-//! [`Interaction`] runs it on the machine's clock; [`VirtualInteraction`] runs the same parts on a virtual
-//! one, in one thread, the same to the last bit every time.
+//! No thread waits for another: unread values are replaced, and values that do not fit are counted. [`Interaction`]
+//! runs on the machine's clock; [`VirtualInteraction`] runs the same parts on a virtual one, in one thread, identical
+//! to the last bit every time.
 //!
 //! *How we know*: `interactive::…` in the tests.
 //!
@@ -34,7 +35,7 @@ mod scene_devices;
 mod snapshot;
 mod virtual_interaction;
 
-/// Rows that have room until somebody reads them: a minute of two tools at 200 Hz.
+/// Capacity for unread rows: a minute of two tools at 200 Hz.
 const ROWS: usize = 24_000;
 
 pub use command::ModelCommand;

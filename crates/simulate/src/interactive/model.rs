@@ -1,9 +1,9 @@
-//! The model of a running touch, and how another takes its place: the local model that a hand touches first, and the
-//! organ-scale model that was prepared beside it.
+//! The model of a running touch, and its replacement: the local model comes first, and the organ-scale model replaces
+//! it once it has been prepared in the background.
 //!
-//! The devices stay open and their loops go on. Nothing is allocated, copied or freed on the model thread: it exchanges
-//! one box for the other and sends the old one back. Forces are off until every loop has seen it, and are armed again with
-//! the new model.
+//! The devices stay open and their loops keep running. Nothing is allocated, copied or freed on the model thread: it
+//! swaps one box for the other and sends the old one back. Forces are off until every loop has seen the swap, and are
+//! armed again with the new model.
 //!
 //! *How we know*: `take_over::…`.
 
@@ -18,35 +18,35 @@ use super::model_loop::DISPLAY;
 use super::published::published_by;
 use crate::{Error, Simulation, SimulationState, SimulationWorkspace};
 
-/// A model with its state and scratch, and those who see its steps.
+/// A model with its state and scratch, and the outputs of its steps.
 pub(super) struct Model {
     pub(super) simulation: Arc<Simulation>,
     pub(super) state: SimulationState,
     pub(super) workspace: SimulationWorkspace,
-    /// One for each who looks on.
+    /// One output for each viewer.
     pub(super) snapshots: Vec<latest::Sender<Snapshot>>,
 }
 
-/// A model that is ready to be touched. Making it copies the organ, so that it is made beside the touch.
+/// A model that is ready to run. Making it copies the organ, so this happens off the model thread.
 pub struct PreparedModel {
     pub(super) model: Box<Model>,
-    pub(super) seen: latest::Receiver<Snapshot>,
+    pub(super) viewer: latest::Receiver<Snapshot>,
 }
 
 impl PreparedModel {
     /// `simulation` with its organ at rest.
     pub fn new(simulation: Arc<Simulation>) -> Self {
-        let (snapshots, seen) = latest::channel(&Snapshot::new(&simulation));
+        let (snapshots, viewer) = latest::channel(&Snapshot::new(&simulation));
         let model = Box::new(Model {
             state: SimulationState::new(&simulation).show_every(DISPLAY),
             workspace: SimulationWorkspace::new(&simulation),
             snapshots: vec![snapshots],
             simulation,
         });
-        Self { model, seen }
+        Self { model, viewer }
     }
 
-    /// The same, published by these servers from now on.
+    /// The same, also published by these servers.
     pub(super) fn published_by(mut self, publishers: &[Publisher]) -> Self {
         for publisher in publishers {
             let shown = published_by(publisher, &self.model.simulation);
@@ -56,25 +56,25 @@ impl PreparedModel {
     }
 }
 
-/// The end from which a model is replaced.
+/// The caller's end of a replacement.
 pub(super) struct Replacing {
     next: SyncSender<Box<Model>>,
     replaced: Receiver<Box<Model>>,
-    /// What is touched, or will be within a moment.
+    /// The model that runs, or will within a moment.
     touched: Arc<Simulation>,
 }
 
-/// The end at which it happens, between two steps.
+/// The model thread's end of a replacement, used between two steps.
 pub(super) struct TakingOver {
     next: Receiver<Box<Model>>,
     replaced: SyncSender<Box<Model>>,
     supervisor: Supervisor,
     waiting: Option<Box<Model>>,
-    /// Whether forces were on, or about to be, when it came.
+    /// Whether forces were on, or about to be, when the new model arrived.
     resumes: bool,
 }
 
-/// Both ends, for the session of `supervisor` in which `touched` is touched.
+/// Both ends, for the session of `supervisor` with the model `touched`.
 pub(super) fn take_over(
     touched: &Arc<Simulation>,
     supervisor: &Supervisor,
@@ -97,14 +97,14 @@ pub(super) fn take_over(
 }
 
 impl Replacing {
-    /// Hands `prepared` to the model thread, and returns what is seen of it from now on.
+    /// Sends `prepared` to the model thread, and returns the viewer's end of its output.
     pub(super) fn replace(
         &mut self,
         prepared: PreparedModel,
     ) -> Result<latest::Receiver<Snapshot>, Error> {
-        // What was replaced before is freed here, not on the model thread.
+        // A model that was replaced earlier is freed here, not on the model thread.
         while self.replaced.try_recv().is_ok() {}
-        let PreparedModel { model, seen } = prepared;
+        let PreparedModel { model, viewer } = prepared;
         let refused = |why| Error::NoTakeOver { why };
         if !have_one_touch(&self.touched, &model.simulation) {
             return Err(refused("its tools, step or scale of forces differ"));
@@ -115,11 +115,11 @@ impl Replacing {
             refused("another model is just taking over, or the model thread has ended")
         })?;
         self.touched = touched;
-        Ok(seen)
+        Ok(viewer)
     }
 }
 
-/// Whether the loops of the one serve the other.
+/// Whether the loops of one model fit the other.
 fn have_one_touch(one: &Simulation, other: &Simulation) -> bool {
     let fulcrums = |simulation: &Simulation| -> Vec<_> {
         let tools = simulation.tools().iter();
@@ -134,13 +134,13 @@ fn have_one_touch(one: &Simulation, other: &Simulation) -> bool {
 }
 
 impl TakingOver {
-    /// The model that takes over now; none while there is none, or a loop still displays a force of the old one, as its
-    /// last of `samples` says.
+    /// The model that takes over now; none if there is none, or if a loop still displays a force of the old one,
+    /// according to its last of `samples`.
     pub(super) fn next(&mut self, samples: &[Option<Sample>]) -> Option<Box<Model>> {
         if self.waiting.is_none() {
             self.waiting = Some(self.next.try_recv().ok()?);
             self.resumes = self.supervisor.state().allows_force();
-            // A pause that a person asked for stays one.
+            // A pause by a person stays.
             if self.resumes {
                 self.supervisor.pause();
             }
@@ -152,9 +152,9 @@ impl TakingOver {
         self.waiting.take()
     }
 
-    /// Sends `old` to where it is freed, and lets forces return, unless a person has `paused` meanwhile.
+    /// Sends `old` away to be freed, and permits forces again, unless a person has `paused` meanwhile.
     pub(super) fn finish(&mut self, old: Box<Model>, paused: bool) {
-        // There is room: what was replaced before was taken when this one was sent.
+        // There is capacity: the earlier replaced model was taken out when this one was sent.
         let _ = self.replaced.try_send(old);
         if self.resumes && !paused {
             self.supervisor.resume();

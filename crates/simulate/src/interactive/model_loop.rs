@@ -12,47 +12,47 @@ use super::snapshot::RenderedForce;
 use super::{DevicePlacement, ModelCommand, ModelReport};
 use crate::{shape, touch};
 
-/// The period of a display [s], with some room: a step that is a little early counts.
+/// The period of a display [s], with some tolerance: a step that is a little early counts.
 pub(crate) const DISPLAY: f64 = 0.9 / 60.0;
 
 /// The button that cuts.
 pub const CUTS: u32 = 1;
 
-/// The model and its ends of all channels. A step allocates nothing and waits for nobody.
+/// The model with its ends of all channels. A step allocates nothing and waits for no other thread.
 pub(super) struct ModelLoop {
     model: Box<Model>,
     taking_over: TakingOver,
-    lines: Vec<Option<ModelEndpoint>>,
+    endpoints: Vec<Option<ModelEndpoint>>,
     samples: Vec<Option<Sample>>,
     poses: Vec<Option<Pose>>,
-    felt: Vec<RenderedForce>,
+    rendered: Vec<RenderedForce>,
     rows: log::Writer<SessionRow>,
     commands: log::Reader<ModelCommand>,
     paused: bool,
-    /// What was ordered since the last row.
-    ordered: Events,
-    /// The diameter that was stated since the last row [m].
+    /// Events of commands since the last row.
+    command_events: Events,
+    /// The diameter stated since the last row [m].
     stated: Option<f64>,
-    /// Which tools were there in the step before.
-    were_there: Vec<bool>,
-    /// When it was asked last [s], and how long it stood still in all [s].
-    asked: f64,
-    stood: f64,
+    /// Whether each tool was present in the step before.
+    were_present: Vec<bool>,
+    /// Time of the last call [s], and total time of pauses [s].
+    last_call: f64,
+    paused_time: f64,
     steps: u64,
-    /// When the step began.
+    /// Start of the step.
     start: Instant,
     touch_times: Histogram,
     step_times: Histogram,
     error: ExtrapolationError,
     began: f64,
     now: f64,
-    /// The step of the last row [s]; none before the first.
+    /// Time of the last row [s]; none before the first.
     last: Option<f64>,
     missed: u64,
     pub(super) priority: Priority,
 }
 
-/// Where a model gets its commands from, and where its rows go.
+/// Source of a model's commands, and destination of its rows.
 pub(super) struct Channels {
     pub(super) commands: log::Reader<ModelCommand>,
     pub(super) rows: log::Writer<SessionRow>,
@@ -62,7 +62,7 @@ pub(super) struct Channels {
 impl ModelLoop {
     pub(super) fn new(
         model: Box<Model>,
-        lines: Vec<Option<ModelEndpoint>>,
+        endpoints: Vec<Option<ModelEndpoint>>,
         channels: Channels,
     ) -> Self {
         let Channels {
@@ -70,22 +70,22 @@ impl ModelLoop {
             rows,
             taking_over,
         } = channels;
-        let tools = lines.len();
+        let tools = endpoints.len();
         Self {
             model,
             taking_over,
-            lines,
+            endpoints,
             samples: vec![None; tools],
             poses: vec![None; tools],
-            felt: vec![RenderedForce::NOTHING; tools],
+            rendered: vec![RenderedForce::NOTHING; tools],
             rows,
             commands,
             paused: false,
-            ordered: Events::NONE,
+            command_events: Events::NONE,
             stated: None,
-            were_there: vec![false; tools],
-            asked: 0.0,
-            stood: 0.0,
+            were_present: vec![false; tools],
+            last_call: 0.0,
+            paused_time: 0.0,
             start: Instant::now(),
             touch_times: Histogram::default(),
             step_times: Histogram::default(),
@@ -99,22 +99,22 @@ impl ModelLoop {
         }
     }
 
-    /// The forces of a step at `time` [s] with the hands where they are.
+    /// The forces of a step at `time` [s] at the current hand positions.
     pub(super) fn touch(&mut self, time: f64) {
         self.start = Instant::now();
         self.read_hands();
-        self.let_another_take_over();
+        self.swap_model();
         self.process_commands();
         if self.paused {
-            self.stood += time - self.asked;
+            self.paused_time += time - self.last_call;
         }
-        self.asked = time;
+        self.last_call = time;
         if self.paused {
             return;
         }
-        // Time stands still with the organ.
-        let time = time - self.stood;
-        // The first depth comes as a step, as in a motion.
+        // Time stops during a pause.
+        let time = time - self.paused_time;
+        // The first depth is a jump, as in a motion.
         let elapsed = self.last.map_or(0.0, |last| time - last);
         if self.steps == 0 {
             self.began = time;
@@ -135,10 +135,12 @@ impl ModelLoop {
     pub(super) fn hand_over(&mut self) {
         let model = &self.model;
         let tools = model.simulation.tools().iter().zip(&model.state.tools);
-        for ((line, sample), (tool, state)) in self.lines.iter_mut().zip(&self.samples).zip(tools) {
-            if let (Some(line), Some(sample)) = (line, sample) {
+        for ((endpoint, sample), (tool, state)) in
+            self.endpoints.iter_mut().zip(&self.samples).zip(tools)
+        {
+            if let (Some(endpoint), Some(sample)) = (endpoint, sample) {
                 let time = sample.state.time;
-                line.answers.send(match self.paused {
+                endpoint.answers.send(match self.paused {
                     true => AffineForce::none(time),
                     false => affine_force(tool, state, time),
                 });
@@ -146,7 +148,7 @@ impl ModelLoop {
         }
     }
 
-    /// Completes the step, after its forces were handed over: what is seen and recorded of it.
+    /// Completes the step, after the hand-over of its forces: display and recording.
     pub(super) fn shape(&mut self) {
         if self.paused {
             return;
@@ -158,7 +160,7 @@ impl ModelLoop {
             ..
         } = &mut *self.model;
         shape(simulation, self.now, state, workspace);
-        // After a new beginning, what was felt was made of another touch.
+        // After a restart, the rendered force still belongs to the earlier touch.
         if self.last.is_some() {
             self.compare();
         }
@@ -166,12 +168,12 @@ impl ModelLoop {
         self.step_times.add(self.start.elapsed().as_secs_f64());
     }
 
-    /// Shows the step.
+    /// Sends the snapshot of the step to the viewers.
     pub(super) fn show(&mut self) {
         let report = self.report();
         let Self {
             model,
-            felt,
+            rendered,
             now,
             paused,
             ..
@@ -181,14 +183,14 @@ impl ModelLoop {
         } = &mut **model;
         for snapshots in snapshots {
             snapshots.send_with(|snapshot| {
-                snapshot.fill(*now, state, felt);
+                snapshot.fill(*now, state, rendered);
                 snapshot.report = report;
                 snapshot.paused = *paused;
             });
         }
     }
 
-    /// Counts steps that were left out.
+    /// Counts missed steps.
     pub(super) fn miss(&mut self, steps: u64) {
         self.missed += steps;
     }
@@ -211,26 +213,26 @@ impl ModelLoop {
         }
     }
 
-    /// Goes on with another model, the organ at rest, where one is ready.
-    fn let_another_take_over(&mut self) {
+    /// Continues with another model, the organ at rest, if one is ready.
+    fn swap_model(&mut self) {
         let Some(next) = self.taking_over.next(&self.samples) else {
             return;
         };
         let old = std::mem::replace(&mut self.model, next);
-        self.note_new_beginning();
+        self.mark_restart();
         self.taking_over.finish(old, self.paused);
     }
 
-    /// The next row is the first of a new touch, and says so.
-    fn note_new_beginning(&mut self) {
-        self.were_there.fill(false);
+    /// Marks the next row as the first of a new touch.
+    fn mark_restart(&mut self) {
+        self.were_present.fill(false);
         self.last = None;
-        self.ordered.insert(Event::BeginAnew);
+        self.command_events.insert(Event::BeginAnew);
     }
 
-    /// Does what was ordered. What changes the organ is told by the next row, one thing at a time.
+    /// Processes commands. The next row records a change of the organ, one at a time.
     fn process_commands(&mut self) {
-        while self.ordered.is_empty()
+        while self.command_events.is_empty()
             && self.stated.is_none()
             && let Some(command) = self.commands.next_value()
         {
@@ -242,27 +244,27 @@ impl ModelLoop {
                         simulation, state, ..
                     } = &mut *self.model;
                     state.reset(simulation);
-                    self.note_new_beginning();
+                    self.mark_restart();
                 }
                 ModelCommand::UndoCut => {
                     if self.model.state.undo_cut() {
-                        self.ordered.insert(Event::UndoCut);
+                        self.command_events.insert(Event::UndoCut);
                     }
                 }
-                ModelCommand::Mark => self.ordered.insert(Event::Mark),
+                ModelCommand::Mark => self.command_events.insert(Event::Mark),
                 ModelCommand::StateDiameter(diameter) => self.stated = Some(diameter),
             }
         }
     }
 
     fn read_hands(&mut self) {
-        for (number, line) in self.lines.iter_mut().enumerate() {
-            let Some(line) = line else { continue };
-            let sample = *line.samples.latest();
+        for (number, endpoint) in self.endpoints.iter_mut().enumerate() {
+            let Some(endpoint) = endpoint else { continue };
+            let sample = *endpoint.samples.latest();
             self.samples[number] = sample;
-            self.poses[number] = sample.and_then(|sample| pose(&line.placement, &sample));
-            self.felt[number] = sample.map_or(RenderedForce::NOTHING, |sample| RenderedForce {
-                force: line.placement.force_in_scene(&sample.sent),
+            self.poses[number] = sample.and_then(|sample| pose(&endpoint.placement, &sample));
+            self.rendered[number] = sample.map_or(RenderedForce::NOTHING, |sample| RenderedForce {
+                force: endpoint.placement.force_in_scene(&sample.sent),
                 fault: match sample.stage {
                     Stage::Faulted(fault) => Some(fault),
                     _ => None,
@@ -271,32 +273,33 @@ impl ModelLoop {
         }
     }
 
-    /// What was felt at the place of a hand, made of older answers, beside what is found for it now.
+    /// Compares the rendered force at each hand position, from older answers, with the model's force for it.
     fn compare(&mut self) {
         let Model {
             simulation, state, ..
         } = &*self.model;
-        for ((line, sample), tool) in self.lines.iter().zip(&self.samples).zip(&state.tools) {
-            let (Some(line), Some(sample)) = (line, sample) else {
+        for ((endpoint, sample), tool) in self.endpoints.iter().zip(&self.samples).zip(&state.tools)
+        {
+            let (Some(endpoint), Some(sample)) = (endpoint, sample) else {
                 continue;
             };
-            // Before the first answer nothing was handed over.
+            // Before the first answer the loop had no force.
             let answered = sample.age.is_some_and(f64::is_finite);
-            let made = made(simulation, &line.placement, sample);
+            let made = made(simulation, &endpoint.placement, sample);
             if answered && made.iter().all(|component| component.is_finite()) {
                 self.error.add(&made, &tool.force);
             }
         }
     }
 
-    /// A row for each tool that is there or has just gone; what was ordered is told by the first.
+    /// Records a row for each tool that is present or has just left; the first row has the events of commands.
     fn record(&mut self, time: f64) {
         let tools = &self.model.state.tools;
         let nobody = tools.iter().all(|tool| tool.pose.is_none());
         for (number, tool) in tools.iter().enumerate() {
             let is_there = tool.pose.is_some();
-            let was_there = std::mem::replace(&mut self.were_there[number], is_there);
-            let is_asked = !self.ordered.is_empty() || self.stated.is_some();
+            let was_there = std::mem::replace(&mut self.were_present[number], is_there);
+            let is_asked = !self.command_events.is_empty() || self.stated.is_some();
             let speaks = nobody && number == 0 && is_asked;
             if !is_there && !was_there && !speaks {
                 continue;
@@ -305,7 +308,7 @@ impl ModelLoop {
                 true => tool.row,
                 false => lifted(tool.row, time),
             };
-            row.events = row.events | std::mem::take(&mut self.ordered);
+            row.events = row.events | std::mem::take(&mut self.command_events);
             row.stated_diameter_m = self.stated.take();
             self.last = Some(time);
             self.rows.add(row);
@@ -313,7 +316,7 @@ impl ModelLoop {
     }
 }
 
-/// The row of a tool that is no longer there.
+/// The row of a tool that has just left.
 fn lifted(last: SessionRow, time: f64) -> SessionRow {
     SessionRow {
         time_s: time,
@@ -328,7 +331,7 @@ fn lifted(last: SessionRow, time: f64) -> SessionRow {
     }
 }
 
-/// Where a sample's hand is in the scene; none where nobody is.
+/// The pose of a sample's hand in the scene; none without a hand.
 pub(super) fn pose(placement: &DevicePlacement, sample: &Sample) -> Option<Pose> {
     let state = sample.state;
     let place = placement.tip(&state.position);

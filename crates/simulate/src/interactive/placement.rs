@@ -1,11 +1,12 @@
-//! How a real device stands in a scene: as its picture is seen. What is right, up and toward the user for a hand is so
-//! in the picture that the scene states (`view`), or else from the front: x, z and −y.
+//! The default placement of a real device in a scene, aligned with the view: right, up and toward the user for a hand
+//! are the same in the view that the scene states (`view`), or else in the front view: x, z and −y.
 //!
-//! The middle of the device's workspace is before the organ, above what is looked at, or where the organ is highest.
+//! The middle of the device's workspace is in front of the organ, above the target of the view, or where the organ is
+//! highest.
 //!
 //! *How we know*: `haptic_devices::…` in the tests.
 //!
-//! *Limits*: it stays as the scene states it when the picture is turned.
+//! *Limits*: turning the view does not change the placement.
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use palpate_files::Scene;
@@ -15,17 +16,17 @@ use palpate_geometry::{AabbTree, Vec3};
 use super::DevicePlacement;
 use crate::{Simulation, Tool};
 
-/// How far the tip is from the organ when the handle is in its middle [m].
+/// Distance of the tip from the organ when the handle is in its middle [m].
 const CLEAR: f64 = 0.015;
 
-/// How far each of two hands is from the middle [m].
+/// Distance of each of two hands from the middle [m].
 const APART: f64 = 0.015;
 
-/// Steps in which a clear place is looked for [m], and how far [-].
+/// Step size of the search for a clear location [m], and largest number of steps [-].
 const STEP: f64 = 0.005;
 const STEPS: usize = 100;
 
-/// Where the device of `tool` stands.
+/// The placement of the device of `tool`.
 pub(super) fn placement_of(scene: &Scene, simulation: &Simulation, tool: &Tool) -> DevicePlacement {
     let axes = axes(&scene.view);
     let side = match tool.name.as_str() {
@@ -34,8 +35,8 @@ pub(super) fn placement_of(scene: &Scene, simulation: &Simulation, tool: &Tool) 
         "right" => APART,
         _ => 0.0,
     };
-    let beside = axes.column(0) * side;
-    let tip = clear_place(scene, simulation, &axes) + beside;
+    let offset = axes.column(0) * side;
+    let tip = clear_place(scene, simulation, &axes) + offset;
     DevicePlacement {
         origin: tool.fulcrum.map_or(tip, |trocar| trocar.hand(&tip)),
         rotation: UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes)),
@@ -47,14 +48,14 @@ pub(super) fn placement_of(scene: &Scene, simulation: &Simulation, tool: &Tool) 
 /// Right, up and toward the user, as columns.
 fn axes(view: &View) -> Matrix3<f64> {
     let up = view.up.map_or_else(Vec3::z, Vec3::from);
-    let seen = view.eye_m.zip(view.target_m);
-    let back = seen.and_then(|(eye, target)| {
+    let view_direction = view.eye_m.zip(view.target_m);
+    let back = view_direction.and_then(|(eye, target)| {
         let back = Vec3::from(eye) - Vec3::from(target);
         back.try_normalize(1e-9)
     });
     let back = back.unwrap_or(-Vec3::y());
     let right = up.cross(&back).try_normalize(1e-6);
-    // Seen along what is up, any other will do.
+    // For a view along the up direction, any other will do.
     let right = right.unwrap_or_else(|| {
         back.cross(&Vec3::y())
             .try_normalize(1e-6)
@@ -63,7 +64,7 @@ fn axes(view: &View) -> Matrix3<f64> {
     Matrix3::from_columns(&[right, back.cross(&right), back])
 }
 
-/// A place of a tip outside of the organ [m].
+/// A location of a tip outside the organ [m].
 fn clear_place(scene: &Scene, simulation: &Simulation, axes: &Matrix3<f64>) -> Vec3 {
     let surface = simulation.surface();
     let tree = AabbTree::new(surface.mesh());
@@ -76,7 +77,7 @@ fn clear_place(scene: &Scene, simulation: &Simulation, axes: &Matrix3<f64>) -> V
         }
     };
     let places = (0..STEPS).map(|number| from + outward * (STEP * number as f64));
-    // From the far side on, so that a hollow of the organ is none.
+    // From the far side on, to skip hollows of the organ.
     let clear = |place: &Vec3| surface.signed_distance(&tree, place).1 > CLEAR;
     let blocked = places.clone().rposition(|place| !clear(&place));
     let first = blocked.map_or(0, |last| last + 1).min(STEPS - 1);

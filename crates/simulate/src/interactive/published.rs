@@ -1,4 +1,4 @@
-//! The running simulation, as servers send it to other programs.
+//! The running simulation in the form that servers send to other programs.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -10,13 +10,13 @@ use palpate_servo::latest::{Receiver, Sender, channel};
 use super::{Snapshot, ToolSnapshot};
 use crate::Simulation;
 
-/// Has `publisher` send what it gets from now on.
+/// Publishes the output of this simulation through `publisher` from now on.
 pub(super) fn published_by(
     publisher: &Publisher,
     simulation: &Arc<Simulation>,
 ) -> Sender<Snapshot> {
     let (snapshots, seen) = channel(&Snapshot::new(simulation));
-    // Only the server's own thread asks.
+    // Only the server's own thread calls this.
     let seen = Arc::new(Mutex::new(seen));
     let (of_tools, of_organ) = (seen.clone(), seen);
     let tools = simulation.tools().iter();
@@ -55,7 +55,7 @@ fn shown(name: &str, tool: &ToolSnapshot) -> ShownTool {
     }
 }
 
-/// The organ as it is now, with its cuts.
+/// The deformed organ with its cuts.
 fn surface(simulation: &Simulation, snapshot: &Snapshot) -> ShownSurface {
     if let Some(opened) = snapshot.opened.as_ref().filter(|opened| opened.version > 0) {
         return ShownSurface {

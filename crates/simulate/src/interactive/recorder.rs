@@ -9,15 +9,15 @@ use palpate_servo::{StopReason, Supervisor, log};
 use super::ROWS;
 use crate::{Error, SessionFolderWriter};
 
-/// How often rows are brought to their file [ms]: no more is lost when the program is killed.
+/// Interval at which rows are written to their file [ms]: a kill of the program loses no more.
 const PERIOD: Duration = Duration::from_millis(50);
 
-/// Rows of a recording that stay in memory until the next one begins [-], for a disk that fails: 20 minutes of two
+/// Rows of a recording that stay in memory until the next one begins [-], in case the disk fails: 20 minutes of two
 /// tools at 200 Hz, 70 MB.
 pub const MOST_ROWS_IN_MEMORY: usize = 480_000;
 
-/// A recording whose rows can no longer be written. Those that were made stay in memory, up to
-/// [`MOST_ROWS_IN_MEMORY`], and further ones join them.
+/// A recording whose rows can no longer be written. The rows so far stay in memory, up to [`MOST_ROWS_IN_MEMORY`], and
+/// further ones join them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unwritten {
     /// Why, in a sentence.
@@ -26,56 +26,56 @@ pub struct Unwritten {
     pub is_whole: bool,
 }
 
-/// The thread that records: it reads every row of the model, writes those of a session and hands all of them on, so
-/// that neither a disk nor a window that sleeps loses one.
+/// The recorder thread: it reads every row of the model, writes those of a session and passes all of them on, so that
+/// neither a slow disk nor a sleeping window loses one.
 pub(super) struct SessionRecorder {
     requests: Sender<Request>,
     unwritten: Arc<Mutex<Option<Unwritten>>>,
     thread: Option<JoinHandle<()>>,
 }
 
-/// What the thread is asked.
+/// A request to the recorder thread.
 enum Request {
-    /// Records from the next new beginning on.
+    /// Records from the next restart on.
     Record(Box<SessionFolderWriter>),
-    /// Writes all rows from the beginning elsewhere, and goes on there.
+    /// Writes all rows from the start of the recording to another folder, and continues there.
     Elsewhere(Box<SessionFolderWriter>, SyncSender<Result<(), Error>>),
-    /// Ends the recording, and replies how that went.
+    /// Ends the recording, and replies with the result.
     End(SyncSender<Result<(), Error>>),
 }
 
-/// What the thread works with.
+/// State of the recorder thread.
 struct Recording {
     from: log::Reader<SessionRow>,
     to: log::Writer<SessionRow>,
     writer: Option<SessionFolderWriter>,
     stage: Stage,
     in_memory: Vec<SessionRow>,
-    /// Of these rows.
+    /// Largest number of rows in memory.
     most: usize,
-    /// A row of a new beginning that is not copied yet.
+    /// First row after a restart, not yet copied.
     beginning: Option<SessionRow>,
     /// Why rows can no longer be written.
     failed: Option<String>,
     unwritten: Arc<Mutex<Option<Unwritten>>>,
-    /// Whose forces are taken off when a row cannot be written.
+    /// The session whose forces go off when a row cannot be written.
     stops: Option<Supervisor>,
 }
 
-/// How far the recording is.
+/// The state of the recording.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Stage {
-    /// The session's first row has not come yet.
+    /// The session's first row has not arrived yet.
     Awaited,
     /// Rows are recorded.
     Begun,
-    /// There is none, or it has ended.
+    /// No recording, or it has ended.
     Ended,
 }
 
 impl SessionRecorder {
-    /// Starts; none when there is no thread. The other end of the rows is given back. `stops` is the session whose forces
-    /// are taken off when a row cannot be written, if it displays any.
+    /// Starts the thread; none if the system provides none. Also returns the other end of the rows. `stops` is the
+    /// session whose forces go off when a row cannot be written, if it displays any.
     pub(super) fn start(
         from: log::Reader<SessionRow>,
         stops: Option<Supervisor>,
@@ -83,7 +83,7 @@ impl SessionRecorder {
         Self::with_memory(from, MOST_ROWS_IN_MEMORY, stops)
     }
 
-    /// With another number of rows in memory.
+    /// With another limit of rows in memory.
     fn with_memory(
         from: log::Reader<SessionRow>,
         most: usize,
@@ -114,9 +114,9 @@ impl SessionRecorder {
         Some((recorder, rows))
     }
 
-    /// Records from the next new beginning on.
+    /// Records from the next restart on.
     pub(super) fn record(&self, writer: SessionFolderWriter) {
-        // A thread that is gone panicked, which the end of the recording tells.
+        // A missing thread has panicked; the end of the recording reports that.
         let _ = self.requests.send(Request::Record(Box::new(writer)));
     }
 
@@ -126,12 +126,12 @@ impl SessionRecorder {
         unwritten.unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// Writes the recording elsewhere, from its beginning; if it goes on, there.
+    /// Writes the recording from its start to another folder, and continues there if it still runs.
     pub(super) fn record_elsewhere(&self, writer: SessionFolderWriter) -> Result<(), Error> {
         self.ask(|reply| Request::Elsewhere(Box::new(writer), reply))
     }
 
-    /// Ends the recording; what was recorded is on the disk, or still in memory.
+    /// Ends the recording; its rows are on the disk, or still in memory.
     pub(super) fn end(&self) -> Result<(), Error> {
         self.ask(Request::End)
     }
@@ -154,7 +154,7 @@ fn failure(cause: impl Into<String>) -> Error {
 }
 
 impl Drop for SessionRecorder {
-    /// What was played is written.
+    /// Writes all pending rows.
     fn drop(&mut self) {
         let (requests, _) = channel();
         drop(std::mem::replace(&mut self.requests, requests));
@@ -167,7 +167,7 @@ impl Drop for SessionRecorder {
 impl Recording {
     fn run(mut self, requested: &Receiver<Request>) {
         loop {
-            // A beginning belongs to a request that was made before it, which may have come while rows were copied.
+            // A restart belongs to a request from before it, which may have arrived while rows were copied.
             let request = match self.beginning {
                 Some(_) => requested.recv_timeout(Duration::ZERO),
                 None => requested.recv_timeout(PERIOD),
@@ -183,7 +183,7 @@ impl Recording {
                 Ok(Request::Elsewhere(writer, reply)) => {
                     self.copy();
                     let written = self.write_elsewhere(*writer);
-                    // Before the reply: who asked looks next. It may also have gone.
+                    // Before the reply: the requester reads this next. It may also have gone.
                     self.show_failure();
                     let _ = reply.send(written);
                 }
@@ -212,7 +212,7 @@ impl Recording {
         self.flush();
     }
 
-    /// Copies the rows before the next new beginning.
+    /// Copies the rows before the next restart.
     fn copy_to_beginning(&mut self) {
         while self.beginning.is_none()
             && let Some(row) = self.from.next_value()
@@ -236,7 +236,7 @@ impl Recording {
             self.stage = Stage::Begun;
         }
         if self.stage == Stage::Begun {
-            // One more than can be kept: so it shows that they are not all.
+            // One more than the limit, as a sign that rows are missing.
             if self.in_memory.len() <= self.most {
                 self.in_memory.push(row);
             }
@@ -255,7 +255,7 @@ impl Recording {
         }
     }
 
-    /// After a failure nothing more is written: a row would be missing in between.
+    /// After a failure nothing more is written: otherwise a row in between would be missing.
     fn fail_on(&mut self, written: Option<Result<(), palpate_files::Error>>) {
         if let Some(Err(error)) = written {
             self.failed = Some(error.to_string());
@@ -271,7 +271,7 @@ impl Recording {
         self.in_memory.len() <= self.most
     }
 
-    /// Tells who looks at the session.
+    /// Publishes the failure, if any, to the viewers of the session.
     fn show_failure(&self) {
         let unwritten = self.failed.clone().map(|cause| Unwritten {
             cause,
@@ -283,7 +283,7 @@ impl Recording {
             .unwrap_or_else(PoisonError::into_inner) = unwritten;
     }
 
-    /// All rows from the beginning, as far as they are in memory. Those that are not all stay without an end mark.
+    /// All rows from the start, as far as they are in memory. An incomplete session gets no end mark.
     fn write_elsewhere(&mut self, mut writer: SessionFolderWriter) -> Result<(), Error> {
         let most = self.most;
         for row in self.in_memory.iter().take(most) {

@@ -8,20 +8,20 @@ use super::PlacedDevice;
 use super::placement::placement_of;
 use crate::{Error, Simulation, Tool};
 
-/// What the tools of a scene are moved by, each in the scene's order.
+/// The devices of a scene's tools, each in the scene's order.
 pub struct SceneDevices {
-    /// The devices; none for a tool that nothing moves.
+    /// The devices; none for a tool without one.
     pub devices: Vec<Option<PlacedDevice>>,
-    /// The hands of the tools that a mouse moves.
+    /// The pointer hands of the tools that a mouse moves.
     pub pointers: Vec<Option<PointerHand>>,
 }
 
-/// How deep a scripted hand goes without a motion, and how high [m].
+/// Depth and height of a scripted hand without a motion [m].
 const SCRIPTED_DEPTH: f64 = 4e-3;
-/// How often [Hz].
+/// Its frequency [Hz].
 const SCRIPTED_RATE: f64 = 0.5;
 
-/// What drives a device of a scene; none of what needs no driver.
+/// The driver of a scene's device; none for a device without a driver.
 fn driver(device: DeviceKind) -> Option<Kind> {
     match device {
         DeviceKind::Haply => Some(Kind::Haply),
@@ -51,11 +51,11 @@ fn real_devices(scene: &Scene, places: &Places) -> Result<Vec<Option<Box<dyn Dev
 
 impl SceneDevices {
     /// Opens the devices that `scene` names for its tools, looking for real ones at `places`: the first tool with a
-    /// kind of device has the first of that kind, the next the next. A virtual device without a motion palpates the
-    /// organ where it is highest.
+    /// kind of device gets the first device of that kind, the next the next. A virtual device without a motion palpates
+    /// the organ at its highest point.
     ///
     /// # Errors
-    /// When one of them is not there.
+    /// When a device is missing.
     pub fn open(scene: &Scene, simulation: &Simulation, places: &Places) -> Result<Self, Error> {
         let (mut devices, mut pointers) = (Vec::new(), Vec::new());
         let mut real = real_devices(scene, places)?.into_iter();
@@ -81,24 +81,23 @@ impl SceneDevices {
         Ok(Self { devices, pointers })
     }
 
-    /// Whether the real devices that `scene` names are there; none stays open.
+    /// Checks that the real devices that `scene` names are connected; closes them again.
     ///
     /// # Errors
-    /// When one is not.
+    /// When one is missing.
     pub fn check(scene: &Scene, places: &Places) -> Result<(), Error> {
         real_devices(scene, places).map(|_| ())
     }
 
-    /// Whether a tool of `scene` is moved by a real device.
+    /// Whether a real device moves a tool of `scene`.
     pub fn any(scene: &Scene) -> bool {
         scene.tools.iter().any(|tool| tool.device.is_haptic())
     }
 }
 
 impl PlacedDevice {
-    /// A scripted hand that moves `tool` on the organ where it is highest: from the surface to 4 mm below
-    /// it, out to 4 mm above it, and so on, twice in four seconds. Through a trocar the hand goes straight, and
-    /// the tip nearly.
+    /// A scripted hand that moves `tool` at the highest point of the organ: from the surface to 4 mm below it, out to 4
+    /// mm above it, and so on, twice in four seconds. With a trocar the hand moves straight, and the tip nearly so.
     pub fn palpating(simulation: &Simulation, tool: &Tool) -> Self {
         let surface = simulation.surface();
         let vertices = surface.mesh().vertices().iter().enumerate();

@@ -7,29 +7,29 @@ use crate::cutting::Cuts;
 use crate::state::{SimulationState, ToolState};
 use crate::{LimitCounts, OrganField, Simulation, Tool};
 
-/// What there is to see after a step of the model.
+/// A snapshot for display, after a step of the model.
 #[derive(Debug, Clone)]
 pub struct Snapshot {
     /// The time of the step [s].
     pub time: f64,
-    /// The vertices of the deformed organ [m], in the order of the surface's.
+    /// The vertices of the deformed organ [m], in the order of its surface.
     pub vertices: Vec<[f32; 3]>,
-    /// What takes the place of these where the organ is cut.
+    /// The cut mesh that replaces these where the organ is cut.
     pub opened: Option<OpenedSnapshot>,
-    /// Whether everything stands still.
+    /// Whether the model is paused.
     pub paused: bool,
-    /// What moved them, if the whole organ answers.
+    /// The displacement field of the organ-scale model, if there is one.
     pub whole: Option<OrganField>,
     /// Per tool, in the scene's order.
     pub tools: Vec<ToolSnapshot>,
-    /// What the model measured of itself.
+    /// Measurements of the model.
     pub report: ModelReport,
 }
 
 /// A tool after a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToolSnapshot {
-    /// Where its tip is; none while nobody holds it.
+    /// Position of its tip; none while no hand holds it.
     pub pose: Option<Pose>,
     /// The quaternion (qx, qy, qz, qw) that maps tool to scene [-]: the shaft runs along the tool's +z.
     pub orientation: [f64; 4],
@@ -39,13 +39,13 @@ pub struct ToolSnapshot {
     pub torque: Vec3,
     /// The force that its device gets [N]: scaled, extrapolated, limited; in the scene's frame.
     pub felt: Vec3,
-    /// Why its device gets no force, if that has a reason.
+    /// Why its device gets no force, if there is a reason.
     pub fault: Option<Fault>,
-    /// What it touches.
+    /// Its contact.
     pub contact: Option<ContactSnapshot>,
-    /// Whether its edge is in the tissue.
+    /// Whether its blade is in the tissue.
     pub cuts: bool,
-    /// With how much each of its jaws presses on the tissue that it holds [N]; zero without.
+    /// Force of each of its jaws on the tissue that it holds [N]; zero without.
     pub grip_force: f64,
     /// Whether its jaws hold tissue.
     pub holds: bool,
@@ -53,12 +53,12 @@ pub struct ToolSnapshot {
     pub limits: LimitCounts,
 }
 
-/// What a hand feels of its tool.
+/// The rendered force of a tool.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct RenderedForce {
     /// The force that its device gets [N], in the scene's frame.
     pub(super) force: Vec3,
-    /// Why it gets none, if that has a reason.
+    /// Why its device gets none, if there is a reason.
     pub(super) fault: Option<Fault>,
 }
 
@@ -72,21 +72,21 @@ impl RenderedForce {
 /// The organ's triangles with their openings.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct OpenedSnapshot {
-    /// Another number whenever the triangles are others; with zero nothing is cut, and the rest is empty.
+    /// Changes whenever the triangles change; with zero nothing is cut, and the rest is empty.
     pub version: u64,
-    /// Where the vertices are when the organ is at rest and its openings are closed [m].
+    /// Positions of the vertices when the organ is at rest and its openings are closed [m].
     pub rest: Vec<[f32; 3]>,
-    /// Where they are now [m].
+    /// Current positions of the vertices [m].
     pub places: Vec<[f32; 3]>,
     /// The vertices of each triangle, counter-clockwise from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// The edges at which it is open: two vertices, in the order of their triangle.
+    /// The edges of openings: two vertices, in the order of their triangle.
     pub rims: Vec<[u32; 2]>,
     /// The path of the cuts over the surface at rest, where the organ has layers.
     pub parts: Vec<OpenedPart>,
-    /// Vertices below which more is known than the surface.
+    /// Vertices with known points below the surface.
     pub around: Vec<u32>,
-    /// Where what lies below these is [m]: for each depth that a cut can have, one after the other.
+    /// Current positions of the points below these [m]: for each depth that a cut can have, in succession.
     pub below: Vec<[f32; 3]>,
 }
 
@@ -95,9 +95,9 @@ pub struct OpenedSnapshot {
 pub struct OpenedPart {
     /// Its ends on the surface at rest [m]; the same for a puncture.
     pub ends: [[f32; 3]; 2],
-    /// Whether a cut begins with it.
+    /// Whether it starts a cut.
     pub begins: bool,
-    /// How many layers are open in it, from outside.
+    /// Number of open layers in it, from outside.
     pub layers: usize,
 }
 
@@ -108,12 +108,12 @@ pub struct ContactSnapshot {
     pub point: Vec3,
     /// Unit outward normal of the rest surface there [-].
     pub normal: Vec3,
-    /// How far the tip is below the rest surface [m].
+    /// Depth of the tip below the rest surface [m].
     pub depth: f64,
 }
 
 impl Snapshot {
-    /// Before anything was touched.
+    /// The untouched organ.
     pub fn new(simulation: &Simulation) -> Self {
         let vertices = simulation.surface().mesh().vertices();
         let nobody = ToolSnapshot {
@@ -143,14 +143,14 @@ impl Snapshot {
         }
     }
 
-    /// Shows the `state` of a session that is played again, at `time` [s]; nobody feels it.
+    /// Shows the `state` of a replayed session, at `time` [s], without forces on a hand.
     pub fn show(&mut self, time: f64, state: &SimulationState) {
         let nobody = [RenderedForce::NOTHING; 2];
         self.fill(time, state, &nobody);
     }
 
-    /// Takes over `state`; nothing is allocated but for triangles that a cut has added.
-    pub(super) fn fill(&mut self, time: f64, state: &SimulationState, felt: &[RenderedForce]) {
+    /// Copies `state`; allocates only for triangles that a cut has added.
+    pub(super) fn fill(&mut self, time: f64, state: &SimulationState, rendered: &[RenderedForce]) {
         self.time = time;
         for (seen, vertex) in self.vertices.iter_mut().zip(state.deformed.vertices()) {
             *seen = single(vertex);
@@ -161,14 +161,14 @@ impl Snapshot {
         if let (Some(seen), Some(whole)) = (&mut self.whole, &state.whole) {
             seen.copy(whole);
         }
-        for ((seen, tool), felt) in self.tools.iter_mut().zip(&state.tools).zip(felt) {
-            *seen = ToolSnapshot::new(tool, *felt);
+        for ((seen, tool), rendered) in self.tools.iter_mut().zip(&state.tools).zip(rendered) {
+            *seen = ToolSnapshot::new(tool, *rendered);
         }
     }
 }
 
 impl Snapshot {
-    /// Plain sentences on the bounds that acted so far, for the `tools` of the simulation.
+    /// Sentences about the bounds that acted so far, for the `tools` of the simulation.
     pub fn warnings(&self, tools: &[Tool]) -> Vec<String> {
         let tools = tools.iter().zip(&self.tools);
         tools
@@ -178,7 +178,7 @@ impl Snapshot {
 }
 
 impl OpenedSnapshot {
-    /// Takes over the `cuts` of `state`.
+    /// Copies the `cuts` of `state`.
     pub fn fill(&mut self, cuts: &Cuts, state: &SimulationState) {
         if !cuts.are_there() {
             return self.clear();
@@ -234,14 +234,14 @@ impl OpenedSnapshot {
 }
 
 impl ToolSnapshot {
-    fn new(tool: &ToolState, felt: RenderedForce) -> Self {
+    fn new(tool: &ToolState, rendered: RenderedForce) -> Self {
         Self {
             pose: tool.pose,
             orientation: tool.row.orientation,
             force: tool.force,
             torque: tool.torque,
-            felt: felt.force,
-            fault: felt.fault,
+            felt: rendered.force,
+            fault: rendered.fault,
             contact: tool.contact.map(|contact| ContactSnapshot {
                 point: contact.point(),
                 normal: contact.normal(),

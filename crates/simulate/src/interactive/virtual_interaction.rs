@@ -10,8 +10,8 @@ use super::model_loop::{Channels, ModelLoop};
 use super::{ModelCommand, Quality, Snapshot};
 use crate::{Error, Simulation};
 
-/// An interaction on a virtual clock, in one thread: the same hands give the same bytes. The model's answer
-/// arrives one period after the place that it was made for, which is the latest that a model in time is.
+/// An interaction on a virtual clock, in one thread: the same motions give the same bytes. The model's answer arrives
+/// one period after its input, the largest delay of a model that keeps its deadline.
 pub struct VirtualInteraction {
     model: ModelLoop,
     model_period: f64,
@@ -28,7 +28,7 @@ pub struct VirtualInteraction {
 }
 
 impl VirtualInteraction {
-    /// Nothing has happened yet; one station, or none, per tool.
+    /// An interaction before its first tick; one station, or none, per tool.
     ///
     /// # Errors
     /// When the stations are not those of the tools, or a setting is out of range.
@@ -41,30 +41,30 @@ impl VirtualInteraction {
         let parts = device_endpoints(&simulation, devices, settings, &supervisor)?;
         let (rows, read_rows) = log::ring(settings.log.max(1) * parts.len());
         let (give, commands) = commands();
-        let PreparedModel { model, seen } = PreparedModel::new(simulation.clone());
+        let PreparedModel { model, viewer } = PreparedModel::new(simulation.clone());
         let (replacing, taking_over) = take_over(&simulation, &supervisor);
         let channels = Channels {
             commands,
             rows,
             taking_over,
         };
-        let (mut servos, mut lines, mut watches) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut servos, mut endpoints, mut watches) = (Vec::new(), Vec::new(), Vec::new());
         for parts in parts {
-            let (servo, line, watch) = parts.map_or((None, None, None), |parts| {
-                (Some(parts.servo), Some(parts.line), Some(parts.watch))
+            let (servo, endpoint, watch) = parts.map_or((None, None, None), |parts| {
+                (Some(parts.servo), Some(parts.endpoint), Some(parts.watch))
             });
             servos.push(servo);
-            lines.push(line);
+            endpoints.push(endpoint);
             watches.push(watch);
         }
         Ok(Self {
             model_period: simulation.step(),
-            model: ModelLoop::new(model, lines, channels),
+            model: ModelLoop::new(model, endpoints, channels),
             servos,
             watches,
             rows: read_rows,
             commands: give,
-            snapshots: seen,
+            snapshots: viewer,
             replacing,
             supervisor,
             period: settings.period,
@@ -102,19 +102,19 @@ impl VirtualInteraction {
         Ok(())
     }
 
-    /// The latest that there is to see.
+    /// The latest snapshot.
     pub fn snapshot(&mut self) -> &Snapshot {
         self.snapshots.latest()
     }
 
-    /// Sends a command to the model, which processes it before its next step; in a pause no device has a force from its next
-    /// tick on.
+    /// Sends a command to the model, which processes it before its next step; in a pause every device is without force
+    /// from its next tick on.
     pub fn send(&mut self, command: ModelCommand) {
         command.supervise(&self.supervisor);
         self.commands.add(command);
     }
 
-    /// Goes on with another model, the organ at rest, while the loops run.
+    /// Continues with another model, the organ at rest, while the loops run.
     ///
     /// # Errors
     /// When the loops do not serve the other model.
@@ -123,23 +123,23 @@ impl VirtualInteraction {
         Ok(())
     }
 
-    /// What arms the forces of all devices and takes them off.
+    /// Arms the forces of all devices and takes them off.
     pub fn supervisor(&self) -> &Supervisor {
         &self.supervisor
     }
 
-    /// The rows of the session that nobody has read yet.
+    /// The unread rows of the session.
     pub fn rows(&mut self) -> impl Iterator<Item = SessionRow> + '_ {
         self.rows.drain()
     }
 
-    /// The samples of a tool's servo loop that nobody has read yet.
+    /// The unread samples of a tool's servo loop.
     pub fn samples(&mut self, tool: usize) -> impl Iterator<Item = Sample> + '_ {
         let watch = self.watches.get_mut(tool).and_then(Option::as_mut);
         watch.into_iter().flat_map(|watch| watch.samples.drain())
     }
 
-    /// How good the touch was so far.
+    /// The quality of the touch so far.
     pub fn quality(&self) -> Quality {
         let report = |servo: &Option<ServoLoop>| servo.as_ref().map(ServoLoop::report);
         Quality {

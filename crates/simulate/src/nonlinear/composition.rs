@@ -1,4 +1,4 @@
-//! What an organ and the bodies that bend beside it are made of, whatever becomes of their elements.
+//! The composition of an organ and the bodies that bend around it, independent of their current elements.
 
 use std::ops::ControlFlow;
 
@@ -12,7 +12,7 @@ use palpate_mechanics::nonlinear::{
     EmbeddedPoints, NonlinearModel, NonlinearState, TouchingBoundary,
 };
 
-use super::Beside;
+use super::ContactBodies;
 use super::anchor::Anchor;
 use super::filling::{grading, tetrahedra};
 use super::local_compliance::WallField;
@@ -24,44 +24,44 @@ use crate::neighbour::Neighbour;
 use crate::regions::Regions;
 use crate::{Error, held_region};
 
-/// About so many nodes, if the scene does not say; more with cavities, whose walls are of few elements.
+/// Approximate number of nodes, if the scene does not state it; more with cavities, whose walls have few elements.
 const NODES: usize = 1_500;
 const NODES_HOLLOW: usize = 2_500;
 
-/// Iterations in a step: below, and from this Poisson's ratio [-] on more (`docs/theory/large_deformation.md`).
+/// Iterations in a step: below this Poisson's ratio [-], and from it on (`docs/theory/large_deformation.md`).
 const ITERATIONS: (usize, usize) = (4, 6);
 const NEARLY_INCOMPRESSIBLE: f64 = 0.46;
 
-/// What an organ is made of.
+/// The composition of an organ.
 #[derive(Debug, Clone)]
 pub(super) struct Composition {
-    /// The organ, and all that bends as it is seen.
+    /// The display mesh of the organ and all bodies that bend.
     surface: Surface,
     pub(super) shown: Surface,
     pub(super) tree: AabbTree,
-    /// The walls under what is shown.
+    /// The walls under the displayed surface.
     pub(super) walls: WallField,
-    /// Where the organ is held.
+    /// The fixed region of the organ.
     anchor: Region,
     soft: Vec<SoftBody>,
     pub(super) neighbours: Vec<Neighbour>,
-    /// The organ, then the neighbours that bend: as tools meet them, and their elements where nothing is cut.
+    /// The organ, then the neighbours that bend: for tools, and their elements without cuts.
     pub(super) pieces: Vec<Piece>,
     pub(super) filled: Vec<Filled>,
     /// Relaxation of the tissues of all of them.
     series: Vec<PronySeries>,
     /// [m/s²]
     gravity: Option<Vec3>,
-    /// Coulomb's coefficient of the organ on itself, if it stays out of itself [-].
+    /// Coulomb friction coefficient of the organ on itself, if it has self-contact [-].
     on_itself: Option<f64>,
-    /// About how many nodes all of them have.
+    /// Approximate number of nodes of all of them.
     pub(super) nodes: usize,
     pub(super) iterations: usize,
-    /// Of its bounds, across [m]: nothing of it goes farther.
+    /// Diagonal of its bounds [m]: no part of it moves farther.
     pub(super) size: f64,
 }
 
-/// The elements of a piece. Those in a cavity are of a region of the mesh, from 1, and of no tissue.
+/// The elements of a piece. Those in a cavity have a region of the mesh, from 1, and no tissue.
 #[derive(Debug, Clone)]
 pub(super) struct Filled {
     pub(super) mesh: TetrahedronMesh,
@@ -69,21 +69,21 @@ pub(super) struct Filled {
 }
 
 impl Filled {
-    /// About so many `nodes` within `surface`, and shorter edges by the factor `finer` [-].
+    /// A mesh of about `nodes` nodes within `surface`, and shorter edges by the factor `finer` [-].
     fn new(
         surface: &Surface,
         nodes: usize,
         regions: &Regions,
         finer: impl Fn(&Vec3) -> f64,
-        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+        on_progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
-        let (mesh, warnings) = tetrahedra(surface, nodes, regions, finer, progress)?;
+        let (mesh, warnings) = tetrahedra(surface, nodes, regions, finer, on_progress)?;
         let mut elements = regions.of_elements(&mesh);
         elements.warnings.extend(warnings);
         Ok(Self { mesh, elements })
     }
 
-    /// Its mesh without so many cavities.
+    /// Its mesh without the cavities from 1 to `cavities`.
     pub(super) fn hollow(&self, cavities: usize) -> Result<HollowMesh, TetrahedronError> {
         let numbers: Vec<u32> = (1..=cavities as u32).collect();
         self.mesh.without(&numbers)
@@ -91,22 +91,22 @@ impl Filled {
 }
 
 impl Composition {
-    /// That of the organ of `scene` with this surface and its tissues, which is seen as `shown` together with the neighbours
-    /// that bend; with warnings.
+    /// The composition of the organ of `scene` with this surface and its tissues, displayed as `shown` together with
+    /// the neighbours that bend; with warnings.
     pub(super) fn new(
         scene: &Scene,
         shown: &Surface,
         tree: &AabbTree,
         surface: &Surface,
         regions: Regions,
-        beside: Beside<'_>,
-        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+        contact_bodies: ContactBodies<'_>,
+        on_progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<(Self, Vec<String>), Error> {
-        let Beside {
+        let ContactBodies {
             tools,
             soft,
             neighbours,
-        } = beside;
+        } = contact_bodies;
         let nodes = scene
             .model
             .nodes
@@ -115,13 +115,13 @@ impl Composition {
                 false => NODES_HOLLOW,
             });
         let bodies = 1.0 + soft.len() as f64;
-        let mut of_organ = |part| progress(part / bodies);
+        let mut of_organ = |part| on_progress(part / bodies);
         let finer = grading(surface, nodes);
         let organ = Filled::new(surface, nodes, &regions, finer, &mut of_organ)?;
         let mut filled = vec![organ];
         let mut series = regions.series();
         for (number, body) in soft.iter().enumerate() {
-            let mut of_body = |part| progress((1.0 + number as f64 + part) / bodies);
+            let mut of_body = |part| on_progress((1.0 + number as f64 + part) / bodies);
             let Filled { mesh, elements } = Filled::new(
                 &body.surface,
                 body.nodes,
@@ -188,7 +188,7 @@ impl Composition {
         std::iter::once(&self.surface).chain(soft)
     }
 
-    /// Where the pieces are held.
+    /// The fixed regions of the pieces.
     pub(super) fn anchors(&self) -> Vec<Anchor<'_>> {
         let organ = Anchor::new(&self.surface, |place| self.anchor.holds((*place).into()));
         let soft = self.soft.iter();
@@ -196,7 +196,8 @@ impl Composition {
         std::iter::once(organ).chain(soft).collect()
     }
 
-    /// The model of its pieces with these elements, where fluids are as much as in the `whole` body if these are parts of it.
+    /// The model of its pieces with these elements; the amount of fluids is that in the `whole` body if these are parts
+    /// of it.
     pub(super) fn model(
         &self,
         merged: &Merged,
@@ -229,7 +230,7 @@ impl Composition {
         })
     }
 
-    /// The vertices of the shown surface, each in the elements of its piece, `aside` of cuts.
+    /// The vertices of the displayed surface, each embedded in the elements of its piece, `aside` of cuts.
     pub(super) fn embed(
         &self,
         model: &NonlinearModel,
@@ -247,7 +248,8 @@ impl Composition {
         Ok(embedded)
     }
 
-    /// The shown surface and its boxes as all of it hangs under its weight and what presses in its cavities, if anything does.
+    /// The displayed surface and its boxes as all of it hangs under its weight and the pressures in its cavities, if
+    /// there are any.
     pub(super) fn hangs(
         &self,
         model: &NonlinearModel,
@@ -266,7 +268,8 @@ impl Composition {
         Some((mesh, tree))
     }
 
-    /// How the pieces touch one another, and the organ itself if the scene says so; none where nothing does.
+    /// The contact of the pieces with one another, and of the organ with itself if the scene says so; none without any
+    /// contact.
     pub(super) fn touching(
         &self,
         model: &NonlinearModel,

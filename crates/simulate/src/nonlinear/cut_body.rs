@@ -1,11 +1,11 @@
-//! The organ follows its cuts: another thread makes the elements of the organ that is cut, and the body goes over to them.
+//! Cuts in the elements: another thread makes the elements of the cut organ, and the body switches to them.
 //!
 //! ```text
 //! cuts ──lifted blade──▶ CutPaths ──▶ thread: slits, factors at rest ──▶ Ready ──after the delay──▶ body, workspace
 //! ```
 //!
-//! The body goes over a stated time after the blade was lifted, whatever a computer needs for it: a motion has the same forces
-//! on all of them. A step waits for the other thread if that is not ready by then.
+//! The body switches a stated time after the blade was lifted, whatever time the computer needs: a motion has the same
+//! forces on all computers. A step waits for the other thread if that is not ready by then.
 
 use std::sync::Arc;
 use std::sync::mpsc::TryRecvError;
@@ -22,37 +22,38 @@ use crate::grip::Held;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, ToolState};
 
-/// From a blade that is lifted to an organ that yields more, for one of a thousand nodes [s]. The time to make its factors grows
-/// with the power of their number.
+/// Delay from lifting a blade to the change of the forces, for an organ of a thousand nodes [s]. The time for its
+/// factorization grows with a power of their number.
 const DELAY: f64 = 0.4;
 const POWER: f64 = 1.5;
 
-/// How often a step that waits for the other thread looks whether it is ready.
+/// Polling interval of a step that waits for the other thread.
 const LOOKS_EVERY: Duration = Duration::from_micros(200);
 
-/// Cuts that the organ does not follow yet: so many parts of them.
+/// Cuts that are not in the elements yet: the number of their parts.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pending {
     key: u64,
     parts: usize,
-    /// Until it does [s].
+    /// Remaining delay [s].
     left: f64,
 }
 
-/// Which cuts a body has, and which it is to have.
+/// The cuts in a body's elements, and the pending ones.
 #[derive(Debug, Clone, Default)]
 pub(super) struct FollowedCuts {
-    /// Those that it has: zero without any.
+    /// Key of its cuts: zero without any.
     key: u64,
     pending: Option<Pending>,
-    /// Of the cuts when they were looked at last.
+    /// Version of the cuts at the last check.
     version: u64,
-    /// Vertices of the openings, and how far each has moved [m].
+    /// Vertices of the openings, and their displacements [m].
     rims: Option<Arc<Rims>>,
     rims_moved: Vec<Vec3>,
-    /// Where what lies below the surface around the cuts is [m].
+    /// Positions of the points below the surface around the cuts [m].
     below: Vec<Vec3>,
-    /// The body without cuts, while it has some, and with those that it had before a reset: neither allocates or frees.
+    /// The body without cuts, while it has some, and the body with the cuts before a reset: so neither allocates nor
+    /// frees.
     whole: Option<OfElements>,
     left: Option<Left>,
 }
@@ -65,7 +66,7 @@ impl FollowedCuts {
 }
 
 impl Body {
-    /// Forgets the cuts of `organ`, which is whole again.
+    /// Removes the cuts of `organ`, which is intact again.
     pub(super) fn forget_cuts(&mut self, organ: &Arc<NonlinearOrgan>) {
         self.cuts.key = 0;
         self.cuts.pending = None;
@@ -78,14 +79,15 @@ impl Body {
         }
     }
 
-    /// The vertices of the openings that the elements move, and how far [m].
+    /// The vertices of the openings that the elements move, and their displacements [m].
     pub(crate) fn rims(&self) -> impl Iterator<Item = (u32, Vec3)> {
         let own = self.cuts.rims.iter();
         let own = own.flat_map(|rims| rims.numbers.iter().zip(&self.cuts.rims_moved));
         own.map(|(number, by)| (*number, *by))
     }
 
-    /// The vertices around the cuts, and where what lies below them is [m]: at each depth that a cut can have, one after the other.
+    /// The vertices around the cuts, and the positions of the points below them [m]: at each depth that a cut can have,
+    /// one after the other.
     pub(crate) fn below(&self) -> (&[u32], &[Vec3]) {
         match &self.cuts.rims {
             Some(rims) => (&rims.below.numbers, &self.cuts.below),
@@ -93,7 +95,7 @@ impl Body {
         }
     }
 
-    /// Moves the vertices of the openings, and what lies below, with the elements.
+    /// Moves the vertices of the openings, and the points below, with the elements.
     pub(super) fn move_rims(&mut self) {
         if let Some(rims) = &self.cuts.rims {
             let displacements = rims.embedded.displacements(&self.state);
@@ -110,7 +112,7 @@ impl Body {
 }
 
 impl NonlinearWorkspace {
-    /// Takes the organ over to its cuts when it is time.
+    /// Switches the organ to its pending cuts when they are due.
     pub(crate) fn follow_cuts(
         &mut self,
         simulation: &Simulation,
@@ -159,7 +161,7 @@ impl NonlinearWorkspace {
         }
     }
 
-    /// Begins to make the organ with these cuts, if its thread is free.
+    /// Requests the organ with these cuts, if its thread is free.
     fn begin(&mut self, simulation: &Simulation, cut: &Pending, body: &Body, cuts: &Cuts) {
         let (Some(thread), Some(model), Some(whole)) =
             (&mut self.thread, &simulation.cutting, &simulation.nonlinear)
@@ -181,7 +183,7 @@ impl NonlinearWorkspace {
         job.cuts = cuts.count();
         job.rims.clear();
         job.rims.extend(cuts.openings(simulation));
-        // A thread that has ended gives nothing back: the organ stays as it is.
+        // A thread that has ended returns nothing: the organ stays unchanged.
         let _ = thread.jobs.send(job);
     }
 
@@ -212,7 +214,7 @@ impl NonlinearWorkspace {
         }
     }
 
-    /// Becomes scratch for the organ that a body has gone over to.
+    /// Switches to the scratch of the body's new organ.
     fn replace(&mut self, simulation: &Simulation, body: &Body, ready: &mut Ready) {
         let before = std::mem::replace(&mut self.of, Arc::clone(&body.organ));
         let Some(workspace) = ready.workspace.take() else {
@@ -227,7 +229,7 @@ impl NonlinearWorkspace {
         }
     }
 
-    /// Becomes scratch for the organ as `body` has it.
+    /// Switches to scratch for the current organ of `body`.
     fn fit(&mut self, simulation: &Simulation, body: &Body) {
         if Arc::ptr_eq(&self.of, &body.organ) {
             return;
@@ -243,7 +245,7 @@ impl NonlinearWorkspace {
 }
 
 impl Body {
-    /// Finds whether the organ has other cuts than its elements.
+    /// Checks whether the organ has cuts that are not in its elements.
     fn look_at(&mut self, cuts: &Cuts) {
         let own = &mut self.cuts;
         if own
@@ -253,7 +255,7 @@ impl Body {
         {
             own.rims = None;
         }
-        // A cut that is being made counts when its blade has been lifted, and after those before it.
+        // A cut in progress counts once its blade has been lifted, and after those before it.
         if own.version == cuts.version() || cuts.is_being_made() || own.pending.is_some() {
             return;
         }
@@ -267,7 +269,7 @@ impl Body {
 }
 
 impl Ready {
-    /// Takes a body over to the organ that is ready; what it replaced is left in place of that.
+    /// Switches a body to the completed organ; the replaced data stay in its place.
     fn replace(&mut self, simulation: &Simulation, tools: &mut [ToolState], body: &mut Body) {
         let (Some((mut state, mut loads)), Some(workspace)) =
             (self.body.take(), &mut self.workspace)
@@ -291,20 +293,20 @@ impl Ready {
         std::mem::swap(&mut body.cuts.rims_moved, &mut self.rims_moved);
         std::mem::swap(&mut body.cuts.below, &mut self.below);
         for (number, own) in tools.iter_mut().enumerate() {
-            body.hold_on(simulation, number, own);
+            body.keep_holding(simulation, number, own);
         }
     }
 }
 
 impl Body {
-    /// Jaws that hold go on holding the same place, in other elements.
-    fn hold_on(&mut self, simulation: &Simulation, number: usize, own: &mut ToolState) {
+    /// Jaws keep holding the same tissue, in other elements.
+    fn keep_holding(&mut self, simulation: &Simulation, number: usize, own: &mut ToolState) {
         let tool = &simulation.tools[number];
         let (Some(hold), Some(radius)) = (&mut own.grip.hold, jaws_radius(tool)) else {
             return;
         };
         let turned = *hold.turned();
-        let place = hold.seen.place;
+        let place = hold.displayed.place;
         let Held::Area(area) = &mut hold.held else {
             return;
         };

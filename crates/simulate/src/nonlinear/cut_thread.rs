@@ -1,4 +1,4 @@
-//! The thread that makes cut organs while steps go on.
+//! The thread that makes cut organs in the background of the steps.
 
 use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -11,56 +11,59 @@ use super::{NonlinearOrgan, OrganWorkspace};
 use crate::Error;
 use crate::simulation::Simulation;
 
-/// What lies below the surface is known within this distance of a cut [m], or so many times the depth of the deepest one [-].
+/// Points below the surface are known within this distance of a cut [m], or within this many times the depth of the
+/// deepest one [-].
 const AROUND: f64 = 0.03;
 const OF_DEPTH: f64 = 6.0;
 
-/// Room for the points of the cuts: beyond, a step in which a blade is lifted allocates.
-const ROOM: usize = 1024;
+/// Capacity for the points of the cuts: beyond, a step in which a blade is lifted allocates.
+const CAPACITY: usize = 1024;
 
-/// What of a body depends on its elements.
+/// The parts of a body that depend on its elements.
 pub(super) type OfElements = (NonlinearState, Vec<SpreadLoad>);
 
-/// What a reset leaves, until the other thread frees it.
+/// The data that a reset discards, until the other thread frees them.
 pub(super) type Left = (OfElements, Arc<NonlinearOrgan>, Option<Arc<Rims>>);
 
-/// The vertices that openings have added to the shown surface, in the elements.
+/// The vertices that openings have added to the displayed surface, embedded in the elements.
 #[derive(Debug)]
 pub(super) struct Rims {
     pub(super) numbers: Vec<u32>,
     pub(super) embedded: EmbeddedPoints,
     pub(super) below: Below,
-    /// How many cuts there were.
+    /// Number of cuts at that time.
     pub(super) cuts: usize,
 }
 
-/// What lies below the surface around the cuts, in the elements: at each depth that a cut can have, one depth after the other.
+/// The points below the surface around the cuts, embedded in the elements: at each depth that a cut can have, one depth
+/// after the other.
 #[derive(Debug)]
 pub(super) struct Below {
-    /// The vertices that it is below.
+    /// The vertices above these points.
     pub(super) numbers: Vec<u32>,
     pub(super) rest: Vec<Vec3>,
     pub(super) embedded: EmbeddedPoints,
 }
 
-/// An organ that is made while steps go on.
+/// A request for a cut organ, in the background of the steps.
 pub(super) struct Job {
     pub(super) key: u64,
     pub(super) whole: Arc<NonlinearOrgan>,
     pub(super) now: Arc<NonlinearOrgan>,
     pub(super) paths: CutPaths,
-    /// The vertices of the openings: their numbers, where they are at rest [m], and where to they open [-]; and how many cuts there are.
+    /// The vertices of the openings: their numbers, their positions at rest [m], and the directions in which they open
+    /// [-]; and the number of cuts.
     pub(super) rims: Vec<(u32, Vec3, Vec3)>,
     pub(super) cuts: usize,
     /// Depths that a cut can have [m].
     pub(super) depths: Vec<f64>,
     pub(super) tools: usize,
-    /// What came of it, and whether a body has gone over to it.
+    /// The result, and whether a body uses it already.
     pub(super) ready: Option<Result<Ready, Error>>,
     pub(super) is_used: bool,
 }
 
-/// A cut organ, and all that a body needs to go over to it.
+/// A cut organ, with all that a body needs to switch to it.
 pub(super) struct Ready {
     pub(super) organ: Arc<NonlinearOrgan>,
     pub(super) transfer: StateTransfer,
@@ -70,19 +73,19 @@ pub(super) struct Ready {
     pub(super) rims: Option<Arc<Rims>>,
     pub(super) rims_moved: Vec<Vec3>,
     pub(super) below: Vec<Vec3>,
-    /// What resets have left.
+    /// Data of earlier resets, to be freed.
     pub(super) left: Option<Left>,
     pub(super) left_workspace: Option<OrganWorkspace>,
-    /// Length of cuts that stay closed [m].
+    /// Total length of the cuts that stay closed [m].
     pub(super) closed: f64,
 }
 
-/// The thread that makes cut organs. It ends with what holds this.
+/// The thread that makes cut organs. It ends when this is dropped.
 pub(super) struct CutThread {
     pub(super) jobs: SyncSender<Box<Job>>,
-    /// Never locked: a workspace may be shared between threads, and is stepped by one.
+    /// Never contended: a workspace may be shared between threads, but only one steps it.
     done: Mutex<Receiver<Box<Job>>>,
-    /// None while it is on its way.
+    /// None while the thread has it.
     pub(super) job: Option<Box<Job>>,
 }
 
@@ -93,13 +96,13 @@ impl std::fmt::Debug for CutThread {
 }
 
 impl CutThread {
-    /// For an organ with so many tools; none where no thread can be had.
+    /// For an organ with this number of tools; none if the system provides no thread.
     pub(super) fn start(whole: &Arc<NonlinearOrgan>, simulation: &Simulation) -> Option<Self> {
         let (jobs, queue) = sync_channel::<Box<Job>>(1);
         let (results, done) = sync_channel(1);
         let make = move || {
             for mut job in queue {
-                // What it replaced is freed here.
+                // Its replaced data are freed here.
                 job.ready = None;
                 job.ready = Some(job.make());
                 if results.send(job).is_err() {
@@ -116,7 +119,7 @@ impl CutThread {
                 key: 0,
                 whole: Arc::clone(whole),
                 now: Arc::clone(whole),
-                paths: CutPaths::with_room(ROOM),
+                paths: CutPaths::with_capacity(CAPACITY),
                 rims: Vec::with_capacity(simulation.surface.mesh().vertices().len()),
                 cuts: 0,
                 depths: simulation.cut_depths(),
@@ -134,7 +137,7 @@ impl CutThread {
         self.job.as_ref()?.ready.as_ref()?.as_ref().err()
     }
 
-    /// The job that is done, if one is.
+    /// The completed job, if there is one.
     pub(super) fn done(&mut self) -> Result<Box<Job>, TryRecvError> {
         let done = self.done.get_mut();
         done.unwrap_or_else(PoisonError::into_inner).try_recv()
@@ -142,7 +145,7 @@ impl CutThread {
 }
 
 impl Job {
-    /// Whether it made the organ with the cuts of this key for bodies of `now`, which none has gone over to yet.
+    /// Whether it made the organ with the cuts of this key for bodies of `now`, and no body uses it yet.
     pub(super) fn made(&self, key: u64, now: &Arc<NonlinearOrgan>) -> bool {
         let is_done = self.ready.is_some() && !self.is_used;
         is_done && self.key == key && Arc::ptr_eq(&self.now, now)
@@ -186,7 +189,7 @@ impl Job {
 }
 
 impl Job {
-    /// What lies below the surface around the cuts of `organ`.
+    /// The points below the surface around the cuts of `organ`.
     fn below(&self, organ: &NonlinearOrgan) -> Result<Below, Error> {
         let (shown, tree) = (&organ.composition.shown, &organ.composition.tree);
         let deepest = self.depths.iter().copied().fold(0.0, f64::max);
@@ -228,7 +231,7 @@ impl Job {
     }
 }
 
-/// A vertex below which there is more: away from the cut by `aside` are the elements that it goes with [m].
+/// A vertex with points below it: offset away from the cut by `aside`, to select the elements on its side [m].
 struct PointBelow {
     number: u32,
     place: Vec3,

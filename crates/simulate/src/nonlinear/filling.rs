@@ -1,4 +1,4 @@
-//! The tetrahedra of a body: a filling that has all of its walls, made coarser.
+//! The tetrahedra of a body: a mesh with all of its walls, made coarser.
 
 use std::ops::ControlFlow;
 
@@ -11,27 +11,28 @@ use crate::Error;
 use crate::regions::Regions;
 use crate::walls::Thickness;
 
-/// Tetrahedra of the first filling for each node that is wanted, and by how much they become more where walls are lost.
+/// Tetrahedra of the first mesh per requested node, and the factor by which their number grows if walls are lost.
 const TETRAHEDRA_PER_NODE: usize = 8;
 const MORE: usize = 3;
 
-/// Edges that are made coarser, in those that are wanted [-].
+/// Length of the edges before coarsening, relative to the final ones [-].
 const OF_EDGE: f64 = 0.6;
 
-/// Where a body is thinner than so many edges, they are shorter in proportion [-], by a factor of [`MOST_GRADED`] at most: rims and
-/// lobes bend within their thickness. With twice as much grading the bulk becomes too coarse for a tip. A body that is a wall of
-/// one element is not graded, nor are neighbours, whose short edges at a rim fold where a stiffer organ presses them.
+/// Where a body is thinner than this number of edges, they are shorter in proportion [-], by a factor of
+/// [`MOST_GRADED`] at most: rims and lobes bend within their thickness. With twice as much grading the bulk becomes too
+/// coarse for a tip. A body that is a wall of one element is not graded, nor are neighbours, whose short edges at a rim
+/// fold where a stiffer organ presses on them.
 const THIN: f64 = 3.0;
 const MOST_GRADED: f64 = 3.0;
 
-/// Part of the work that is done before edges collapse [-].
+/// Part of the work before edges collapse [-].
 const BEFORE_COLLAPSES: f64 = 0.3;
 
-/// Fillings to try.
+/// Number of attempts.
 const FILLINGS: usize = 5;
 
-/// A filling of about `wanted` tetrahedra, or of more where walls are lost. Where it has other holes than `surface`, as
-/// across a thin wall, one finer filling is tried.
+/// A mesh of about `wanted` tetrahedra, or of more if walls are lost. If it has other holes than `surface`, for example
+/// across a thin wall, one finer mesh is tried.
 fn filled(surface: &Surface, mut wanted: usize) -> Result<TetrahedronMesh, TetrahedronError> {
     let of = |wanted| fill(surface, &FillSettings::with_about(surface, wanted));
     let mut filling = of(wanted);
@@ -63,7 +64,7 @@ fn has_topology_of(surface: &Surface, filling: &TetrahedronMesh) -> bool {
         .is_ok_and(|boundary| euler(&boundary) == euler(surface))
 }
 
-/// By what factor edges are shorter where the body within `surface` is thin, if it has so many nodes [-].
+/// The factor by which edges are shorter where the body within `surface` is thin, if it has so many nodes [-].
 pub(super) fn grading(surface: &Surface, nodes: usize) -> impl Fn(&Vec3) -> f64 {
     let edge = FillSettings::with_about(surface, nodes).edge;
     let thickness = Thickness::new(surface);
@@ -74,15 +75,15 @@ pub(super) fn grading(surface: &Surface, nodes: usize) -> impl Fn(&Vec3) -> f64 
     }
 }
 
-/// About so many nodes in the body within `surface`: a filling that has all of its walls, made coarser; its edges are shorter
-/// at inclusions, and by the factor `finer` [-]. Its regions are cavities, and there are warnings. `progress` hears the part that is
-/// done [-], and may cancel.
+/// A mesh of about so many nodes in the body within `surface`: it has all of its walls and is made coarser; its edges
+/// are shorter at inclusions, and by the factor `finer` [-]. Its regions are cavities, and there are warnings.
+/// `on_progress` receives the completed part [-], and may cancel.
 pub(super) fn tetrahedra(
     surface: &Surface,
     nodes: usize,
     regions: &Regions,
     finer: impl Fn(&Vec3) -> f64,
-    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    on_progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<(TetrahedronMesh, Vec<String>), Error> {
     let edge = FillSettings::with_about(surface, nodes).edge;
     let longest = |place: &Vec3| regions.longest_edge(place).min(edge);
@@ -92,9 +93,9 @@ pub(super) fn tetrahedra(
             .and_then(|coarse| refine_to(&coarse, Some(surface), |place| OF_EDGE * longest(place)));
     }
     let detail = |place: &Vec3| finer(place) * edge / longest(place);
-    let mut progress = |part| progress(BEFORE_COLLAPSES + (1.0 - BEFORE_COLLAPSES) * part);
+    let mut on_progress = |part| on_progress(BEFORE_COLLAPSES + (1.0 - BEFORE_COLLAPSES) * part);
     let mesh = filling
-        .and_then(|fine| coarsen_with_progress(&fine, surface, nodes, detail, &mut progress));
+        .and_then(|fine| coarsen_with_progress(&fine, surface, nodes, detail, &mut on_progress));
     if let Err(TetrahedronError::Cancelled) = mesh {
         return Err(palpate_mechanics::Error::BrokenOff.into());
     }

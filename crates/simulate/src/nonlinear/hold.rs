@@ -1,18 +1,18 @@
-//! Jaws that take hold of the organ as it is now.
+//! Grasping in the nonlinear model.
 
 use super::moved::carry_back_anew;
 use super::soft::Piece;
 use super::target::Now;
 use super::{Body, NonlinearOrgan, REACH_IN_RADII, jaws_radius};
 use crate::contact;
-use crate::grip::{Held, HeldArea, Hold, SeenHold, Swept};
+use crate::grip::{DisplayedHold, Held, HeldArea, Hold, Swept};
 use crate::simulation::Simulation;
 use crate::state::SimulationState;
 
 impl NonlinearOrgan {
-    /// The jaws of tool `number` take hold of the place that the tool touches, or would touch a little ahead; whether
-    /// there is one. The force stays what it was.
-    pub(crate) fn take_hold(
+    /// The jaws of tool `number` grasp the tissue at the tool's contact, or a little ahead of it; returns whether there
+    /// is any. The force does not change.
+    pub(crate) fn grasp(
         &self,
         simulation: &Simulation,
         number: usize,
@@ -27,7 +27,7 @@ impl NonlinearOrgan {
         };
         let ahead = || {
             let ahead = carry_back_anew(simulation, tool, &swept.ahead(), state)?;
-            contact::detect(&simulation.ground(tool), tool, None, &ahead)
+            contact::detect(&simulation.rest_surface(tool), tool, None, &ahead)
         };
         let Some(contact) = own.contact.or_else(ahead) else {
             return false;
@@ -51,7 +51,7 @@ impl NonlinearOrgan {
             offset: swept.turned.inverse() * offset,
             force: swept.turned.inverse() * now.force,
         });
-        let seen = SeenHold {
+        let displayed = DisplayedHold {
             triangle: contact.place.triangle,
             place: point,
             at: None,
@@ -59,7 +59,7 @@ impl NonlinearOrgan {
         };
         let area = Swept::face(&jaws);
         let own = &mut state.tools[number];
-        own.grip.hold = Some(Hold::new(&swept, area, jaws.opening_m, held, seen));
+        own.grip.hold = Some(Hold::new(&swept, area, jaws.opening_m, held, displayed));
         own.displaced = now.mean;
         own.solved = own.elastic;
         true

@@ -5,12 +5,12 @@ use palpate_geometry::{Surface, TetrahedronMesh};
 use crate::Error;
 use crate::regions::Regions;
 
-/// A cavity whose volume is off by a larger part of that of its shape is refused [-].
+/// A cavity is rejected if its volume deviates by more than this part from that of its shape [-].
 const FARTHEST: f64 = 0.1;
 
 impl Regions {
-    /// The `mesh` of the body within `surface`, none of whose tetrahedra crosses the wall of a cavity: those in cavities are of
-    /// the regions from 1, in the order of these. And warnings.
+    /// The `mesh` of the body within `surface`, in which no tetrahedron crosses the wall of a cavity: those in cavities
+    /// have the regions from 1, in the order of these. And warnings.
     pub(super) fn with_cavities(
         &self,
         mesh: TetrahedronMesh,

@@ -1,13 +1,13 @@
-//! What a tip is moved by walls and inclusions that the elements, which are larger than the tip, do not have.
+//! Compliance of walls and inclusions under a tip that the elements, which are larger than the tip, do not resolve.
 //!
-//! Their load is wider. On a half-space its compliance is exchanged for that of the tip; a thin wall also bends more under a narrow
-//! load (`WallOperator` of the mechanics), the more so the larger its elements are, and an inclusion is felt otherwise
-//! (`InclusionField`).
+//! The load of the elements is wider. On a half-space the tip's compliance replaces that of the load; a thin wall also
+//! bends more under a narrow load (`WallOperator` of the mechanics), the more so the larger its elements are, and an
+//! inclusion has another effect (`InclusionField`).
 //!
-//! *How we know*: `nonlinear_walls::…`, `regions::…`, beside finite elements.
+//! *How we know*: `nonlinear_walls::…`, `regions::…`, compared with finite elements.
 //!
-//! *Limits*: what jaws hold lacks both: a wall that is pulled far hangs on its tension and bends no more. Walls over cavities are as
-//! thick as the organ, and one that lies on a neighbour counts as free.
+//! *Limits*: tissue in jaws lacks both: a wall that is pulled far is under tension and bends no more. Walls over
+//! cavities are as thick as the organ, and a wall that lies on a neighbour counts as free.
 
 use nalgebra::Matrix3;
 use palpate_geometry::{AabbTree, NodeId, PatchField, Surface, TriangleId, Vec3};
@@ -18,17 +18,17 @@ use crate::regions::{Regions, TipExchange};
 use crate::tool::Tool;
 use crate::walls::through_walls;
 
-/// Half of a wall's thickness over the radius of its convex side, at most [-]: a lumen is no narrower than the rest.
+/// Largest ratio of half a wall's thickness to the radius of its convex side [-]: a lumen is no narrower than the rest.
 const MOST_CURVED: f64 = 0.8;
 
-/// The walls under the vertices of the surface that is seen.
+/// The walls under the vertices of the displayed surface.
 #[derive(Debug, Clone, Default)]
 pub(super) struct WallField {
     at: Vec<WallCompliance>,
 }
 
 impl WallField {
-    /// Adds those of a piece with its tissues. Where its other side is fixed it is no wall: it does not bend.
+    /// Adds the walls of a piece with its tissues. If its other side is fixed it is no wall: it does not bend.
     pub(super) fn extend(
         &mut self,
         surface: &Surface,
@@ -79,8 +79,8 @@ impl WallField {
 }
 
 impl NonlinearOrgan {
-    /// What a tip, that of `tool` by its number, is moved by walls along its normal, at rest, that its load is not [m/N]; and what by
-    /// inclusions.
+    /// Additional compliance of the tip of tool `number` along its normal at rest, relative to its load [m/N]: due to
+    /// walls, and due to inclusions.
     pub(super) fn local_compliance(
         &self,
         number: usize,

@@ -1,32 +1,32 @@
-//! The whole organ at large deformation: `model.kind = "nonlinear"`.
+//! The nonlinear model, an organ at large deformation: `model.kind = "nonlinear"`.
 //!
 //! ```text
 //! surface ──fill, coarsen──▶ quadratic tetrahedra ──factors at rest──▶ NonlinearModel
 //!                                                                          │
 //! tips, jaws ──touch: loads, couplings──▶ one step of Newton's method ◀────┘
 //!                                               │
-//!                          forces ◀─────────────┴──▶ shape: the surface that is seen
+//!                          forces ◀─────────────┴──▶ shape: the displayed surface
 //! ```
 //!
-//! A tip loads the surface around the place that it touches, wide enough for the elements to resolve it, and is in
-//! series with what such a load leaves out of its own law, as with the hybrid model ([`TipField`]). Here it is so about
-//! the present state: place, normal and frame go with the organ, and what the organ yields is solved anew in every step.
-//! Jaws hold as a bonded flat tip of their faces' area does, and pull.
+//! A tip loads the surface around its contact, wide enough for the elements to resolve it, in series with the
+//! difference between its own law and such a load, as in the hybrid model ([`TipField`]). Here this applies in the
+//! present state: contact location, normal and frame move with the organ, and its compliance is computed anew in every
+//! step. Jaws hold tissue like a bonded flat tip with the area of their faces, and pull.
 //!
 //! *How we know*: `nonlinear::…`.
 //!
 //! Layers and inclusions are tissues of their own elements (`regions`).
 //!
-//! Neighbours that collide keep the organ out (`neighbours`); those that bend, and further organs, are pieces of the body
+//! Neighbours that collide stop the organ (`neighbours`); those that bend, and further organs, are pieces of the body
 //! (`soft`).
 //!
-//! Shafts are in contact with what bends (`shafts`).
+//! Shafts are in contact with the pieces of the body (`shafts`).
 //!
 //! Cavities are empty, under a pressure, or full of a fluid (`merged`).
 //!
 //! Cuts are slits in the elements (`slits`), which another thread makes (`cut_body`).
 //!
-//! *Limits*: quasi-static. A body that is nearly incompressible is taken with a Poisson's ratio of 0.49.
+//! *Limits*: quasi-static. A nearly incompressible body has a Poisson's ratio of 0.49.
 //!
 //! [`TipField`]: palpate_mechanics::surface_response::TipField
 
@@ -79,21 +79,21 @@ use palpate_mechanics::nonlinear::{
 use crate::Error;
 use crate::grip::Swept;
 use crate::neighbour::Neighbour;
-use crate::preparation::{Progress, Work, tell};
+use crate::preparation::{Progress, Work, report_progress};
 use crate::regions::Regions;
 use crate::shaft::Shaft;
 use crate::simulation::Simulation;
 use crate::tool::Tool;
 
-/// Part of the time to make it that the tetrahedra take [-].
+/// Part of the preparation time that the tetrahedra take [-].
 const FILLED: f64 = 0.5;
 
-/// The same where the body touches itself: bodies push one another until they are in equilibrium.
+/// The same for a body in contact with itself: its parts push one another until they are in equilibrium.
 const ITERATIONS_TOUCHING: usize = 8;
-/// R of a load over the touching area's radius [-]: it then yields less than the tip itself.
+/// R of a load over the radius of the contact area [-]: it then yields less than the tip itself.
 const REACH_IN_RADII: f64 = 1.7;
 
-/// An organ that bends. Built once.
+/// An organ of the nonlinear model. Built once.
 #[derive(Debug, Clone)]
 pub(crate) struct NonlinearOrgan {
     composition: Arc<Composition>,
@@ -101,59 +101,60 @@ pub(crate) struct NonlinearOrgan {
     shown: EmbeddedPoints,
     skin: Skin,
     shaft_skin: ShaftSkin,
-    /// How they touch one another, if anything does.
+    /// The contact of its pieces with one another, if there is any.
     touching: Option<TouchingBoundary>,
-    /// The shown surface as the organ hangs under its weight, if it has any; of an organ without cuts.
+    /// The displayed surface as the organ hangs under its weight, if it has any; for an organ without cuts.
     hangs: Option<(TriangleMesh, AabbTree)>,
     cuts: CutPaths,
 }
 
-/// Where the organ is, and what the tools do to it.
+/// The state of the organ, and of the tools on it.
 #[derive(Debug, Clone)]
 pub(crate) struct Body {
     state: NonlinearState,
-    /// Whether it has come back to rest since it was touched.
+    /// Whether it has returned to rest since it was touched.
     is_at_rest: bool,
-    /// Steps on end in which nothing loads it and it does not come nearer to rest.
-    late: u32,
-    /// Per tool.
+    /// Successive steps in which nothing loads it and it does not approach rest.
+    stalled: u32,
+    /// The load of each tool.
     loads: Vec<SpreadLoad>,
-    /// Which piece each tool touched last.
+    /// The piece that each tool touched last.
     on: Vec<usize>,
-    /// Which tools act on it; those that have let go, for so many steps more at most.
+    /// Which tools act on it, and for how many more steps a released tool still does.
     is_loaded: Vec<bool>,
-    lets_go: Vec<u32>,
-    /// Elastic forces of the tools in the past, and how what they load was turned then.
+    release_steps: Vec<u32>,
+    /// Past elastic forces of the tools, and the rotation of their loads at that time.
     histories: Vec<ForceHistory>,
     turns: Vec<Rotation3<f64>>,
-    /// Where the shaft of each tool is, and how far it may go before it may touch the body at rest [m].
+    /// The shaft of each tool, and how far it may move before it may touch the body at rest [m].
     shafts: Vec<Option<Shaft>>,
     clear_of_shafts: Vec<f64>,
     pierced: Vec<Pierced>,
     cuts: FollowedCuts,
-    /// With its cuts.
+    /// The organ with its cuts.
     pub(crate) organ: Arc<NonlinearOrgan>,
 }
 
-/// Scratch of its part in a step.
+/// Scratch of the nonlinear model in a step.
 #[derive(Debug)]
 pub(crate) struct NonlinearWorkspace {
-    /// Which organ `own` is for.
+    /// The organ to which `own` belongs.
     of: Arc<NonlinearOrgan>,
     own: OrganWorkspace,
-    /// That for the organ without cuts, while `own` is for one with cuts, and what a reset has left of one with cuts.
+    /// Scratch for the organ without cuts, while `own` is for one with cuts, and the scratch of one with cuts after a
+    /// reset.
     whole: Option<OrganWorkspace>,
     left: Option<OrganWorkspace>,
     thread: Option<CutThread>,
-    /// Length of the cuts that change no force [m].
+    /// Total length of the cuts that change no force [m].
     closed: f64,
     targets: Vec<Option<target::Target>>,
     shafts: Vec<Option<ShaftMotion>>,
-    /// Displacements of the shown vertices [m].
+    /// Displacements of the displayed vertices [m].
     shown: Vec<Vec3>,
 }
 
-/// What of it depends on the elements.
+/// The part of the scratch that depends on the elements.
 #[derive(Debug)]
 struct OrganWorkspace {
     solver: Workspace,
@@ -161,16 +162,16 @@ struct OrganWorkspace {
 }
 
 impl Body {
-    /// `organ` at rest, which so many tools may touch.
+    /// `organ` at rest, for this number of tools.
     pub(crate) fn at_rest(organ: &Arc<NonlinearOrgan>, tools: usize) -> Self {
         Self {
             state: NonlinearState::at_rest(&organ.model, tools),
             is_at_rest: true,
-            late: 0,
+            stalled: 0,
             loads: vec![organ.model.spread_load(); tools],
             on: vec![0; tools],
             is_loaded: vec![false; tools],
-            lets_go: vec![0; tools],
+            release_steps: vec![0; tools],
             histories: vec![ForceHistory::default(); tools],
             turns: vec![Rotation3::identity(); tools],
             shafts: vec![None; tools],
@@ -215,7 +216,7 @@ impl NonlinearWorkspace {
         }
     }
 
-    /// What to be careful about in the forces of cuts, as sentences.
+    /// Warnings about the forces of cuts, as sentences.
     pub(crate) fn warnings(&self) -> Option<String> {
         let thread = self.thread.as_ref();
         if let Some(error) = thread.and_then(CutThread::error) {
@@ -232,38 +233,45 @@ impl NonlinearWorkspace {
     }
 }
 
-/// What is beside the organ.
+/// The bodies around the organ.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Beside<'a> {
+pub(crate) struct ContactBodies<'a> {
     /// The tools that may touch it.
     pub(crate) tools: &'a [Tool],
     /// The neighbours that bend.
     pub(crate) soft: &'a [SoftBody],
-    /// The rigid ones that keep it out.
+    /// The rigid ones that stop it.
     pub(crate) neighbours: &'a [Neighbour],
 }
 
 impl NonlinearOrgan {
-    /// That of the organ of `scene` with this surface and its tissues, which is seen as `shown` together with the neighbours
-    /// that bend; with warnings.
+    /// The model of the organ of `scene` with this surface and its tissues, displayed as `shown` together with the
+    /// neighbours that bend; with warnings.
     pub(crate) fn new(
         scene: &Scene,
         shown: &Surface,
         tree: &AabbTree,
         surface: &Surface,
         regions: Regions,
-        beside: Beside<'_>,
-        watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+        contact_bodies: ContactBodies<'_>,
+        on_progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<(Self, Vec<String>), Error> {
-        tell(watch, Progress::begin(Work::Tetrahedra))?;
+        report_progress(on_progress, Progress::begin(Work::Tetrahedra))?;
         let mut report = |part| {
             let (work, part) = (Work::Tetrahedra, FILLED * part);
-            watch(Progress { work, part })
+            on_progress(Progress { work, part })
         };
-        let (composition, warnings) =
-            Composition::new(scene, shown, tree, surface, regions, beside, &mut report)?;
+        let (composition, warnings) = Composition::new(
+            scene,
+            shown,
+            tree,
+            surface,
+            regions,
+            contact_bodies,
+            &mut report,
+        )?;
         let (work, part) = (Work::Factors, FILLED);
-        tell(watch, Progress { work, part })?;
+        report_progress(on_progress, Progress { work, part })?;
         let composition = Arc::new(composition);
         let (filled, cuts) = (&composition.filled, CutPaths::default());
         let mut organ = Self::of_pieces(&composition, filled, cuts, None)?;
@@ -271,8 +279,8 @@ impl NonlinearOrgan {
         Ok((organ, warnings))
     }
 
-    /// That of the elements of its pieces: those of its composition, or what cuts made of those of the `whole` body; vertices of the shown surface go with
-    /// the elements beside `cuts`.
+    /// The model from the elements of its pieces: those of its composition, or those that cuts made from the elements
+    /// of the `whole` body; vertices of the displayed surface belong to the elements on their side of `cuts`.
     fn of_pieces(
         composition: &Arc<Composition>,
         filled: &[Filled],
@@ -308,12 +316,13 @@ impl NonlinearOrgan {
         cavities.map(|own| own.name.as_str())
     }
 
-    /// The shown surface and its boxes as the organ hangs under its weight and what presses in its cavities, if anything does.
+    /// The displayed surface and its boxes as the organ hangs under its weight and the pressures in its cavities, if
+    /// there are any.
     pub(crate) fn hangs(&self) -> Option<(&TriangleMesh, &AabbTree)> {
         self.hangs.as_ref().map(|(mesh, tree)| (mesh, tree))
     }
 
-    /// Scratch of this organ for so many tools.
+    /// Scratch of this organ for this number of tools.
     fn workspace_of(&self, tools: usize) -> OrganWorkspace {
         OrganWorkspace {
             solver: self.model.workspace(tools),

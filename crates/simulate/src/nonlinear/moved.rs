@@ -1,4 +1,4 @@
-//! Where the place that a tool touches has gone.
+//! The motion of the contact location of a tool.
 
 use nalgebra::Rotation3;
 use palpate_geometry::Vec3;
@@ -7,13 +7,13 @@ use crate::simulation::Simulation;
 use crate::state::SimulationState;
 use crate::tool::Tool;
 
-/// How the place that a tool touches has moved, without what the tool itself does.
+/// The motion of the contact location of a tool, without the tool's own displacement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Moved {
     pub(crate) by: Vec3,
     pub(crate) turn: Rotation3<f64>,
-    /// How far it is beyond the mean of what is loaded around it [m], turned back. Without it a tip would leave tissue that bends
-    /// within the load as soon as it has met it.
+    /// Its displacement beyond the mean of the load around it [m], rotated back. Without it a tip would lose contact
+    /// with tissue that bends within the load as soon as they touch.
     beyond: Vec3,
 }
 
@@ -28,27 +28,27 @@ impl Default for Moved {
 }
 
 impl Moved {
-    /// Goes with a load that has gone `by` [m] in the mean, and turned.
+    /// Follows a load that has moved `by` [m] in the mean, and rotated.
     pub(super) fn go(&mut self, by: &Vec3, turn: &Rotation3<f64>) {
         self.by = by + turn * self.beyond;
         self.turn = *turn;
     }
 
-    /// A touch begins around `rest` [m], by a tip at `tip` [m] that carried back to rest is at `met` [m].
+    /// Begins a touch around `rest` [m], by a tip at `tip` [m] that is at `met` [m] when carried back to rest.
     pub(super) fn meet(&mut self, rest: &Vec3, tip: &Vec3, met: &Vec3) {
         let further = tip - (rest + self.turn * (met - rest) + self.by);
         self.by += further;
         self.beyond += self.turn.inverse() * further;
     }
 
-    /// A place of the scene [m], carried back to where it would be around `rest` [m] at rest.
+    /// Carries a `place` of the scene [m] back to its position at rest, around `rest` [m].
     pub(super) fn back(&self, rest: &Vec3, place: &Vec3) -> Vec3 {
         rest + self.turn.inverse() * (place - rest - self.by)
     }
 }
 
-/// Where a tip that touches nothing yet would be [m] on the organ at rest, by the triangle that is nearest to it now.
-/// None where it is clear of that.
+/// The tip's position [m] on the organ at rest, if it touches nothing yet, by the triangle that is closest to it now.
+/// None if it is clear of that.
 pub(super) fn carry_back_anew(
     simulation: &Simulation,
     tool: &Tool,

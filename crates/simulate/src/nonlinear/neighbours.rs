@@ -1,8 +1,8 @@
-//! Neighbours that the organ stays out of, with Coulomb's friction: rigid bodies, and with them what bends (`soft`).
+//! Contact of the organ with neighbours, with Coulomb friction: rigid bodies, and with them bodies that bend (`soft`).
 //!
-//! Each point of the boundary keeps the distance that it has from a neighbour at rest, as far as it lies within it there:
-//! where an organ grows through a neighbour, nothing pushes it out. Points deeper than [`GROWN_IN`] are not in
-//! contact with it: the nearest surface is not the one that they would leave through.
+//! Each point of the boundary that is inside a neighbour at rest keeps its distance from it: where an organ grows
+//! through a neighbour, nothing pushes it out. Points deeper than [`GROWN_IN`] are not in contact with it: they would
+//! not leave through the nearest surface.
 //!
 //! *How we know*: `nonlinear_neighbours::…`.
 
@@ -22,31 +22,32 @@ use crate::state::ToolState;
 /// candidate in the next step.
 const NEAR: f64 = 0.3e-3;
 
-/// The motion of a step counts up to this [m]: hardly any part of an organ moves farther.
+/// Upper bound of the motion of a step [m]: hardly any part of an organ moves farther.
 const MOST_MOTION: f64 = 2e-3;
 
-/// Sides of cuts lie on each other at rest. What a step leaves out of them counts where it is deeper than this in the other side [m].
+/// The sides of cuts touch each other at rest. After a step a penetration counts if it is deeper than this in the other
+/// side [m].
 const SHUT: f64 = 5e-5;
 
 /// Points deeper in a neighbour at rest are not in contact with it [m].
 const GROWN_IN: f64 = 2e-3;
 
-/// What moves in a step, or in a part of it.
+/// The motions in a step, or in a part of it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StepMotion<'a> {
     pub(super) shafts: &'a [Option<ShaftMotion>],
-    /// From which part of its motion each shaft moves to which [-].
+    /// The start and end of each shaft's motion, as fractions of its step [-].
     pub(super) parts: [f64; 2],
-    /// How far the tools move at most [m].
-    pub(super) way: f64,
+    /// Largest motion of the tools [m].
+    pub(super) travel: f64,
 }
 
-/// The points of the boundary as neighbours meet them.
+/// The points of the boundary, for contact with neighbours.
 #[derive(Debug, Clone)]
 pub(super) struct Skin {
-    /// At rest, on the shown surface, which coarse faces cut short [m].
+    /// At rest, on the displayed surface, which coarse faces cut short [m].
     places: Vec<Vec3>,
-    /// For each neighbour, how deep they lie in it at rest, as negative distances [m]; −∞ without contact.
+    /// Signed distance of the points to each neighbour at rest, negative inside [m]; −∞ without contact.
     overlaps: Vec<Vec<f64>>,
 }
 
@@ -67,7 +68,7 @@ impl Skin {
         let overlap = |neighbour: &Neighbour| {
             let places = places.iter().zip(points).enumerate();
             let depths = places.map(|(number, (place, point))| {
-                // A neighbour in a cavity is not looked for.
+                // A neighbour in a cavity is ignored.
                 if !model.is_outer(number) {
                     return f64::NEG_INFINITY;
                 }
@@ -90,10 +91,10 @@ impl Skin {
     }
 }
 
-/// Where a point was when its distance was last computed [m], and that distance, which bounds it elsewhere. The nearest
-/// triangle then makes the next search faster and changes no result.
+/// The position of a point when its distance was last computed [m], and that distance, which bounds the present one.
+/// The nearest triangle then makes the next search faster and changes no result.
 #[derive(Debug, Clone, Copy)]
-struct Known {
+struct LastDistance {
     place: Vec3,
     distance: f64,
     nearest: Option<TriangleId>,
@@ -102,20 +103,20 @@ struct Known {
 /// The contacts that may be active in a step. Scratch.
 #[derive(Debug)]
 pub(super) struct Candidates {
-    known: Vec<Known>,
+    last_distances: Vec<LastDistance>,
     found: Vec<TouchingPoint>,
     pub(super) contacts: Vec<UnilateralContact>,
-    /// Such points beyond those that a step takes.
+    /// Number of such points beyond those that a step takes.
     left_out: usize,
     touching: Option<TouchingSearch>,
-    /// How deep a point lies in the body itself that nothing pushes out any more [m].
+    /// Depth of a point in the body itself that contact no longer pushes out [m].
     lost: f64,
 }
 
 impl Candidates {
     pub(super) fn new(organ: &NonlinearOrgan, tools: usize) -> Self {
         let points = organ.model.boundary_points().len();
-        let unknown = Known {
+        let initial = LastDistance {
             place: Vec3::zeros(),
             distance: f64::NEG_INFINITY,
             nearest: None,
@@ -125,7 +126,7 @@ impl Candidates {
         let beside = if touching.is_some() { points } else { 0 };
         let on_shafts = tools * organ.model.tool_points().len();
         Self {
-            known: vec![unknown; count],
+            last_distances: vec![initial; count],
             found: Vec::with_capacity(count + beside + on_shafts),
             contacts: Vec::with_capacity(MOST_CONTACTS),
             left_out: 0,
@@ -134,7 +135,7 @@ impl Candidates {
         }
     }
 
-    /// Finds the candidates of a step from `state`; the deepest ones if the step cannot take all.
+    /// Finds the candidates of a step from `state`; the deepest ones if there are too many.
     pub(super) fn find(
         &mut self,
         organ: &NonlinearOrgan,
@@ -142,7 +143,7 @@ impl Candidates {
         motion: StepMotion<'_>,
         state: &NonlinearState,
     ) {
-        let near = NEAR + (motion.way + state.last_way()).min(MOST_MOTION);
+        let near = NEAR + (motion.travel + state.last_way()).min(MOST_MOTION);
         let (points, skin) = (organ.model.boundary_points(), &organ.skin);
         self.found.clear();
         if let (Some(search), Some(boundary)) = (&mut self.touching, &organ.touching) {
@@ -154,19 +155,21 @@ impl Candidates {
             });
         }
         let bodies = neighbours.iter().zip(&skin.overlaps);
-        for ((neighbour, overlap), known) in bodies.zip(self.known.chunks_mut(points.len())) {
-            for (number, (point, known)) in points.iter().zip(known).enumerate() {
+        for ((neighbour, overlap), last_distances) in
+            bodies.zip(self.last_distances.chunks_mut(points.len()))
+        {
+            for (number, (point, last)) in points.iter().zip(last_distances).enumerate() {
                 let moved = point.displacement(&state.displacements);
                 let place = skin.places[number] + moved;
                 let allowed = overlap[number];
                 let is_active = state.contact_force(number as u32) > 0.0;
-                let least = known.distance - (place - known.place).norm();
+                let least = last.distance - (place - last.place).norm();
                 if least - allowed > near && !is_active {
                     continue;
                 }
-                let nearest = neighbour.nearest(&place, known.nearest);
+                let nearest = neighbour.nearest(&place, last.nearest);
                 let normal = nearest.normal;
-                *known = Known {
+                *last = LastDistance {
                     place,
                     distance: nearest.distance,
                     nearest: Some(nearest.triangle),
@@ -212,7 +215,8 @@ impl Candidates {
             .extend(self.found.iter().map(|own| own.contact));
     }
 
-    /// Whether places of the body may touch one another in the step. The sides of cuts always may: they count while they press.
+    /// Whether parts of the body may touch one another in the step. The sides of cuts always may: they count under
+    /// pressure.
     pub(super) fn touches_itself(&self, state: &NonlinearState) -> bool {
         let mut found = self.found.iter();
         found.any(|own| {
@@ -221,13 +225,13 @@ impl Candidates {
         })
     }
 
-    /// Whether places of the body may touch shafts in the step.
+    /// Whether the body may touch shafts in the step.
     pub(super) fn touches_shafts(&self) -> bool {
         let mut contacts = self.contacts.iter();
         contacts.any(|own| matches!(own.against, Against::Tool { .. }))
     }
 
-    /// Reports points that were left out, under a tool that touches.
+    /// Reports points that were left out, under a tool in contact.
     pub(super) fn report(&self, tool: &mut ToolState) {
         if self.left_out > 0 {
             let reached = Reached {

@@ -1,4 +1,4 @@
-//! What elements are made of where an organ has several tissues.
+//! Materials of the elements of an organ with several tissues.
 //!
 //! Tetrahedra do not cross the walls of cavities. An element that several tissues share has the mean of the bounds of Voigt and
 //! Reuss (`Moduli::mixed`), and relaxes as the tissue that has most of it.
@@ -9,22 +9,23 @@ use palpate_mechanics::{LinearElastic, PronySeries};
 
 use crate::regions::{RegionTissue, Regions};
 
-/// An element is asked for its tissues at the centroids of its parts, so many along an edge.
+/// The tissues of an element are sampled at the centroids of its parts, this many along an edge.
 const PARTS: usize = 6;
 
-/// Edges in an inclusion, in its smallest radius, those where there are cavities, and by how much they grow away from it [-].
+/// Number of edges within an inclusion, in its smallest radius, the same with cavities, and the growth of edges away
+/// from it [-].
 const OF_RADIUS: f64 = 0.6;
 const OF_WALL: f64 = 0.45;
 const GROWTH: f64 = 0.25;
 
-/// Places on a way through a wall.
+/// Sample points along a path through a wall.
 const STEPS: u32 = 6;
 
-/// What the elements are made of.
+/// The materials of the elements.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Elements {
     pub(super) moduli: Vec<Moduli<f64>>,
-    /// The tissue that each relaxes as.
+    /// The tissue by which each element relaxes.
     pub(super) numbers: Vec<usize>,
     /// [kg/m³]
     pub(super) densities: Vec<f64>,
@@ -33,7 +34,7 @@ pub(super) struct Elements {
 }
 
 impl Elements {
-    /// Takes those of another body.
+    /// Copies those of another body.
     pub(super) fn extend(&mut self, other: Self) {
         self.moduli.extend(other.moduli);
         self.numbers.extend(other.numbers);
@@ -48,14 +49,14 @@ impl Elements {
 }
 
 impl Regions {
-    /// The mean of Young's modulus from `place` on along a `way` [m], over that at the surface [-].
-    pub(super) fn stiffness_through(&self, place: &Vec3, way: &Vec3) -> f64 {
+    /// The mean of Young's modulus from `place` on along a `path` [m], relative to that at the surface [-].
+    pub(super) fn stiffness_through(&self, place: &Vec3, path: &Vec3) -> f64 {
         let surface = self.at_rest().youngs_modulus();
         if self.tissues.len() == 1 {
             return 1.0;
         }
         let each = (0..STEPS).map(|step| {
-            let on = place + way * ((f64::from(step) + 0.5) / f64::from(STEPS));
+            let on = place + path * ((f64::from(step) + 0.5) / f64::from(STEPS));
             self.tissues[self.tissue_at(&on)].law.youngs_modulus()
         });
         each.sum::<f64>() / f64::from(STEPS) / surface
@@ -81,7 +82,7 @@ impl Regions {
         ratios.fold(-1.0, f64::max)
     }
 
-    /// What each element of `mesh` is made of.
+    /// The materials of each element of `mesh`.
     pub(super) fn of_elements(&self, mesh: &TetrahedronMesh) -> Elements {
         let count = mesh.tetrahedra().len();
         let density = |region: &RegionTissue| region.tissue.density_kg_m3.value;
@@ -136,7 +137,7 @@ impl Regions {
         self.tissues.len() > 1 + self.layers
     }
 
-    /// The edges that the inclusions ask for at `place` [m].
+    /// The edge length that the inclusions require at `place` [m].
     pub(super) fn longest_edge(&self, place: &Vec3) -> f64 {
         let of_radius = match self.cavities.is_empty() {
             true => OF_RADIUS,
@@ -146,7 +147,7 @@ impl Regions {
     }
 }
 
-/// Barycentric coordinates of places spread evenly over a tetrahedron.
+/// Barycentric coordinates of points spread evenly over a tetrahedron.
 fn parts() -> Vec<[f64; 4]> {
     let step = 1.0 / PARTS as f64;
     let at = |n: usize| (n as f64 + 0.25) * step;

@@ -1,16 +1,16 @@
-//! What the rim of a cut yields more than elements know, which are larger than a tip.
+//! Additional compliance of the rim of a cut that elements larger than a tip do not resolve.
 //!
-//! A force beside the edge of a quarter space moves its place by G/(E x) more than on a half-space, x being its distance from the
-//! edge ([`RIM_COMPLIANCE`]). The elements have that for their load, whose middle lies farther from the edge, at x + m R on one
-//! side of it; a cut of the depth d adds none where x is beyond d. So
+//! A force next to the edge of a quarter space displaces its point by G/(E x) more than on a half-space, x being its
+//! distance from the edge ([`RIM_COMPLIANCE`]). The elements include that for their load, whose centre lies farther
+//! from the edge, at x + m R on one side of it; a cut of the depth d adds none where x is beyond d. So
 //!
 //! ```text
 //! G/E (1/x − 1/min(x + m R, d)),   x ≥ 0.8 a
 //! ```
 //!
-//! is added, for a tip of radius a, with what the ends of the cut lack of a straight edge.
+//! is added, for a tip of radius a, reduced where the ends of the cut deviate from a straight edge.
 //!
-//! *How we know*: `nonlinear_cuts::…`, beside the hybrid model; G is judged in `mechanics`, `slit::…`.
+//! *How we know*: `nonlinear_cuts::…`, compared with the hybrid model; G is judged in `mechanics`, `slit::…`.
 
 use nalgebra::Matrix3;
 use palpate_geometry::{SlitPoint, Vec3};
@@ -23,14 +23,14 @@ use super::{Body, NonlinearOrgan};
 /// Mean distance of one half of a load (1 − (r/R)²)² from its diameter, over R: 2/π · 16/35 [-].
 const MIDDLE: f64 = 0.291;
 
-/// A tip is no closer to an edge than this part of its radius [-].
+/// Least distance of a tip from an edge, relative to its radius [-].
 const CLOSEST: f64 = 0.8;
 
-/// A cut deeper than this part of a wall bends it: the wall's elements know how its rim yields outwards [-].
+/// A cut deeper than this part of a wall bends it: the wall's elements include the outward compliance of its rim [-].
 const OF_WALL: f64 = 0.4;
 
 impl NonlinearOrgan {
-    /// What what tool `number` loads, with a radius [m], yields more beside cuts, at rest [m/N].
+    /// Additional compliance of the load of tool `number`, with a radius [m], next to cuts, at rest [m/N].
     pub(super) fn rim(&self, body: &Body, number: usize, radius: f64) -> Matrix3<f64> {
         let piece = &self.composition.pieces[body.on[number]];
         let rim = self
@@ -41,7 +41,7 @@ impl NonlinearOrgan {
 }
 
 impl CutPaths {
-    /// That times Young's modulus [1/m]; outwards only beside cuts that are less deep than `shallow` [m].
+    /// That times Young's modulus [1/m]; outwards only next to cuts that are less deep than `shallow` [m].
     fn rim(&self, load: &SpreadLoad, radius: f64, shallow: f64) -> Matrix3<f64> {
         let pairs = self.each().flat_map(|path| path.windows(2));
         let each = pairs.filter_map(|pair| {

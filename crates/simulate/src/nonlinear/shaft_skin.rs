@@ -1,4 +1,4 @@
-//! The boundary as shafts meet it.
+//! The points of the boundary for contact with shafts.
 
 use std::ops::Range;
 
@@ -7,16 +7,16 @@ use palpate_mechanics::nonlinear::{NonlinearModel, TOOL_POINTS};
 
 use super::soft::Piece;
 
-/// Points that touch a shaft are at most so far apart [radii], if more of them make that possible.
+/// Largest spacing of points that touch a shaft [radii], if the number of points permits it.
 const APART: f64 = 0.6;
 
 /// All points of a face.
 pub(super) const POINTS: usize = TOOL_POINTS[0] + TOOL_POINTS[1];
 
-/// The points of the boundary as shafts meet them, [`POINTS`] of each face.
+/// The points of the boundary for contact with shafts, [`POINTS`] of each face.
 #[derive(Debug, Clone)]
 pub(super) struct ShaftSkin {
-    /// At rest, on the shown surface [m].
+    /// At rest, on the displayed surface [m].
     pub(super) places: Vec<Vec3>,
     pub(super) faces: Vec<SkinFace>,
 }
@@ -64,7 +64,7 @@ impl ShaftSkin {
 }
 
 impl ShaftSkin {
-    /// The area that a point stands for [m²], and its piece.
+    /// The area of a point [m²], and its piece.
     pub(super) fn around(&self, point: u32) -> (f64, usize) {
         let [few, many] = TOOL_POINTS;
         let face = &self.faces[point as usize / POINTS];
@@ -78,7 +78,7 @@ impl ShaftSkin {
 }
 
 impl SkinFace {
-    /// Which of its points touch a shaft of this radius [m].
+    /// Which of its points are used for a shaft of this radius [m].
     pub(super) fn points(&self, radius: f64) -> Range<usize> {
         let [few, _] = TOOL_POINTS;
         match self.area < few as f64 * (APART * radius).powi(2) {
@@ -88,7 +88,7 @@ impl SkinFace {
     }
 }
 
-/// The direction in which a face looks, some of whose points are at these places [m]. They go row by row: of four in rows of two
+/// The normal of a face some of whose points have these positions [m]. They are sorted by rows: of four in rows of two
 /// and one, of sixteen in rows of four to one, and then those between.
 pub(super) fn outward(set: Range<usize>, place: impl Fn(usize) -> Vec3) -> Vec3 {
     let [across, along] = match set.len() == TOOL_POINTS[0] {

@@ -1,10 +1,11 @@
-//! Shafts in contact with what bends, with Coulomb's friction.
+//! Contact of shafts with the bodies that bend, with Coulomb friction.
 //!
-//! A shaft is a rod that points of the boundary stay out of. What a tip or jaws load answers to them: there the rod begins
-//! behind them, and what their load reaches is not in contact with it. Other pieces of the body are in contact with all of
-//! the rod, from its tip on. A rod does not turn about its own axis: its friction does not oppose that.
+//! A shaft is a rod that points of the boundary stay out of. On the piece that a tip or jaws load, the rod begins
+//! behind them, and points within their load are not in contact with it. Other pieces of the body are in contact with
+//! all of the rod, from its tip on. A rod does not turn about its own axis: its friction does not oppose that.
 //!
-//! On a tool in a trocar, of length ℓ and direction e, a force f at a distance s from the tip is felt at the tip by its work:
+//! On a tool in a trocar, of length ℓ and direction e, a force f at a distance s from the tip acts on the tip by its
+//! work:
 //!
 //! ```text
 //! F = (1 − (s/ℓ) (1 − e eᵀ)) f
@@ -29,38 +30,39 @@ use crate::tool::Tool;
 /// Points that are nearer than this may touch in the step [m].
 const NEAR: f64 = 2e-3;
 
-/// How far a shaft moves in a part of a step, in its radii [-]: a place that it meets stays on the side where it was met.
+/// Largest motion of a shaft in a part of a step, in its radii [-]: contact points stay on their side of it.
 const FARTHEST_IN_RADII: f64 = 0.5;
 /// And at most [m].
 const FARTHEST: f64 = 2e-3;
 
-/// A face is at most so much larger than at rest [-].
+/// Largest area of a face, relative to rest [-].
 const STRETCHED: f64 = 2.0;
 
-/// A lag behind its tool [m] from which on it is told.
-const TOLD_LAG: f64 = 1e-4;
+/// A lag behind its tool above this is reported [m].
+const REPORTED_LAG: f64 = 1e-4;
 
 /// Cosine of the angle between the outward normal of a face and the direction from the axis to its point, below which the
 /// face is turned to the shaft [-]: others are the far side of a wall.
 const FACES: f64 = -0.2;
 
-/// What the shaft of a tool does in a step.
+/// The motion of a tool's shaft in a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ShaftMotion {
     pub(super) tool: usize,
     before: Shaft,
     now: Shaft,
-    /// The piece that the tip or the jaws load; the middle of the load at rest [m], and its radius.
+    /// The piece that the tip or the jaws load; the centre of the load at rest [m], and its radius.
     loaded: Option<(usize, Vec3, f64)>,
-    /// How far behind the tip it begins [m]: where a tip loads, and elsewhere.
+    /// Where it begins behind the tip [m]: on the loaded piece, and elsewhere.
     begins: [f64; 2],
-    /// Coulomb's coefficient [-].
+    /// Coulomb friction coefficient [-].
     friction: f64,
-    /// The pieces that it goes through, bit by bit.
+    /// Bit mask of the pieces that it goes through.
     pierced: Pierced,
 }
 
-/// Pieces that a shaft has appeared in and not left yet, bit by bit; those beyond the last bit share it.
+/// Bit mask of the pieces in which a shaft has appeared and that it has not left yet; pieces beyond the last bit share
+/// it.
 pub(super) type Pierced = u64;
 
 /// The bit of a piece.
@@ -68,19 +70,19 @@ fn bit(piece: usize) -> Pierced {
     1 << piece.min(Pierced::BITS as usize - 1)
 }
 
-/// What tissue does to a shaft, felt at the tip.
+/// The load of tissue on a shaft, transferred to the tip.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Pushed {
     /// [N], and [N m] about the tip.
     pub(crate) force: Vec3,
     pub(crate) torque: Vec3,
-    /// How the force changes with the tip's place [N/m].
+    /// Derivative of the force with the tip's position [N/m].
     pub(crate) gradient: Matrix3<f64>,
 }
 
 impl ShaftMotion {
-    /// That of tool `number`; of one whose direction is not known, that of its jaws while they hold, and else of its tip. None if
-    /// it is not there.
+    /// The motion of the shaft of tool `number`; if its direction is unknown, that of its jaws while they hold, and
+    /// else of its tip. None if the tool is absent.
     pub(super) fn of(number: usize, tool: &Tool, own: &ToolState, body: &mut Body) -> Option<Self> {
         let before = &mut body.shafts[number];
         let Some(pose) = &own.pose else {
@@ -89,7 +91,7 @@ impl ShaftMotion {
         };
         let turned = own.grip.hold.as_ref().map(|hold| hold.turned());
         let now = Shaft::of(tool, pose).unwrap_or_else(|| Shaft::of_jaws(tool, pose, turned));
-        let held = own.grip.hold.as_ref().map(|hold| hold.seen.place);
+        let held = own.grip.hold.as_ref().map(|hold| hold.displayed.place);
         let place = held.or(own.contact.map(|contact| contact.point()));
         let load = &body.loads[number];
         Some(Self {
@@ -103,25 +105,25 @@ impl ShaftMotion {
         })
     }
 
-    /// Whether it was not there before.
+    /// Whether the tool was absent before.
     fn appears(&self, body: &Body) -> bool {
         let before = body.shafts[self.tool];
         before.is_none_or(|before| before.length == 0.0 && self.now.length > 0.0)
     }
 
-    /// How far its ends move at most [m].
-    pub(super) fn way(&self) -> f64 {
+    /// Largest motion of its ends [m].
+    pub(super) fn travel(&self) -> f64 {
         let end = |shaft: &Shaft| shaft.tip + shaft.along * shaft.length;
         let tip = (self.now.tip - self.before.tip).norm();
         tip.max((end(&self.now) - end(&self.before)).norm())
     }
 
-    /// How far it moves, in what it may move in a part of a step [-].
+    /// Its motion relative to the largest motion in a part of a step [-].
     pub(super) fn parts(&self) -> f64 {
-        self.way() / FARTHEST.min(FARTHEST_IN_RADII * self.now.radius)
+        self.travel() / FARTHEST.min(FARTHEST_IN_RADII * self.now.radius)
     }
 
-    /// Where it is after this `part` of its way [-].
+    /// Its position after this `part` of its motion [-].
     pub(super) fn after(&self, part: f64) -> Shaft {
         let (from, to) = (&self.before, &self.now);
         let along = from.along.lerp(&to.along, part);
@@ -133,7 +135,7 @@ impl ShaftMotion {
         }
     }
 
-    /// Whether the tip or the jaws answer at a place of a piece at rest [m].
+    /// Whether the tip or the jaws load this point of a piece at rest [m].
     fn is_left_out(&self, piece: usize, rest: &Vec3) -> bool {
         self.loaded.is_some_and(|(loaded, middle, radius)| {
             loaded == piece && (rest - middle).norm() < radius
@@ -141,7 +143,7 @@ impl ShaftMotion {
     }
 }
 
-/// Distance of a place [m] from the axis between `ends` [m], and the direction away from it.
+/// Distance of a point [m] from the axis between `ends` [m], and the direction away from it.
 fn from_axis([start, end]: &[Vec3; 2], place: &Vec3) -> (f64, Vec3) {
     let axis = end - start;
     let square = axis.norm_squared();
@@ -155,18 +157,18 @@ fn from_axis([start, end]: &[Vec3; 2], place: &Vec3) -> (f64, Vec3) {
 }
 
 impl NonlinearOrgan {
-    /// How far behind its tip a shaft begins at a piece [m].
+    /// Where a shaft begins behind its tip at a piece [m].
     fn shaft_begins(&self, motion: &ShaftMotion, piece: usize) -> f64 {
         let is_loaded = motion.loaded.is_none_or(|(loaded, ..)| loaded == piece);
         let is_dimple = is_loaded && !self.composition.pieces[piece].bends_around[motion.tool];
         motion.begins[usize::from(!is_dimple)]
     }
 
-    /// Whether a shaft may touch the body in `state` where it is after a step; how far it is from that [m] into `clear`.
+    /// Whether a shaft may touch the body in `state` at its position after a step; stores its clearance [m] in `clear`.
     fn is_near(&self, motion: &ShaftMotion, clear: &mut f64, state: &NonlinearState) -> bool {
-        let way = (motion.now.tip - motion.before.tip).norm();
+        let travel = (motion.now.tip - motion.before.tip).norm();
         let turned = (motion.now.along - motion.before.along).norm();
-        *clear -= way + turned * motion.now.length;
+        *clear -= travel + turned * motion.now.length;
         if *clear > 0.0 {
             return false;
         }
@@ -178,13 +180,13 @@ impl NonlinearOrgan {
         *clear <= 0.0
     }
 
-    /// Where a point is now [m].
+    /// Current position of a point [m].
     fn place(&self, point: usize, state: &NonlinearState) -> Vec3 {
         let own = &self.model.tool_points()[point];
         self.shaft_skin.places[point] + own.displacement(&state.displacements)
     }
 
-    /// Visits faces with the part of the axis that they may meet, and a lower bound of their gap [m].
+    /// Visits faces with the part of the axis that they may touch, and a lower bound of their gap [m].
     fn for_each_near_face(
         &self,
         motion: &ShaftMotion,
@@ -205,7 +207,8 @@ impl NonlinearOrgan {
         }
     }
 
-    /// A shaft that appears in a piece, as where a trocar lies behind an organ, goes through it until it has left it.
+    /// A shaft that appears in a piece, as where a trocar lies behind an organ, passes through it without contact until
+    /// it has left it.
     fn let_out(&self, motion: &mut ShaftMotion, body: &mut Body) {
         let was = match motion.appears(body) {
             true => Pierced::MAX,
@@ -223,12 +226,13 @@ impl NonlinearOrgan {
         motion.pierced = body.pierced[motion.tool];
     }
 
-    /// The pieces in which a shaft is: one whose axis is nearer to their boundary than its radius, whichever way that faces.
+    /// The pieces in which a shaft is: those whose boundary is closer to its axis than its radius, whatever its side.
     fn pierced(&self, motion: &ShaftMotion, state: &NonlinearState) -> Pierced {
         let mut pierced = 0;
         self.for_each_near_face(motion, &motion.now, state, |number, axis, bound| {
             let face = &self.shaft_skin.faces[number];
-            // What bends around a tip meets it wherever that appears, as a tip with a law of its own.
+            // A piece that bends around a tip is in contact with it wherever it appears, as with a tip that has a law
+            // of its own.
             if bound > 0.0 || self.composition.pieces[face.piece].bends_around[motion.tool] {
                 return;
             }
@@ -241,7 +245,7 @@ impl NonlinearOrgan {
         pierced
     }
 
-    /// Which of the `motions` may touch the body; the others are none afterwards.
+    /// Keeps those of the `motions` that may touch the body; sets the others to none.
     pub(super) fn keep_near_shafts(
         &self,
         motions: &mut [Option<ShaftMotion>],
@@ -262,8 +266,8 @@ impl NonlinearOrgan {
         motions.iter().any(Option::is_some)
     }
 
-    /// Visits the contacts of the body in `state` with a shaft that may be active, each with its gap [m], which goes `from` this part of
-    /// its way to that [-].
+    /// Visits the contacts of the body in `state` with a shaft that may be active, each with its gap [m], for the
+    /// motion `from` this fraction of its step to that one [-].
     pub(super) fn meet_shaft(
         &self,
         motion: &ShaftMotion,
@@ -310,7 +314,7 @@ impl NonlinearOrgan {
         });
     }
 
-    /// Finds what tissue does to the shafts after a step, and tells of one that lags behind its tool.
+    /// Computes the loads on the shafts after a step, and reports a shaft that lags behind its tool.
     pub(super) fn push_shafts(
         &self,
         tools: &mut [ToolState],
@@ -331,7 +335,7 @@ impl NonlinearOrgan {
             own.take_push(self.push(&shaft, motion.tool, contacts, &body.state, solver));
             candidates.report(own);
             let lag = (motion.now.tip - shaft.tip).norm();
-            if own.is_pushed() && lag > TOLD_LAG {
+            if own.is_pushed() && lag > REPORTED_LAG {
                 let asked = (motion.now.tip - motion.before.tip).norm();
                 let reached = Reached {
                     asked,
@@ -342,7 +346,7 @@ impl NonlinearOrgan {
         }
     }
 
-    /// What the last step's `contacts` do to a shaft, which is where the step has it.
+    /// The load on a shaft due to the last step's `contacts`, at its position after the step.
     fn push(
         &self,
         shaft: &Shaft,
@@ -352,8 +356,8 @@ impl NonlinearOrgan {
         solver: &mut Workspace,
     ) -> Option<Pushed> {
         let at = |contact: &UnilateralContact| shaft.at(&self.place(contact.point as usize, state));
-        // With this vector a, a place of the rod moves by a · x along `direction` where the tip moves by x; of a force there,
-        // what is felt at the tip.
+        // With this vector a, a point of the rod moves by a · x along `direction` when the tip moves by x; the same
+        // vector transfers a force there to the tip.
         let at_tip = |contact: &UnilateralContact, direction: &Vec3| match shaft.is_in_trocar {
             false => *direction,
             true => {
@@ -401,7 +405,7 @@ impl ToolState {
         self.pushed != Pushed::default()
     }
 
-    /// Takes what tissue does to its shaft; what is not finite is none, and is told.
+    /// Stores the load of tissue on its shaft; a load that is not finite counts as zero, and is reported.
     pub(super) fn take_push(&mut self, pushed: Option<Pushed>) {
         if pushed.is_none() {
             self.row.events.insert(Event::NonFiniteForce);

@@ -1,7 +1,7 @@
-//! The display mesh: its vertices are embedded in the elements, and under each tool they meet the tool.
+//! The display mesh: its vertices are embedded in the elements, and under each tool they are fitted to the tool.
 //!
-//! The elements around a tip know a load as wide as they resolve, and not the tip. What the surface lacks to meet the tip
-//! fades as the dimple of a flat tip does, with the distance r from it, and ends where the load ends:
+//! The elements around a tip resolve its load, and not the tip. The remaining gap between surface and tip fades like
+//! the dimple of a flat tip, with the distance r from it, and ends where the load ends:
 //!
 //! ```text
 //! e 2/π asin(a/r) (1 − (r/R)²)²
@@ -17,14 +17,14 @@ use palpate_mechanics::contact::Friction;
 use crate::simulation::Simulation;
 use crate::state::SimulationState;
 
-/// A surface that has moved less than this [m] is at rest.
+/// A surface that has moved less than this [m] counts as at rest.
 const AT_REST: f64 = 1e-7;
 
 /// Depth of a dimple over the radius of the load under it [-]: ten radii of a tip.
 const DEEPEST_DIMPLE: f64 = 6.0;
 
 impl NonlinearOrgan {
-    /// Moves all vertices of the shown surface, if it is time.
+    /// Updates all vertices of the displayed surface, if it is due.
     pub(crate) fn deform(
         &self,
         simulation: &Simulation,
@@ -54,7 +54,7 @@ impl NonlinearOrgan {
         let rest = simulation.surface.mesh();
         for (number, (tool, own)) in simulation.tools.iter().zip(&state.tools).enumerate() {
             let (triangle, place) = match (&own.grip.hold, &own.contact) {
-                (Some(hold), _) => (hold.seen.triangle, hold.place()),
+                (Some(hold), _) => (hold.displayed.triangle, hold.place()),
                 (None, Some(_))
                     if self.composition.pieces[body.on[number]].bends_around[number] =>
                 {
@@ -76,19 +76,19 @@ impl NonlinearOrgan {
                 .sum();
             let mut lacks = own.displaced - there;
             if let (Some(contact), Friction::Frictionless) = (&own.contact, tool.bond) {
-                // What slips is not carried along.
+                // A slipping surface does not follow the tip.
                 let normal = contact.normal();
                 lacks = normal * normal.dot(&lacks);
             }
             let load = &body.loads[number];
-            // A tool that the organ does not follow is not met: no dimple is that deep.
+            // No fit to a tool that the organ does not follow: no dimple is that deep.
             if lacks.norm() > DEEPEST_DIMPLE * load.radius {
                 continue;
             }
             let square = load.radius.powi(2);
-            // Of a body at rest, too: the next step has to take it back.
+            // Also for a body at rest: the next step has to undo it.
             state.shown_deformed = true;
-            // On both sides of a wall: otherwise the near side would pass through the far one.
+            // On both sides of a wall: otherwise the near side would penetrate the far one.
             for (by, vertex) in shown.iter_mut().zip(rest.vertices()) {
                 let apart = (vertex - place).norm_squared();
                 if apart < square {
@@ -107,8 +107,8 @@ impl NonlinearOrgan {
 }
 
 impl SimulationState {
-    /// A place of the scene [m] near the point `nearest` of the deformed surface, carried back with that triangle to where
-    /// it is at rest.
+    /// Carries a point of the scene [m] near the point `nearest` of the deformed surface back to rest, with that
+    /// triangle.
     pub(crate) fn carry_back_from(
         &self,
         rest: &palpate_geometry::TriangleMesh,

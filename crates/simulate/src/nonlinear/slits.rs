@@ -1,9 +1,9 @@
-//! Cuts as slits in the elements, whose sides bear nothing.
+//! Cuts as slits in the elements, with traction-free sides.
 //!
 //! *How we know*: `nonlinear_cuts::…`.
 //!
-//! *Limits*: a cut that turns back within the length of an edge, as over a rim, stays closed there, and one that would cut a piece
-//! off or open a cavity stays closed in all, with a warning.
+//! *Limits*: a cut that turns back within the length of an edge, for example over a rim, stays closed there, and one
+//! that would cut a piece off or open a cavity stays closed altogether, with a warning.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -19,10 +19,10 @@ use crate::cutting::{CutPart, Cuts, CuttingModel};
 /// Points of a path closer to the one before than this are left out [m].
 const SPACING: f64 = 2e-3;
 
-/// A path that parts less than this of the area that it should is not felt [-].
+/// A path that parts less than this part of its area changes no force [-].
 const PARTED: f64 = 0.4;
 
-/// Places closer to a cut than this count as this far from it [m]: the sides of a slit are not exactly below it.
+/// Points closer to a cut than this count as this far from it [m]: the sides of a slit are not exactly below it.
 pub(super) const ASIDE: f64 = 1.5e-3;
 
 /// The cuts of an organ as paths of slits.
@@ -33,43 +33,43 @@ pub(super) struct CutPaths {
     begins: Vec<usize>,
 }
 
-/// What tells the first `count` parts of the cuts from others; zero where none is felt.
+/// A key of the first `count` parts of the cuts; zero if none changes the forces.
 pub(super) fn key(cuts: &Cuts, count: usize) -> u64 {
     let mut hasher = DefaultHasher::new();
     let mut any = false;
-    for part in felt(cuts, count) {
+    for part in parting_parts(cuts, count) {
         any = true;
         for end in part.ends {
             let place: [f64; 3] = end.into();
             place.map(f64::to_bits).hash(&mut hasher);
         }
-        part.felt.hash(&mut hasher);
+        part.in_mechanics.hash(&mut hasher);
     }
     if any { hasher.finish().max(1) } else { 0 }
 }
 
-/// Those of the first `count` parts of cuts whose sides part.
-fn felt(cuts: &Cuts, count: usize) -> impl Iterator<Item = &CutPart> {
+/// Those of the first `count` parts of cuts that part the tissue.
+fn parting_parts(cuts: &Cuts, count: usize) -> impl Iterator<Item = &CutPart> {
     let parts = cuts.parts().iter().take(count);
-    parts.filter(|part| part.felt > 0 && part.length() > 0.0)
+    parts.filter(|part| part.in_mechanics > 0 && part.length() > 0.0)
 }
 
 impl CutPaths {
-    /// With room for so many points.
-    pub(super) fn with_room(points: usize) -> Self {
+    /// With capacity for this number of points.
+    pub(super) fn with_capacity(points: usize) -> Self {
         Self {
             points: Vec::with_capacity(points),
             begins: Vec::with_capacity(points),
         }
     }
 
-    /// Becomes those of the first `count` parts of `cuts`.
+    /// Takes over the first `count` parts of `cuts`.
     pub(super) fn follow(&mut self, model: &CuttingModel, cuts: &Cuts, count: usize) {
         self.points.clear();
         self.begins.clear();
         let mut end = None;
-        for part in felt(cuts, count) {
-            let depth = model.slit_depth(part.felt);
+        for part in parting_parts(cuts, count) {
+            let depth = model.slit_depth(part.in_mechanics);
             let point = |place| SlitPoint {
                 place,
                 normal: part.normal,
@@ -80,7 +80,7 @@ impl CutPaths {
                 self.begins.push(self.points.len());
                 self.points.push(point(from));
             } else if let Some(last) = self.points.last_mut() {
-                // Where a cut becomes deeper it is as deep as it becomes.
+                // Where the depth of a cut increases the larger one counts.
                 last.depth = last.depth.max(depth);
                 last.normal = (last.normal + part.normal).normalize();
             }
@@ -97,13 +97,13 @@ impl CutPaths {
         ranges.map(|(begin, end)| &self.points[*begin..end])
     }
 
-    /// Whether a place [m] is closer to a point of the cuts than `reach` [m].
+    /// Whether a point [m] is closer to a point of the cuts than `reach` [m].
     pub(super) fn is_within(&self, place: &Vec3, reach: f64) -> bool {
         let mut points = self.points.iter();
         points.any(|point| (point.place - place).norm() < reach)
     }
 
-    /// A place [m] as far from every cut as its sides may be off it.
+    /// Moves a point [m] as far from every cut as its sides may deviate from it.
     pub(super) fn aside(&self, place: &Vec3) -> Vec3 {
         let pairs = self.each().flat_map(|path| path.windows(2));
         let nearest = pairs.map(|pair| {
@@ -125,7 +125,7 @@ impl CutPaths {
 }
 
 impl NonlinearOrgan {
-    /// This organ, which is whole, with slits along `paths`; and the length of them that stays closed [m].
+    /// This intact organ with slits along `paths`; and the total length of those that stay closed [m].
     pub(super) fn slit(&self, paths: &CutPaths) -> Result<(Self, f64), Error> {
         let composition = &self.composition;
         let (mut filled, mut closed) = (Vec::new(), 0.0);
@@ -138,7 +138,7 @@ impl NonlinearOrgan {
             for path in own {
                 let mut parted = slit.clone();
                 let stays = open(&mut parted, path);
-                // What nothing holds has no place; a fluid would leave a cavity that is opened.
+                // An unfixed piece has no equilibrium; a fluid would leave an opened cavity.
                 let is_held = parted.is_held(|place| anchors[number].fixes(place));
                 if is_held && encloses_cavities(&parted, whole, &composition.pieces[number]) {
                     slit = parted;
@@ -153,7 +153,7 @@ impl NonlinearOrgan {
         Ok((organ, closed))
     }
 
-    /// Which piece has the place of the shown surface nearest to a place [m].
+    /// The piece with the point of the displayed surface that is closest to a point [m].
     fn piece_at(&self, place: &Vec3) -> usize {
         let composition = &self.composition;
         let nearest = composition.tree.nearest(composition.shown.mesh(), place);
@@ -168,7 +168,7 @@ fn encloses_cavities(slit: &SlitTetrahedra, whole: &Filled, piece: &Piece) -> bo
     cavities == 0 || hollow().is_ok()
 }
 
-/// Opens a slit along a path; how much of its length stays closed [m].
+/// Opens a slit along a path; returns how much of its length stays closed [m].
 fn open(slit: &mut SlitTetrahedra, path: &[SlitPoint]) -> f64 {
     let mut thinned: Vec<SlitPoint> = Vec::with_capacity(path.len());
     for (number, point) in path.iter().enumerate() {
@@ -201,7 +201,7 @@ fn length(path: &[SlitPoint]) -> f64 {
 }
 
 impl Filled {
-    /// Its elements, some of which are in parts.
+    /// Its elements, some of them divided.
     fn slit(&self, slit: SlitTetrahedra) -> Result<Self, TetrahedronError> {
         let (mesh, parents) = slit.into_mesh()?;
         let regions = parents
@@ -215,7 +215,7 @@ impl Filled {
 }
 
 impl Elements {
-    /// Those that are parts of these: each of the one with its number.
+    /// The materials of the parts: each from its original element.
     pub(super) fn parts(&self, parents: &[u32]) -> Self {
         let parents = || parents.iter().map(|&parent| parent as usize);
         Self {

@@ -1,7 +1,8 @@
-//! Further organs and neighbours that bend: further pieces of the body, each of its own tissues and held where it stands.
+//! Further organs and neighbours that bend: further pieces of the body, each with its own tissues and its own fixed
+//! region.
 //!
-//! Pieces stay out of one another, and an organ with `self_contact` out of itself (`TouchingBoundary`); tools touch all of
-//! them.
+//! Pieces are in contact with one another, and an organ with `self_contact` with itself (`TouchingBoundary`); tools
+//! touch all of them.
 //!
 //! *How we know*: `nonlinear_soft::…`.
 
@@ -27,7 +28,7 @@ use crate::walls::typical_wall;
 pub(crate) struct SoftBody {
     pub(crate) surface: Surface,
     pub(crate) regions: Regions,
-    /// Where it is held; in its own frame if it has one.
+    /// Its fixed region; in its own frame if it has one.
     anchor: Region,
     location: Option<Location>,
     pub(super) nodes: usize,
@@ -37,7 +38,7 @@ pub(crate) struct SoftBody {
 }
 
 impl SoftBody {
-    /// Those of `scene`, and warnings.
+    /// The neighbours of `scene` that bend, and warnings.
     pub(crate) fn all(scene: &Scene) -> Result<(Vec<Self>, Vec<String>), Error> {
         let (mut all, mut warnings) = (Vec::new(), Vec::new());
         for (number, neighbour) in scene.neighbours.iter().enumerate() {
@@ -77,12 +78,12 @@ impl SoftBody {
         Ok((all, warnings))
     }
 
-    /// Finds the force of its tissue on the tips of the `tools` of `scene`, and warnings.
+    /// Computes the force of its tissue on the tips of the `tools` of `scene`, and warnings.
     pub(crate) fn meet(
         &mut self,
         scene: &Scene,
         tools: &[Tool],
-        watch: &mut dyn FnMut(f64),
+        on_progress: &mut dyn FnMut(f64),
     ) -> Result<Vec<String>, Error> {
         let touched = scene.tools.iter();
         let touched = touched.map(|tool| self.regions.touched(typical_radius(&tool.tip)));
@@ -91,13 +92,14 @@ impl SoftBody {
         for (tool, (_, material)) in own.iter_mut().zip(&touched) {
             tool.law = TipLaw::linear(tool.tip, tool.bond, material.at_rest);
         }
-        let warnings = stiffen(&mut own, &touched, watch)?;
-        own.iter_mut().for_each(|tool| self.regions.lie_under(tool));
+        let warnings = stiffen(&mut own, &touched, on_progress)?;
+        own.iter_mut()
+            .for_each(|tool| self.regions.apply_to_tip(tool));
         self.laws = own.into_iter().map(|tool| tool.law).collect();
         Ok(warnings)
     }
 
-    /// Whether a `place` of it [m] is held.
+    /// Whether a `place` of it [m] is fixed.
     pub(super) fn holds(&self, place: &Vec3) -> bool {
         let place = match &self.location {
             Some(location) => back(location, place),
@@ -107,18 +109,18 @@ impl SoftBody {
     }
 }
 
-/// A piece of the body, as tools meet it.
+/// A piece of the body, for tools.
 #[derive(Debug, Clone)]
 pub(super) struct Piece {
-    /// Its part of the shown triangles.
+    /// Its part of the displayed triangles.
     triangles: Range<u32>,
     /// Its tissues.
     pub(super) regions: Regions,
-    /// How thick it typically is [m].
+    /// Its typical thickness [m].
     pub(super) wall: f64,
     /// The force of its tissue on the tip of each tool; those of the tools themselves for the organ.
     laws: Vec<TipLaw>,
-    /// Of each tool, whether it bends around its tip, rather than that makes a dimple in it.
+    /// For each tool, whether the piece bends around its tip instead of forming a dimple under it.
     pub(super) bends_around: Vec<bool>,
 }
 
@@ -156,7 +158,7 @@ impl Piece {
         self.regions.at_rest()
     }
 
-    /// Which of the `pieces` has a shown triangle.
+    /// The piece that has a displayed triangle.
     pub(super) fn with(pieces: &[Self], triangle: u32) -> usize {
         let found = pieces
             .iter()
@@ -170,14 +172,14 @@ impl Piece {
     }
 }
 
-/// Whether a `wall` so thick [m] bends around a tip: a ball that can slide and is wider than the wall. One that sticks whatever
-/// the force is taken as a dimple all the same.
+/// Whether a `wall` of this thickness [m] bends around a tip: a ball that can slide and is wider than the wall. A tip
+/// that always sticks counts as forming a dimple nevertheless.
 fn wraps(tool: &Tool, wall: f64) -> bool {
     matches!(tool.tip, Tip::Sphere { radius } if tool.slides() && radius > wall)
 }
 
-/// How the pieces touch one another, the sides of cuts each other, and the organ itself with this friction if it does; none where
-/// nothing does.
+/// The contact of the pieces with one another, of the sides of cuts with each other, and of the organ with itself with
+/// this friction if it has any; none without any contact.
 pub(super) fn touching(
     on_itself: Option<f64>,
     model: &NonlinearModel,

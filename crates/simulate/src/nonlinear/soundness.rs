@@ -1,4 +1,4 @@
-//! Whether the forces of a step are an answer.
+//! A check that the forces of a step are a valid solution.
 
 use std::f64::consts::PI;
 
@@ -7,16 +7,16 @@ use palpate_mechanics::nonlinear::Against;
 use super::{Body, NonlinearOrgan, NonlinearWorkspace, jaws_radius};
 use crate::tool::Tool;
 
-/// Mean pressure of a load, and pressure of a point on a shaft [Young's moduli], beyond which there is no answer: a flat punch eight
-/// radii deep in neo-Hookean tissue has a tenth of it.
+/// Mean pressure of a load, and pressure of a point on a shaft [Young's moduli], beyond which a solution is invalid: a
+/// flat punch eight radii deep in neo-Hookean tissue has a tenth of it.
 const MOST_PRESSURE: f64 = 100.0;
 
-/// The force of a tool leaps to less than so many times what it was and what it was to become together, or what a pressure of Young's
-/// modulus on the tool's area makes if that is more [-].
+/// Largest jump of a tool's force, as a multiple of its old and its expected force together, or of a pressure of
+/// Young's modulus on the tool's area if that is more [-].
 const LEAP: f64 = 5.0;
 
 impl NonlinearOrgan {
-    /// Whether the force of a tool is more than any tissue withstands, or leaps: the step had no answer.
+    /// Whether the force of a tool is more than any tissue withstands, or jumps: the step had no solution.
     pub(super) fn is_unsound(
         &self,
         tools: &[Tool],

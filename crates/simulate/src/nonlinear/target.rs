@@ -1,4 +1,4 @@
-//! Where a tool moves the organ in a step.
+//! The displacement of the organ by a tool in a step.
 
 use nalgebra::{Matrix3, Rotation3, SymmetricEigen};
 use palpate_geometry::Vec3;
@@ -8,43 +8,43 @@ use palpate_mechanics::{Limit, Reached};
 use super::{Body, NonlinearOrgan};
 use crate::state::ToolState;
 
-/// Farther than this a step moves no part of the organ that a tool loads, and no farther than a part of the load's radius
-/// [m, -].
+/// Largest motion in a step of any part of the organ that a tool loads, relative to the load's radius, and absolute [m,
+/// -].
 const FARTHEST: f64 = 2e-3;
 const FARTHEST_OF_LOAD: f64 = 1.0 / 6.0;
 
-/// A lag behind a tool is told from this on: in parts of its way in a step, and [m].
-const TOLD_LAG: (f64, f64) = (0.1, 1e-4);
+/// A lag behind a tool above this is reported: relative to its motion in a step, and [m].
+const REPORTED_LAG: (f64, f64) = (0.1, 1e-4);
 
-/// Where a tool moves the organ in this step.
+/// The target of a tool's displacement in this step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Target {
     pub(super) along: Option<Vec3>,
-    /// The elastic force that it will make as far as the organ is linear, and the one that it makes [N].
+    /// Its elastic force after the step in the linear approximation, and the present one [N].
     pub(super) forces: [Vec3; 2],
     /// d, C and o: W ᵀu + C Fₑ + o = d with the elastic force Fₑ, of which F relaxes.
     pub(super) displacement: Vec3,
     pub(super) compliance: Matrix3<f64>,
     pub(super) offset: Vec3,
-    /// What its condition lacks now [m].
+    /// Residual of its condition now [m].
     pub(super) jump: Vec3,
-    /// How far what it loads will move [m].
-    pub(super) way: Vec3,
+    /// Expected displacement of its load [m].
+    pub(super) travel: Vec3,
 }
 
-/// How far a load moves in a step, at most [m].
+/// Largest displacement of a load in a step [m].
 pub(super) fn farthest(load: &SpreadLoad) -> f64 {
     FARTHEST.min(FARTHEST_OF_LOAD * load.radius)
 }
 
-/// A load as it is now.
+/// The present state of a load.
 pub(super) struct Now {
     /// ū [m], Fₑ [N] and Z [m/N].
     pub(super) mean: Vec3,
     pub(super) force: Vec3,
     pub(super) yields: Matrix3<f64>,
     pub(super) turn: Rotation3<f64>,
-    /// What it moves itself by on a half-space [m/N]: along the surface, and along its normal.
+    /// Its self-compliance on a half-space [m/N]: along the surface, and along its normal.
     pub(super) own: [f64; 2],
 }
 
@@ -67,8 +67,8 @@ impl Now {
 }
 
 impl Target {
-    /// Of a tool that is displaced by d [m], of which tip and organ together make the force `goal` [N] on the organ, and
-    /// yield `both` [m/N] to more.
+    /// For a tool with the displacement d [m], where tip and organ together make the force `goal` [N] on the organ, and
+    /// have the tangent compliance `both` [m/N].
     pub(super) fn new(
         along: Option<Vec3>,
         displacement: Vec3,
@@ -85,20 +85,20 @@ impl Target {
         };
         let free = now.mean - now.yields * now.force;
         let offset = displacement - free - (now.yields + compliance) * goal;
-        let way = now.yields * (goal - now.force);
+        let travel = now.yields * (goal - now.force);
         Self {
             along,
             forces: [*goal, now.force],
             displacement,
             compliance,
             offset,
-            jump: way + compliance * (goal - now.force),
-            way,
+            jump: travel + compliance * (goal - now.force),
+            travel,
         }
     }
 
-    /// Tells of a step that did not take the organ to where its tool has it.
-    pub(super) fn tell_pace(&self, body: &Body, number: usize, tool: &mut ToolState) {
+    /// Reports a step after which the organ lags behind its tool.
+    pub(super) fn report_lag(&self, body: &Body, number: usize, tool: &mut ToolState) {
         let mean = body.state.mean_displacement(&body.loads[number].nodes);
         let force = body.histories[number].elastic();
         let lag = self.displacement - self.offset - self.compliance * force - mean;
@@ -106,29 +106,29 @@ impl Target {
             Some(normal) => normal.dot(&lag).abs(),
             None => lag.norm(),
         };
-        let way = self.way.norm();
-        if lag > TOLD_LAG.1.max(TOLD_LAG.0 * way) {
+        let travel = self.travel.norm();
+        if lag > REPORTED_LAG.1.max(REPORTED_LAG.0 * travel) {
             let reached = Reached {
-                asked: way.max(lag),
-                used: (way.max(lag) - lag).max(0.0),
+                asked: travel.max(lag),
+                used: (travel.max(lag) - lag).max(0.0),
             };
             tool.limited.add(Limit::Pace, reached);
         }
     }
 
-    /// With this part of the jump `left` [-], after this part of the `way` [-], where F = γ Fₑ − Fₕ with the share and the
+    /// With this part of the jump `left` [-], after this part of the `travel` [-], where F = γ Fₑ − Fₕ with the share and the
     /// history [N] `relaxes`.
     pub(super) fn coupling<'a>(
         &self,
         nodes: &'a [(u32, f64)],
         left: f64,
-        way: f64,
+        travel: f64,
         relaxes: (f64, Vec3),
     ) -> Coupling<'a> {
         let (follows, history) = relaxes;
         let compliance = self.compliance / follows;
         Coupling {
-            advance: self.way * way,
+            advance: self.travel * travel,
             nodes,
             along: self.along,
             displacement: self.displacement,
@@ -138,12 +138,12 @@ impl Target {
     }
 }
 
-/// The stiffness of a tip that slips, with enough along the surface for an inverse: it is not asked for there.
+/// The stiffness of a slipping tip, with a tangential part that makes it invertible; that part is not used.
 pub(super) fn slippery(stiffness: &Matrix3<f64>) -> Matrix3<f64> {
     Matrix3::from_diagonal_element(stiffness[(2, 2)])
 }
 
-/// The nearest matrix that gives no energy.
+/// The nearest positive semidefinite matrix.
 pub(super) fn positive(matrix: &Matrix3<f64>) -> Matrix3<f64> {
     let mut eigen = SymmetricEigen::new(0.5 * (matrix + matrix.transpose()));
     eigen.eigenvalues.apply(|value| *value = value.max(0.0));

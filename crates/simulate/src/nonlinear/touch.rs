@@ -1,21 +1,21 @@
-//! Tips and jaws on the organ as it is now, and the step that moves it.
+//! Contact of tips and jaws with the organ in its present state, and the step that moves it.
 //!
-//! Contact is sought on the organ at rest, with the tip carried back there: with X the touched place, Q the mean rotation
-//! and ū the mean displacement of what the tip loads, Z what its force F moves that by,
+//! The contact search uses the organ at rest, with the tip carried back there: with X the contact location, Q the mean
+//! rotation and ū the mean displacement of the tip's load, Z its self-compliance and F its force,
 //!
 //! ```text
 //! X + Qᵀ (tip − X − (ū − Z F))
 //! ```
 //!
-//! is where the tip would be on an organ that it alone does not move. So depth is what it is with the other models: how
-//! far the tip is below the surface that would be there without it.
+//! is the position of the tip relative to an organ that this tip alone does not displace. So the depth has the same
+//! meaning as in the other models: the distance of the tip below the surface as it would be without it.
 //!
-//! With C the tip's own compliance at the force F* that its law and the organ's compliance ask for, less that of its
-//! load, the step solves W ᵀu + C F + o = d; o makes F* its solution where the organ is linear. What the factors at
-//! rest say of Z then changes how fast the steps converge, and not where to.
+//! With C the tip's own compliance at the force F* from its law and the organ's compliance, less that of its load, the
+//! step solves W ᵀu + C F + o = d; o makes F* its solution where the organ is linear. The Z from the factors at rest
+//! then affects only how fast the steps converge, and not the result.
 //!
-//! Where tissue relaxes, all of this is said of the elastic force Fₑ of a tool, of which F = γ Fₑ − Fₕ is left: the tissue
-//! under a tip relaxes as that at the surface does, and the elements each as their own.
+//! Where tissue relaxes, all of this holds for the elastic force Fₑ of a tool, of which F = γ Fₑ − Fₕ remains: the
+//! tissue under a tip relaxes like that at the surface, and each element like its own.
 
 use std::sync::Arc;
 
@@ -37,33 +37,34 @@ use crate::simulation::Simulation;
 use crate::state::{SimulationState, ToolState};
 use crate::tool::Tool;
 
-/// A way that is longer than a step goes is taken in several, at most in so many [-].
+/// A motion longer than a step allows is divided into several steps, at most this many [-].
 const MOST_PARTS: usize = 8;
 
-/// Displacements below this [m] are none: less than is seen or felt.
+/// Displacements below this [m] count as zero: they can be neither seen nor felt.
 const AT_REST: f64 = 1e-6;
 
-/// What is left of the largest displacement after a step in which nothing loads the organ, at most [-].
+/// Largest ratio of the largest displacement after a step to that before, when nothing loads the organ [-].
 const SLOWEST_RETURN: f64 = 0.9;
 
-/// After so many such steps on end it is put there: an element that is inside out may hold it elsewhere.
-const LATEST: u32 = 100;
+/// After this many such steps in succession it is set to rest: an inverted element may block it elsewhere.
+const MOST_STALLED: u32 = 100;
 
-/// A tool that has let go is followed for so many steps at most: a fifth of a second, in which tissue goes back by 4 cm.
-const LETS_GO_WITHIN: u32 = 40;
+/// Largest number of steps for which a released tool is still followed: a fifth of a second, in which tissue recovers
+/// by 4 cm.
+const MOST_RELEASE_STEPS: u32 = 40;
 
 /// Scenes have no more tools.
 const MOST_TOOLS: usize = 2;
 
-/// Softer than this part of the organ around it, a contact is none yet [-].
+/// A contact softer than this part of the organ around it does not count yet [-].
 const LEAST_STIFFNESS: f64 = 1e-6;
 
-/// How the steps of a period ended.
+/// The result of the steps of a period.
 #[derive(Debug, Clone, Copy, Default)]
 struct Ended {
-    /// Whether one of them had no answer.
+    /// Whether one of them had no solution.
     has_no_answer: bool,
-    /// Whether elements of a body that relaxes are inside out.
+    /// Whether elements of a relaxing body are inverted.
     is_inverted: bool,
 }
 
@@ -73,17 +74,17 @@ impl Body {
         self.forget_cuts(organ);
         self.state.reset(&organ.model);
         self.is_at_rest = true;
-        self.late = 0;
+        self.stalled = 0;
         self.is_loaded.fill(false);
-        self.lets_go.fill(0);
+        self.release_steps.fill(0);
         self.histories.fill(ForceHistory::default());
         self.shafts.fill(None);
         self.clear_of_shafts.fill(0.0);
         self.pierced.fill(0);
     }
 
-    /// Puts a body that nothing loads and that is as good as at rest there; whether it is.
-    fn come_to_rest(&mut self, model: &NonlinearModel) -> bool {
+    /// Sets an unloaded body that is nearly at rest to rest; returns whether it is.
+    fn set_to_rest(&mut self, model: &NonlinearModel) -> bool {
         if !self.is_at_rest && self.state.is_within(model, AT_REST) {
             self.state.reset(model);
             self.is_at_rest = true;
@@ -93,7 +94,7 @@ impl Body {
 }
 
 impl NonlinearOrgan {
-    /// Where the tip of tool `number` would be [m] on the organ at rest; none where it is clear of the organ.
+    /// Position of the tip of tool `number` [m] relative to the organ at rest; none if it is clear of the organ.
     pub(crate) fn carry_back(
         &self,
         simulation: &Simulation,
@@ -108,7 +109,7 @@ impl NonlinearOrgan {
         }
     }
 
-    /// Finds the elastic force and the stiffness of every tool, and moves the organ.
+    /// Computes the elastic force and the stiffness of every tool, and moves the organ.
     pub(crate) fn press(
         &self,
         simulation: &Simulation,
@@ -128,7 +129,7 @@ impl NonlinearOrgan {
         }
         let has_shafts = self.keep_near_shafts(&mut workspace.shafts, body);
         let is_free = workspace.targets.iter().all(Option::is_none);
-        if is_free && !has_shafts && body.come_to_rest(&self.model) {
+        if is_free && !has_shafts && body.set_to_rest(&self.model) {
             return;
         }
         let before = body.state.largest(&self.model);
@@ -139,26 +140,25 @@ impl NonlinearOrgan {
         {
             body.state.reset(&self.model);
             body.histories.fill(ForceHistory::default());
-            tools.iter_mut().for_each(ToolState::lose);
+            tools.iter_mut().for_each(ToolState::release);
             return;
         }
-        // Rest is where an organ goes that nothing loads; elements that were turned inside out may not find there. What
-        // relaxes takes its time.
-        let is_late = body.state.largest(&self.model) > SLOWEST_RETURN * before;
+        // An unloaded organ returns to rest; inverted elements may not get there. A relaxing body takes its time.
+        let is_slow = body.state.largest(&self.model) > SLOWEST_RETURN * before;
         let state = &body.state;
         let is_held = state.has_friction() || state.touches_itself() || state.touches_tools();
-        let lags = is_free && is_late && !is_held && (ended.is_inverted || !self.model.relaxes());
-        body.late = if lags { body.late + 1 } else { 0 };
-        if body.late > LATEST {
+        let lags = is_free && is_slow && !is_held && (ended.is_inverted || !self.model.relaxes());
+        body.stalled = if lags { body.stalled + 1 } else { 0 };
+        if body.stalled > MOST_STALLED {
             body.state.reset(&self.model);
         } else if lags {
             body.state.shrink(&self.model, SLOWEST_RETURN);
         }
         self.push_shafts(tools, body, workspace);
         for (number, (own, target)) in tools.iter_mut().zip(&workspace.targets).enumerate() {
-            if let (Some(target), false) = (target, body.lets_go[number] > 0) {
+            if let (Some(target), false) = (target, body.release_steps[number] > 0) {
                 own.elastic = -body.histories[number].elastic();
-                target.tell_pace(body, number, own);
+                target.report_lag(body, number, own);
                 workspace.own.candidates.report(own);
             }
             own.solved = own.elastic;
@@ -168,7 +168,7 @@ impl NonlinearOrgan {
         }
     }
 
-    /// What a tool does in this step; or what it leaves, that has let go.
+    /// The target of a tool in this step, or of a released one.
     fn target(
         &self,
         tool: &Tool,
@@ -181,27 +181,27 @@ impl NonlinearOrgan {
         self.turn_history(tool, number, own, body);
         let mut target = match own.holds() {
             true => self.hold(tool, number, own, body),
-            // A tip that touches again while tissue goes back takes it from there.
-            false if body.lets_go[number] > 0 && own.contact.is_none() => None,
+            // A tip that touches again during the recovery starts from the present state.
+            false if body.release_steps[number] > 0 && own.contact.is_none() => None,
             false => self.touch(tool, number, own, series, elapsed, body),
         };
-        let steps = &mut body.lets_go[number];
+        let steps = &mut body.release_steps[number];
         *steps = match (&target, *steps) {
             (Some(_), _) => 0,
-            (None, 0) if body.is_loaded[number] => LETS_GO_WITHIN,
+            (None, 0) if body.is_loaded[number] => MOST_RELEASE_STEPS,
             (None, steps) => steps.saturating_sub(1),
         };
         if *steps > 0 {
-            target = self.let_go(number, body);
+            target = self.release_target(number, body);
             if target.is_none() {
-                body.lets_go[number] = 0;
+                body.release_steps[number] = 0;
             }
         }
         body.is_loaded[number] = target.is_some();
         target
     }
 
-    /// Turns what a tool's force was with what it touches, and forgets it where the tool has.
+    /// Rotates the history of a tool's force with its contact location, and resets it after a release.
     fn turn_history(&self, tool: &Tool, number: usize, own: &mut ToolState, body: &mut Body) {
         let nodes = &body.loads[number].nodes;
         if !self.model.relaxes() || nodes.is_empty() {
@@ -214,12 +214,12 @@ impl NonlinearOrgan {
         if own.history == ForceHistory::default() {
             body.histories[number] = ForceHistory::default();
         } else if own.holds() || tool.friction.is_none() {
-            // That of a tip with friction turns with its contact.
+            // The history of a tip with friction turns with its contact.
             own.history.turn(by.matrix());
         }
     }
 
-    /// Moves the organ as far as the tools have it, and no farther than a step can, while it relaxes for so long [s].
+    /// Moves the organ to the tools' targets, but no farther than a step allows, while it relaxes for this long [s].
     fn go(
         &self,
         simulation: &Simulation,
@@ -230,33 +230,33 @@ impl NonlinearOrgan {
         body.is_at_rest = false;
         let series = &simulation.material.prony;
         let targets = &workspace.targets;
-        let own = |target: &Option<Target>| target.map_or(0.0, |target| target.way.norm());
+        let own = |target: &Option<Target>| target.map_or(0.0, |target| target.travel.norm());
         let shafts = || workspace.shafts.iter().flatten();
-        let ways = targets.iter().zip(&body.loads);
-        let ways = ways.map(|(target, load)| own(target) / farthest(load));
-        let asked = ways.chain(shafts().map(ShaftMotion::parts));
+        let travels = targets.iter().zip(&body.loads);
+        let travels = travels.map(|(target, load)| own(target) / farthest(load));
+        let asked = travels.chain(shafts().map(ShaftMotion::parts));
         let asked = asked.fold(0.0, f64::max);
         let parts = (asked.ceil() as usize).clamp(1, MOST_PARTS);
         let reach = (MOST_PARTS as f64 / asked).min(1.0) / parts as f64;
-        let way = targets
+        let travel = targets
             .iter()
             .map(own)
-            .chain(shafts().map(ShaftMotion::way));
-        let way = reach * way.fold(0.0, f64::max);
+            .chain(shafts().map(ShaftMotion::travel));
+        let travel = reach * travel.fold(0.0, f64::max);
         let mut pace = Pace {
             iterations: self.composition.iterations,
             elapsed: elapsed / parts as f64,
         };
         let mut ended = Ended::default();
         for part in 1..=parts {
-            // What bends moves under what it touches.
+            // Bodies that bend move under their contacts.
             let has_shafts = workspace.shafts.iter().any(Option::is_some);
             if part == 1 || self.touching.is_some() || has_shafts {
                 let candidates = &mut workspace.own.candidates;
                 let motion = StepMotion {
                     shafts: &workspace.shafts,
                     parts: [part - 1, part].map(|part| reach * part as f64),
-                    way,
+                    travel,
                 };
                 candidates.find(self, &simulation.neighbours, motion, &body.state);
                 let is_hard = candidates.touches_itself(&body.state) || candidates.touches_shafts();
@@ -297,7 +297,7 @@ impl NonlinearOrgan {
         ended
     }
 
-    /// The forces after tissue has slid in its jaws, as far as the organ is linear: the next step solves for them.
+    /// The forces after tissue has slid in the jaws, by linearization: the next step solves for them.
     pub(crate) fn press_again(&self, tools: &mut [ToolState]) {
         for own in tools {
             own.elastic = match &own.grip.hold {
@@ -308,7 +308,7 @@ impl NonlinearOrgan {
         }
     }
 
-    /// What a tip that touches does.
+    /// The target of a tip in contact.
     fn touch(
         &self,
         tool: &Tool,
@@ -333,7 +333,7 @@ impl NonlinearOrgan {
         boundary.spread(&place.point, &contact.rest_normal(), reach, load);
         let mut now = Now::of(self, body, number);
         if is_wrapped {
-            // Its points touch the tip as a shaft.
+            // The wall's points touch the tip as they do a shaft.
             now.force = -own.pushed.force;
         }
         let tip = Vec3::from(pose.position_m);
@@ -362,7 +362,7 @@ impl NonlinearOrgan {
         own.limited = answer.limits;
         let goal = -(frame * answer.force);
         let (follows, history) = body.histories[number].foresee(series, elapsed);
-        // Tissue that has not come back yet does not hold the tip.
+        // Tissue that has not yet recovered does not hold the tip.
         if self.model.relaxes() && (follows * goal - history).dot(&contact.normal()) >= 0.0 {
             own.elastic = -goal;
             return None;
@@ -372,7 +372,7 @@ impl NonlinearOrgan {
             Friction::Bonded => (None, answer.stiffness),
         };
         let tip_and_organ = frame * stiffness.try_inverse()? * frame.transpose();
-        // A tip that hardly touches.
+        // A tip with little contact.
         if now.yields.trace() < LEAST_STIFFNESS * tip_and_organ.trace() {
             return None;
         }
@@ -385,7 +385,7 @@ impl NonlinearOrgan {
         ))
     }
 
-    /// What jaws that hold do.
+    /// The target of jaws that hold.
     fn hold(&self, tool: &Tool, number: usize, own: &mut ToolState, body: &Body) -> Option<Target> {
         let hold = own.grip.hold.as_ref()?;
         let Held::Area(area) = &hold.held else {
@@ -404,19 +404,19 @@ impl NonlinearOrgan {
             compliance,
             offset,
             jump,
-            way: now.yields * own.stiffness * jump,
+            travel: now.yields * own.stiffness * jump,
         })
     }
 
-    /// What is left of a tool that has let go: its place goes back to where there is no force, no farther in a step than a
-    /// step follows well. None once the rest is a small way.
-    fn let_go(&self, number: usize, body: &Body) -> Option<Target> {
+    /// The target of a released tool: its load returns to zero force, no farther in a step than a step follows well.
+    /// None once the remaining displacement is small.
+    fn release_target(&self, number: usize, body: &Body) -> Option<Target> {
         let now = Now::of(self, body, number);
         let back = -(now.yields * body.state.force(number));
-        let way = back.norm();
+        let travel = back.norm();
         let farthest = farthest(&body.loads[number]);
-        (way > farthest).then(|| {
-            let displacement = now.mean + back * (farthest / way);
+        (travel > farthest).then(|| {
+            let displacement = now.mean + back * (farthest / travel);
             Target {
                 along: None,
                 forces: [now.force; 2],
@@ -424,19 +424,19 @@ impl NonlinearOrgan {
                 compliance: Matrix3::zeros(),
                 offset: Vec3::zeros(),
                 jump: displacement - now.mean,
-                way: displacement - now.mean,
+                travel: displacement - now.mean,
             }
         })
     }
 
-    /// What a load makes of its own half-space [m/N], in the frame of the contact.
+    /// Self-compliance of a load on its own half-space [m/N], in the contact frame.
     fn of_load(&self, now: &Now) -> Matrix3<f64> {
         let [along, normal] = now.own;
         Matrix3::from_diagonal(&Vec3::new(along, along, normal))
     }
 
-    /// The compliance of jaws [m/N] beyond that of their load: that of a bonded flat tip of their faces' area, in the `frame`
-    /// at rest that the organ has turned since.
+    /// Compliance of jaws [m/N] beyond that of their load: that of a bonded flat tip with the area of their faces, in
+    /// the `frame` at rest, rotated with the organ.
     pub(super) fn of_jaws(
         &self,
         tool: &Tool,
@@ -460,8 +460,8 @@ impl NonlinearOrgan {
 }
 
 impl ToolState {
-    /// Loses what it touches and holds of an organ whose answer was none.
-    fn lose(&mut self) {
+    /// Releases contact and held tissue of an organ whose solution was invalid.
+    fn release(&mut self) {
         if self.touches() {
             self.row.events.insert(Event::NoEquilibrium);
             self.row.events.insert(Event::Release);

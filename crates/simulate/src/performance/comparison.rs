@@ -2,7 +2,7 @@
 
 use super::{Better, Measure, Score};
 
-/// What experts reach in one measure.
+/// The experts' level in one measure.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Standard {
     /// The measure.
@@ -12,18 +12,18 @@ pub struct Standard {
     pub mean: f64,
     /// Of a session [the measure's unit]; none for a single one.
     pub standard_deviation: Option<f64>,
-    /// How many sessions.
+    /// Number of sessions.
     #[serde(rename = "sessions")]
     pub count: usize,
 }
 
-/// A measure beside its standard.
+/// A measure compared with its standard.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Comparison {
-    /// What was reached.
+    /// The reached value.
     #[serde(skip)]
     pub measure: Measure,
-    /// What experts reach.
+    /// The experts' level.
     #[serde(flatten)]
     pub standard: Standard,
     /// Value over the experts' mean [-]; none where that is zero.
@@ -34,7 +34,7 @@ pub struct Comparison {
 }
 
 impl Standard {
-    /// Of experts' scores: what each of their measures is, in the order of the first.
+    /// From experts' scores: the standard of each of their measures, in the order of the first.
     pub fn of(experts: &[Score]) -> Vec<Self> {
         let lists: Vec<Vec<Measure>> = experts.iter().map(Score::measures).collect();
         let mut keys: Vec<&str> = Vec::new();
@@ -60,7 +60,7 @@ impl Standard {
     }
 }
 
-/// The measures of a score that have a standard, beside it.
+/// The measures of a score that have a standard, compared with it.
 pub fn compare(score: &Score, standards: &[Standard]) -> Vec<Comparison> {
     let beside = |measure: Measure| {
         let standard = standards

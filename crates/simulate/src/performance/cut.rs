@@ -1,4 +1,4 @@
-//! Where was cut, beside where should be.
+//! The cuts, compared with the required line.
 
 use palpate_files::scene::Goal;
 use palpate_files::{Event, SessionRow};
@@ -6,82 +6,82 @@ use palpate_geometry::Vec3;
 
 use crate::polyline::Polyline;
 
-/// A blade that is farther from where it was a row before than this [m] was lifted in between.
+/// A blade that is farther from its position a row before than this [m] was lifted in between.
 const LEAP: f64 = 5e-3;
 
-/// Strokes that leave less than this [m] between them are one cut: an opening goes on to the edge of its triangle,
-/// about a millimetre, and nothing is left there that a blade could open.
+/// Cuts along the line with gaps shorter than this [m] count as one: an opening extends to the edge of its triangle,
+/// about a millimetre, and leaves no tissue there for a blade to open.
 const JOINED: f64 = 1.5e-3;
 
-/// A line is whole when this part of it is left at most [-], and no more than strokes may leave between them: openings
+/// A line is complete when at most this part of it is left [-], and no gap is longer than the tolerated one: openings
 /// end at the edges of triangles.
 const LEFT: f64 = 0.03;
 
-/// The ways of cuts.
+/// The paths of the cuts.
 #[derive(Debug, Clone)]
-pub(super) struct CutWay {
+pub(super) struct CutTracker {
     line: Option<Polyline>,
-    /// The largest distance from it that counts [m].
+    /// The largest counted distance from it [m].
     tolerance: f64,
-    /// The layer that the line shall be cut down to; none in an organ without layers.
+    /// The layer down to which the line is to be cut; none in an organ without layers.
     wanted_layers: Option<usize>,
-    /// Where something was opened, cut by cut.
-    cut_paths: Vec<Vec<Place>>,
-    /// Which tool makes the last one.
-    by: Option<Maker>,
+    /// The openings, cut by cut.
+    cut_paths: Vec<Vec<Opening>>,
+    /// The tool that makes the last one.
+    by: Option<CuttingTool>,
 }
 
 /// A tool that makes a cut.
 #[derive(Debug, Clone, Copy)]
-struct Maker {
+struct CuttingTool {
     tool: usize,
-    /// Whether it cuts because a hand says so, and not because tissue gives way under it.
+    /// Whether the hand makes the cut, and not tissue that gives way under the tool.
     by_hand: bool,
-    /// Where its tip was last [m].
+    /// Last position of its tip [m].
     tip: Vec3,
 }
 
-/// Where something was opened.
+/// An opening.
 #[derive(Debug, Clone, Copy)]
-struct Place {
+struct Opening {
     /// The tip [m].
     tip: Vec3,
-    /// The deepest layer that was opened there; none in an organ without layers.
+    /// The deepest layer opened there; none in an organ without layers.
     layer: Option<usize>,
-    /// Whether the surface was opened there, not a layer below an opening.
+    /// Whether it opens the surface, and not a layer below an opening.
     outermost: bool,
-    /// Where it is along the line [m].
+    /// Arc length along the line [m].
     along: f64,
-    /// How far it is beside the line over the surface.
+    /// Deviation from the line over the surface.
     deviation: Deviation,
 }
 
-/// How far a cut is beside its line over the surface.
+/// Deviation of a cut from its line over the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation {
     /// [m]
     pub distance: f64,
-    /// Whether it is inside of the line; none where that is open.
+    /// Whether it is inside the line; none for an open line.
     pub is_inside: Option<bool>,
 }
 
-/// What was cut.
+/// Measures of the cuts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CutScore {
-    /// How many cuts there are.
+    /// Number of cuts.
     pub count: usize,
-    /// The way of the tip while the surface was opened [m]: layers below an opening add nothing.
+    /// Path length of the tip while it opened the surface [m]: layers below an opening add nothing.
     pub length: f64,
     /// Of cuts along a line.
     pub along_line: Option<LineScore>,
 }
 
-/// A cut beside the line that it should follow.
+/// A cut compared with the line that it should follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineScore {
     /// Length of the line [m].
     pub wanted: f64,
-    /// What of it is cut [m].
+    /// Length of its cut part [m].
     pub covered: f64,
     /// Distance from it, mean over the cuts' length [m].
     pub mean_deviation: f64,
@@ -91,7 +91,7 @@ pub struct LineScore {
     pub deviation_area: f64,
 }
 
-impl CutWay {
+impl CutTracker {
     pub(super) fn new(goal: &Goal) -> Self {
         let (line, tolerance, wanted_layers) = match goal {
             Goal::Cut {
@@ -136,7 +136,7 @@ impl CutWay {
         }
         if self.by.is_none_or(|by| by.tool != row.tool) {
             self.cut_paths.push(Vec::new());
-            self.by = Some(Maker {
+            self.by = Some(CuttingTool {
                 tool: row.tool,
                 by_hand: row.cut,
                 tip,
@@ -144,7 +144,7 @@ impl CutWay {
         }
         let near = self.line.as_ref().map(|line| line.nearest(&tip));
         if let Some(cut_path) = self.cut_paths.last_mut() {
-            cut_path.push(Place {
+            cut_path.push(Opening {
                 tip,
                 along: near.map_or(0.0, |near| near.along),
                 deviation: Deviation {
@@ -157,13 +157,13 @@ impl CutWay {
         }
     }
 
-    /// Where the cut that is being made is beside its line.
+    /// Deviation of the present cut from its line.
     pub(super) fn deviation(&self) -> Option<Deviation> {
         self.by.and(self.line.as_ref())?;
         Some(self.cut_paths.last()?.last()?.deviation)
     }
 
-    /// Length of the line that shall be cut, and what of it is cut down to the wanted layer [m].
+    /// Length of the required line, and of its part that is cut down to the required layer [m].
     fn covered(&self) -> Option<[f64; 2]> {
         let line = self.line.as_ref()?;
         // A sum of nothing is -0.
@@ -172,18 +172,18 @@ impl CutWay {
         Some([line.length(), covered])
     }
 
-    /// The part of the line that is cut down to the wanted layer [-].
+    /// The part of the line that is cut down to the required layer [-].
     pub(super) fn part(&self) -> Option<f64> {
         self.covered().map(|[wanted, covered]| covered / wanted)
     }
 
-    /// Whether the whole line is cut down to the wanted layer.
+    /// Whether the whole line is cut down to the required layer.
     pub(super) fn is_whole(&self) -> bool {
         self.covered()
             .is_some_and(|[wanted, covered]| wanted - covered <= JOINED.min(LEFT * wanted))
     }
 
-    /// The stretches of the line that are not cut down to the wanted layer: the ends of their straight pieces [m].
+    /// The stretches of the line that are not cut down to the required layer: the ends of their straight pieces [m].
     pub(super) fn uncut(&self) -> Vec<[Vec3; 2]> {
         let Some(line) = &self.line else {
             return Vec::new();
@@ -199,14 +199,14 @@ impl CutWay {
         gaps
     }
 
-    /// What of the line is cut down to the wanted layer within the tolerance, in order and apart: from where to where
-    /// along it [m].
+    /// The stretches of the line that are cut down to the required layer within the tolerance, in order and disjoint:
+    /// their arc lengths [m].
     fn parts(&self, line: &Polyline) -> Vec<[f64; 2]> {
         let length = line.length();
         let mut each: Vec<[f64; 2]> = Vec::new();
         for cut_path in &self.cut_paths {
             for pair in cut_path.windows(2) {
-                let counts = |place: &Place| {
+                let counts = |place: &Opening| {
                     place.layer >= self.wanted_layers && place.deviation.distance <= self.tolerance
                 };
                 if !pair.iter().all(counts) {
@@ -229,7 +229,7 @@ impl CutWay {
                 _ => parts.push([low, high]),
             }
         }
-        // Where a closed line ends it goes on.
+        // A closed line continues beyond its end.
         if let (true, Some(first), Some(last)) = (line.is_closed(), parts.first(), parts.last())
             && first[0] + length - last[1] <= JOINED
         {
@@ -262,12 +262,12 @@ impl CutWay {
                     .fold(0.0, f64::max);
                 let (mut weight, mut sum, mut area) = (0.0, 0.0, 0.0);
                 for piece in pieces.clone() {
-                    let way = (piece[1].tip - piece[0].tip).norm();
+                    let piece_length = (piece[1].tip - piece[0].tip).norm();
                     let both = piece[0].deviation.distance + piece[1].deviation.distance;
-                    weight += way;
-                    sum += 0.5 * way * both;
+                    weight += piece_length;
+                    sum += 0.5 * piece_length * both;
                     if piece.iter().all(|place| place.outermost) {
-                        area += 0.5 * way * both;
+                        area += 0.5 * piece_length * both;
                     }
                 }
                 LineScore {
@@ -282,7 +282,7 @@ impl CutWay {
     }
 }
 
-/// The part of a way [m] along the surface when `depth` [m] of it is below it.
-pub(super) fn aside(way: &Vec3, depth: f64) -> f64 {
-    (way.norm_squared() - depth * depth).max(0.0).sqrt()
+/// The part of a path [m] at the surface, when `depth` [m] of it is below.
+pub(super) fn aside(path: &Vec3, depth: f64) -> f64 {
+    (path.norm_squared() - depth * depth).max(0.0).sqrt()
 }

@@ -1,13 +1,12 @@
-//! What a trainee is told of an attempt: a verdict, and what was good, what to change and what to do next.
+//! Feedback on an attempt: a verdict, what was good, what to change and what to do next.
 //!
-//! Each is a [`Phrase`]: a key and the numbers in it. A window has the words, in its language
-//! (`assets/texts/*.ftl`).
+//! Each is a [`Phrase`]: a key and its numbers. The window translates it (`assets/texts/*.ftl`).
 
 use palpate_files::scene::{Goal, Task};
 
 use super::{Outcome, Score};
 
-/// A text that is not written yet: its key in a catalogue, and what is filled in.
+/// A translatable text: its key in a catalogue, and its arguments.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phrase {
     /// The key.
@@ -16,10 +15,10 @@ pub struct Phrase {
     pub values: Vec<(&'static str, PhraseValue)>,
 }
 
-/// What is filled into a phrase.
+/// An argument of a phrase.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PhraseValue {
-    /// A whole number, in the unit that the placeholder's name says: `mm`, `mn`, `s`, `percent`, or a count.
+    /// A whole number, in the unit in the placeholder's name: `mm`, `mn`, `s`, `percent`, or a count.
     Number(f64),
     /// Another phrase.
     Phrase(Phrase),
@@ -45,7 +44,7 @@ impl Phrase {
 /// Four phrases on an attempt.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Feedback {
-    /// Whether it was passed, and why not.
+    /// The verdict: whether it passed, and why not.
     pub verdict: Phrase,
     /// What was good.
     pub good: Phrase,
@@ -55,7 +54,7 @@ pub struct Feedback {
     pub next: Phrase,
 }
 
-/// What is told of an attempt at `task`, which ended because its time was over if `late`.
+/// The feedback on an attempt at `task`; `late` if it ended because its time was over.
 pub fn feedback(task: &Task, score: &Score, late: bool) -> Feedback {
     let passed = score.outcome.passed();
     let verdict = match (passed, late) {
@@ -124,7 +123,7 @@ fn why_not(task: &Task, score: &Score) -> Phrase {
     }
 }
 
-/// How far a cut strayed from its line [m], where that is more than the task allows.
+/// Deviation of a cut from its line [m], if it is more than the task allows.
 fn off_line(task: &Task, score: &Score) -> Option<f64> {
     let Goal::Cut { tolerance_m, .. } = &task.goal else {
         return None;
@@ -245,7 +244,7 @@ mod tests {
     use super::super::Performance;
     use super::*;
 
-    fn told(goal: Goal, events: Events, force: f64, seconds: u32) -> Feedback {
+    fn feedback_on(goal: Goal, events: Events, force: f64, seconds: u32) -> Feedback {
         let task = Task {
             force_limit_n: Some(0.3),
             goal,
@@ -276,7 +275,7 @@ mod tests {
         feedback(&task, &performance.score(), false)
     }
 
-    /// Each fault is named, in the verdict and in what to change.
+    /// Both the verdict and the change name each fault.
     #[test]
     fn what_went_wrong_is_what_is_to_change() {
         use palpate_files::Event;
@@ -293,7 +292,7 @@ mod tests {
             direction: None,
             tear_force_n: Some(0.5),
         };
-        let missed = told(find(0.02), Event::Mark.into(), 0.1, 1);
+        let missed = feedback_on(find(0.02), Event::Mark.into(), 0.1, 1);
         let why = |key, values| Phrase {
             key: "verdict-not-passed",
             values: vec![("why", PhraseValue::Phrase(Phrase { key, values }))],
@@ -301,32 +300,32 @@ mod tests {
         let number = |name, value| vec![(name, PhraseValue::Number(value))];
         assert_eq!(missed.verdict, why("why-far", number("mm", 20.0)));
         assert_eq!(missed.change.key, "change-rows");
-        let found = told(find(0.002), Event::Mark.into(), 0.1, 1);
+        let found = feedback_on(find(0.002), Event::Mark.into(), 0.1, 1);
         let keys = [found.verdict.key, found.change.key];
         assert_eq!(keys, ["verdict-passed", "change-nothing"]);
-        let hard = told(find(0.002), Event::Mark.into(), 0.4, 1);
+        let hard = feedback_on(find(0.002), Event::Mark.into(), 0.4, 1);
         let values = [number("mn", 300.0), number("count", 1.0)].concat();
         let gentler = Phrase {
             key: "change-gentler",
             values,
         };
         assert_eq!(hard.change, gentler);
-        let torn = told(pull(), Events::NONE, 0.6, 2);
+        let torn = feedback_on(pull(), Events::NONE, 0.6, 2);
         assert_eq!(torn.verdict, why("why-torn", number("mn", 600.0)));
         assert_eq!(torn.change.key, "change-slower");
-        let held = told(pull(), Events::NONE, 0.2, 4);
+        let held = feedback_on(pull(), Events::NONE, 0.2, 4);
         assert_eq!(held.verdict.key, "verdict-passed");
-        let short = told(pull(), Events::NONE, 0.2, 2);
+        let short = feedback_on(pull(), Events::NONE, 0.2, 2);
         assert_eq!(short.verdict, why("why-short", number("s", 2.0)));
         let cut = |beside: f64| Goal::Cut {
             line: CutLine::straight([beside, 0.0, 0.0], [beside, 0.03, 0.0]),
             tolerance_m: 0.002,
             layers: None,
         };
-        let aside = told(cut(0.01), Event::Cut.into(), 0.1, 1);
+        let aside = feedback_on(cut(0.01), Event::Cut.into(), 0.1, 1);
         assert_eq!(aside.verdict, why("why-off-line", number("mm", 10.0)));
         assert_eq!(aside.change.key, "change-line");
-        let begun = told(cut(0.001), Event::Cut.into(), 0.1, 1);
+        let begun = feedback_on(cut(0.001), Event::Cut.into(), 0.1, 1);
         assert_eq!(begun.verdict, why("why-uncut", number("percent", 100.0)));
         assert_eq!(begun.change.key, "change-uncut");
     }

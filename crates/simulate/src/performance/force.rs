@@ -1,4 +1,4 @@
-//! How hard tissue was handled.
+//! Forces on tissue.
 
 use palpate_files::SessionRow;
 use palpate_geometry::Vec3;
@@ -7,7 +7,7 @@ use palpate_geometry::Vec3;
 #[derive(Debug, Clone)]
 pub(super) struct Forces {
     limit: Option<f64>,
-    /// Time [s] and force [N] of the last row, and whether it touched.
+    /// Time [s] and force [N] of the last row, and whether it was in contact.
     last: Option<(f64, f64, bool)>,
     touched: f64,
     force_time: f64,
@@ -17,20 +17,20 @@ pub(super) struct Forces {
     excess: f64,
 }
 
-/// How hard a tool handled the tissue.
+/// Force measures of a tool.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ForceScore {
-    /// How long it touched [s].
+    /// Contact time [s].
     pub contact_time: f64,
     /// The largest force [N].
     pub peak: f64,
-    /// The mean force while it touched [N]; none if it never did.
+    /// The mean force in contact [N]; none without contact.
     pub mean: Option<f64>,
     /// ∫ F dt [N s].
     pub force_time: f64,
     /// The largest force of its jaws [N].
     pub grip_peak: f64,
-    /// How long the force was above its limit [s]; none without a limit.
+    /// Time above the force limit [s]; none without a limit.
     pub time_above_limit: Option<f64>,
     /// Tissue damage: ∫ max(0, F − limit) dt [N s]; none without a limit.
     pub damage: Option<f64>,
@@ -50,7 +50,7 @@ impl Forces {
         }
     }
 
-    /// Adds a row; whether the force rises above its limit with it.
+    /// Adds a row; returns whether the force rises above its limit with it.
     pub(super) fn add(&mut self, row: &SessionRow) -> bool {
         let force = Vec3::from(row.force_n).norm();
         self.peak = self.peak.max(force);
@@ -87,7 +87,7 @@ impl Forces {
     }
 }
 
-/// Of a line from `start` to `end` over a unit of time: the part of the time above zero, and the area there.
+/// For a line from `start` to `end` over a unit of time: the part of the time above zero, and the area there.
 fn beyond(start: f64, end: f64) -> (f64, f64) {
     match (start > 0.0, end > 0.0) {
         (true, true) => (1.0, 0.5 * (start + end)),

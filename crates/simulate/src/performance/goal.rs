@@ -1,49 +1,49 @@
-//! How far a task is, and what became of it.
+//! Progress and outcome of a task.
 
 use palpate_files::scene::{Goal, SoughtSize};
 use palpate_files::{Event, SessionRow};
 use palpate_geometry::Vec3;
 
 use super::Errors;
-use super::cut::{CutWay, aside};
-use super::touch::TouchWatch;
+use super::cut::{CutTracker, aside};
+use super::touch::TouchTracker;
 
-/// A pull below this part of the wanted force is not one yet [-].
+/// A pull below this part of the required force does not count yet [-].
 const BEGINS: f64 = 0.2;
 
-/// Watches for the goal.
+/// Evaluates the goal, row by row.
 #[derive(Debug, Clone)]
-pub(super) struct GoalWatch {
+pub(super) struct GoalTracker {
     goal: Goal,
     tool: Option<usize>,
     done: bool,
-    /// How far beside the target was marked [m].
+    /// Distance of the mark from the target [m].
     beside: Option<f64>,
-    /// The diameter that was stated [m].
+    /// The stated diameter [m].
     stated: Option<f64>,
-    /// Time [s] and force [N] of each tool before.
+    /// Previous time [s] and force [N] of each tool.
     last: Vec<Option<(f64, Vec3)>>,
     /// The last pull of the tool that pulls.
     pull: Option<Advice>,
     /// The force at which the tissue tore [N].
     torn: Option<f64>,
     within: f64,
-    /// Time of the pull [s], and ∫ (F − wanted)² dt [N² s].
+    /// Duration of the pull [s], and ∫ (F − wanted)² dt [N² s].
     pulled: (f64, f64),
-    /// Of a place that is to be touched.
-    touch: Option<TouchWatch>,
+    /// For a target that is to be touched.
+    touch: Option<TouchTracker>,
 }
 
-/// A force beside the one that is wanted.
+/// A force compared with the required one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Advice {
     /// Its size [N].
     pub force: f64,
-    /// How it should be changed.
+    /// Its required change.
     pub cue: Cue,
 }
 
-/// The one thing that should be changed.
+/// The one thing to change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cue {
     /// Nothing: hold it.
@@ -54,95 +54,95 @@ pub enum Cue {
     Less,
     /// Pull in the other direction.
     Turn,
-    /// Take hold of the organ: the force is that of the tool that shall.
+    /// Grasp the organ: the force is that of the grasping tool.
     Grasp,
-    /// Lift the organ out of the way of the tool that shall touch: the force is that of the tool that lifts.
+    /// Lift the organ out of the way of the touching tool: the force is that of the lifting tool.
     Lift,
-    /// Touch the place that is meant: the force is that of the tool that lifts, if one has to.
+    /// Touch the target: the force is that of the lifting tool, if one has to lift.
     Reach,
 }
 
-/// How far a task is.
+/// The progress of a task.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Status {
-    /// It goes on; the part that is done [-], if that can be told.
+    /// It continues; the completed part [-], if defined.
     GoesOn {
         /// From 0 to 1 [-].
         part: Option<f64>,
-        /// What to change, where a force is wanted.
+        /// What to change, if a force is required.
         advice: Option<Advice>,
     },
     /// It is over.
     Over {
-        /// Because its time is.
+        /// Because its time limit was reached.
         late: bool,
     },
 }
 
-/// What was stated of the size of what was to be found.
+/// The stated size of the target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SizeOutcome {
-    /// The diameter that was stated [m]; none if none was.
+    /// The stated diameter [m]; none if none was stated.
     pub stated: Option<f64>,
-    /// The size that it has.
+    /// The true diameter.
     pub truth: SoughtSize,
 }
 
 impl SizeOutcome {
-    /// Whether the stated diameter is near enough.
+    /// Whether the stated diameter is accurate enough.
     pub fn is_right(&self) -> bool {
         self.stated.is_some_and(|stated| self.truth.accepts(stated))
     }
 }
 
-/// What became of a task.
+/// The outcome of a task.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Outcome {
-    /// There was nothing that had to be done.
+    /// The task had no goal.
     Free,
-    /// A place was to be found.
+    /// Finding a target.
     Find {
-        /// How far beside it was marked [m]; none if nothing was.
+        /// Distance of the mark from it [m]; none without a mark.
         beside: Option<f64>,
-        /// Whether that is near enough.
+        /// Whether that is close enough.
         found: bool,
-        /// Its size, where that was asked for.
+        /// Its size, if the task asked for it.
         size: Option<SizeOutcome>,
     },
-    /// A force was to be held.
+    /// Holding a force.
     Traction {
-        /// How long it was held within its tolerance [s].
+        /// Time within its tolerance [s].
         within: f64,
-        /// How far it was from the wanted one, root of the mean square since the pull began [N].
+        /// Deviation from the required force, root mean square since the pull began [N].
         error: Option<f64>,
-        /// Whether it was held for long enough.
+        /// Whether it was held long enough.
         held: bool,
-        /// The pull at which the tissue tore [N]; none where it did not.
+        /// The pull at which the tissue tore [N]; none if it did not.
         torn: Option<f64>,
     },
-    /// A place was to be touched.
+    /// Touching a target.
     Touch {
-        /// How long it was touched as it should be [s].
+        /// Time of correct touch [s].
         within: f64,
-        /// The least distance from it at which the tool was, with the organ out of its way [m]; none if it never was.
+        /// The least distance of the tool from it, with the organ out of its way [m]; none if it never was.
         beside: Option<f64>,
-        /// Whether it was touched for long enough.
+        /// Whether it was touched long enough.
         reached: bool,
-        /// The force that injured it [N]; none where none did.
+        /// The force that injured it [N]; none if none did.
         injured: Option<f64>,
-        /// The pull at which the held tissue tore [N]; none where it did not.
+        /// The pull at which the held tissue tore [N]; none if it did not.
         torn: Option<f64>,
     },
-    /// A line was to be cut.
+    /// Cutting a line.
     Cut {
-        /// The part of the line that was cut [-].
+        /// The cut part of the line [-].
         part: f64,
-        /// Whether it was cut whole, within its tolerance and without a perforation.
+        /// Whether the whole line was cut, within its tolerance and without a perforation.
         clean: bool,
     },
 }
 
-impl GoalWatch {
+impl GoalTracker {
     pub(super) fn new(goal: &Goal, tools: &[String]) -> Self {
         let tool = match goal {
             Goal::Traction {
@@ -162,7 +162,7 @@ impl GoalWatch {
             within: 0.0,
             pulled: (0.0, 0.0),
             touch: match goal {
-                Goal::Touch(touch) => Some(TouchWatch::new(touch, tools)),
+                Goal::Touch(touch) => Some(TouchTracker::new(touch, tools)),
                 _ => None,
             },
         }
@@ -171,13 +171,13 @@ impl GoalWatch {
     pub(super) fn add(&mut self, row: &SessionRow) {
         if row.events.contains(Event::Mark) {
             match self.goal {
-                // The first mark counts; where a size is asked for, that is still to be stated.
+                // The first mark counts; if a size is required, it is still missing.
                 Goal::Find { target_m, size, .. } if row.contact && self.beside.is_none() => {
-                    let way = Vec3::from(row.position_m) - Vec3::from(target_m);
-                    self.beside = Some(aside(&way, row.depth_m));
+                    let offset = Vec3::from(row.position_m) - Vec3::from(target_m);
+                    self.beside = Some(aside(&offset, row.depth_m));
                     self.done = size.is_none();
                 }
-                // In the air nothing is meant.
+                // A mark in the air does not count.
                 Goal::Find { .. } => {}
                 _ => self.done = true,
             }
@@ -230,18 +230,18 @@ impl GoalWatch {
         self.done |= self.within >= hold_s || self.torn.is_some();
     }
 
-    /// Whether a place is marked and its size is still to be stated.
+    /// Whether a place is marked and its size is still missing.
     pub(super) fn awaits_diameter(&self) -> bool {
         let is_asked = matches!(self.goal, Goal::Find { size: Some(_), .. });
         is_asked && self.beside.is_some() && self.stated.is_none()
     }
 
-    pub(super) fn status(&self, cut: &CutWay, late: bool) -> Status {
+    pub(super) fn status(&self, cut: &CutTracker, late: bool) -> Status {
         let part = match &self.goal {
             Goal::Free | Goal::Find { .. } => None,
             Goal::Traction { hold_s, .. } => Some((self.within / hold_s).min(1.0)),
             Goal::Cut { .. } => cut.part(),
-            Goal::Touch(_) => self.touch.as_ref().map(TouchWatch::part),
+            Goal::Touch(_) => self.touch.as_ref().map(TouchTracker::part),
         };
         let is_cut = cut.is_whole();
         match self.done || is_cut || late {
@@ -258,7 +258,7 @@ impl GoalWatch {
         }
     }
 
-    pub(super) fn outcome(&self, cut: &CutWay, errors: &Errors) -> Outcome {
+    pub(super) fn outcome(&self, cut: &CutTracker, errors: &Errors) -> Outcome {
         match &self.goal {
             Goal::Free => Outcome::Free,
             Goal::Find {
@@ -280,7 +280,7 @@ impl GoalWatch {
             Goal::Touch(_) => self
                 .touch
                 .as_ref()
-                .map_or(Outcome::Free, TouchWatch::outcome),
+                .map_or(Outcome::Free, TouchTracker::outcome),
             Goal::Cut { tolerance_m, .. } => {
                 let line = cut.score().and_then(|score| score.along_line);
                 let on_line = line.is_some_and(|line| line.largest_deviation <= *tolerance_m);
@@ -305,7 +305,7 @@ fn advice(goal: &Goal, force: &Vec3) -> Option<Advice> {
         return None;
     };
     let size = force.norm();
-    // A tool pulls against the force on it. Before there is one, it has no direction either.
+    // A tool pulls against the force on it. Before there is a force, it has no direction either.
     let turned = direction.is_some_and(|(direction, tolerance)| {
         size > BEGINS * force_n && (-force).angle(&Vec3::from(direction)) > tolerance
     });
@@ -319,7 +319,7 @@ fn advice(goal: &Goal, force: &Vec3) -> Option<Advice> {
 }
 
 impl Outcome {
-    /// Whether the task was done as it should be; none where nothing had to be.
+    /// Whether the task was passed; none for a task without a goal.
     pub fn passed(&self) -> Option<bool> {
         match *self {
             Self::Free => None,

@@ -1,4 +1,4 @@
-//! How a tool was moved: measures that no frame and no sampling rate changes.
+//! Motion measures of a tool, independent of frame and sampling rate.
 
 use nalgebra::{Quaternion, Unit};
 use palpate_files::{Event, SessionRow};
@@ -6,44 +6,44 @@ use palpate_geometry::Vec3;
 
 use super::jerk;
 
-/// The way of one tool.
+/// The path of one tool.
 #[derive(Debug, Clone)]
-pub(super) struct HandWay {
+pub(super) struct HandTracker {
     tool: String,
-    /// Times [s] and places [m] without a gap.
+    /// Times [s] and positions [m] without a gap.
     stretches: Vec<Vec<(f64, Vec3)>>,
     last: Option<SessionRow>,
     path: f64,
     angular_path: f64,
     along: f64,
-    /// Where the present free move began, and how long its way is [m].
+    /// Start of the present free move, and its path length so far [m].
     free: Option<(Vec3, f64)>,
-    /// Straight ways and ways of free moves that are over [m].
+    /// Straight distances and path lengths of completed free moves [m].
     straight: f64,
     free_path: f64,
 }
 
-/// How a tool was moved.
+/// Motion measures of a tool.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HandScore {
     /// The tool's name.
     pub tool: String,
-    /// How long it was there [s].
+    /// Time of presence [s].
     pub time: f64,
-    /// The way of its tip [m].
+    /// Path length of its tip [m].
     pub path: f64,
     /// The sum of its turns [rad].
     pub angular_path: f64,
-    /// The part of the way along its shaft, in and out [m].
+    /// The part of the path along its shaft, in and out [m].
     pub path_along_shaft: f64,
-    /// Straight ways over the ways that were taken, between contacts [-]; none if it was never free.
+    /// Straight distances over path lengths, between contacts [-]; none if it was never free.
     pub economy: Option<f64>,
-    /// √(½ T⁵/L² ∫ j² dt), j being the third derivative of the place, T the time and L the way [-]; none for
+    /// √(½ T⁵/L² ∫ j² dt), j being the third derivative of the position, T the time and L the path length [-]; none for
     /// less than half a second.
     pub jerk: Option<f64>,
 }
 
-impl HandWay {
+impl HandTracker {
     pub(super) fn new(tool: &str) -> Self {
         Self {
             tool: tool.to_owned(),
@@ -68,15 +68,15 @@ impl HandWay {
         match self.last {
             None => self.stretches.push(vec![(row.time_s, place)]),
             Some(last) => {
-                let way = place - Vec3::from(last.position_m);
+                let motion = place - Vec3::from(last.position_m);
                 let (from, to) = (turn(&last), turn(row));
-                self.path += way.norm();
+                self.path += motion.norm();
                 self.angular_path += from.angle_to(&to);
-                // Halfway between the two directions, which no order in time prefers.
+                // Halfway between the two directions, so that the order in time does not matter.
                 let shaft = (from * Vec3::z() + to * Vec3::z()) * 0.5;
-                self.along += way.dot(&shaft).abs();
+                self.along += motion.dot(&shaft).abs();
                 if let Some((_, path)) = &mut self.free {
-                    *path += way.norm();
+                    *path += motion.norm();
                 }
                 if let Some(stretch) = self.stretches.last_mut() {
                     stretch.push((row.time_s, place));

@@ -1,5 +1,5 @@
-//! The third derivative of a way, by least squares in a window that goes along: noise and the sampling rate
-//! count little, and a rate that changes does not disturb.
+//! The third derivative of a path, by least squares in a moving window: noise and the sampling rate have little
+//! influence, and a changing rate does no harm.
 
 use nalgebra::{SMatrix, SVector};
 use palpate_geometry::Vec3;
@@ -7,13 +7,13 @@ use palpate_geometry::Vec3;
 /// Half of the window [s]: a hand's own motion is below some 5 Hz.
 const HALF: f64 = 0.15;
 
-/// How far windows are apart [s].
+/// Step of the windows [s].
 const APART: f64 = 0.02;
 
 /// Terms of the polynomial in the window: up to the fourth power.
 const TERMS: usize = 5;
 
-/// Samples of a window at least.
+/// Least number of samples in a window.
 const LEAST: usize = 8;
 
 /// √(½ T⁵/L² ∫ j² dt) [-] over stretches of times [s] and places [m], which took `time` [s] over `path` [m].
@@ -39,7 +39,7 @@ fn square(stretch: &[(f64, Vec3)]) -> f64 {
     let mut from = 0;
     for number in 0..=windows as usize {
         let at = first + step * number as f64;
-        // At an end the window stays inside, and the polynomial is asked at its border.
+        // At an end the window stays inside, and the polynomial is evaluated at its border.
         let middle = at.clamp(first + HALF, (last - HALF).max(first + HALF));
         while stretch[from].0 < middle - HALF - 1e-9 {
             from += 1;

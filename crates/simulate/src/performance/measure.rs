@@ -8,7 +8,7 @@ pub struct Measure {
     /// Its key, with its unit at the end where it has one, after the tool that it belongs to:
     /// `left.path_m`.
     pub key: String,
-    /// In SI.
+    /// In SI units.
     pub value: f64,
     /// Which is better.
     pub better: Better,
@@ -21,12 +21,12 @@ pub enum Better {
     Less,
     /// The larger one.
     More,
-    /// Neither: it should be as an expert has it.
+    /// Neither: the target is the experts' value.
     Neither,
 }
 
 impl Score {
-    /// All measures that there are, in the order of the documentation.
+    /// All measures, in the order of the documentation.
     pub fn measures(&self) -> Vec<Measure> {
         let mut all = Vec::new();
         let mut add = |key: String, value: Option<f64>, better| {
@@ -91,7 +91,7 @@ impl Score {
                 size,
             } => {
                 add(own("beside_m"), beside, Less);
-                // Of what was not found no size was felt: a guess earns nothing.
+                // Without a found target there is no estimate of its size: a guess earns nothing.
                 let error = size.filter(|_| found).and_then(|own| {
                     let stated = own.stated?;
                     Some(own.truth.error_of(stated).abs())

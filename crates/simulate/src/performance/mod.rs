@@ -1,12 +1,12 @@
-//! What a session shows of whoever held the tools: measures of the field, and what became of the task.
+//! Performance measures of a session: established measures of the field, and the outcome of the task.
 //!
-//! Rows are added one by one, while somebody plays or when a session is read; [`Performance::score`] has the
-//! measures so far. Definitions, formulas and references: `docs/theory/performance.md`.
+//! Rows are added one by one, in real time or when a session is read; [`Performance::score`] has the measures so far.
+//! Definitions, formulas and references: `docs/theory/performance.md`.
 //!
 //! *How we know*: `performance::…`.
 //!
-//! *Limits*: a row tells of the tip, so that what the hand did in a trocar's friction is not seen; tremor that is
-//! faster than half the model's rate is none.
+//! *Limits*: a row has the tip, so that the motion of the hand within a trocar's friction is unknown; tremor faster
+//! than half the model's rate does not appear.
 
 mod comparison;
 mod cut;
@@ -32,38 +32,38 @@ pub use hand::HandScore;
 pub use measure::{Better, Measure};
 pub use words::outcome_words;
 
-use cut::CutWay;
+use cut::CutTracker;
 use force::Forces;
-use goal::GoalWatch;
-use hand::HandWay;
+use goal::GoalTracker;
+use hand::HandTracker;
 
-/// What a task's rows have shown so far.
+/// The performance in a task so far.
 #[derive(Debug, Clone)]
 pub struct Performance {
     task: Task,
     began: Option<f64>,
     now: f64,
-    hands: Vec<HandWay>,
+    hands: Vec<HandTracker>,
     forces: Vec<Forces>,
-    cut: CutWay,
-    goal: GoalWatch,
+    cut: CutTracker,
+    goal: GoalTracker,
     errors: Errors,
-    /// The task is over: what comes after does not count.
+    /// The task is over: later rows do not count.
     is_over: bool,
 }
 
-/// What should not happen, counted.
+/// Counts of unwanted events.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Errors {
-    /// Times that the force rose above its limit.
+    /// How often the force rose above its limit.
     pub force_limit: u64,
-    /// Times that the innermost layer was opened.
+    /// How often the innermost layer was opened.
     pub perforations: u64,
-    /// Times that held tissue was lost to a pull, with shut jaws.
+    /// How often held tissue was lost to a pull, with shut jaws.
     pub drops: u64,
-    /// Times that a shaft touched the organ.
+    /// How often a shaft touched the organ.
     pub shaft_contacts: u64,
-    /// Cuts that were taken back.
+    /// Undone cuts.
     pub undone: u64,
 }
 
@@ -72,36 +72,36 @@ pub struct Errors {
 pub struct Score {
     /// From the first row to the last [s].
     pub duration: f64,
-    /// Per tool.
+    /// Motion measures per tool.
     pub hands: Vec<HandScore>,
-    /// Per tool.
+    /// Force measures per tool.
     pub forces: Vec<ForceScore>,
-    /// What should not happen.
+    /// Unwanted events.
     pub errors: Errors,
-    /// What was cut, where something was.
+    /// Measures of the cuts, if there are any.
     pub cut: Option<CutScore>,
-    /// What became of the task.
+    /// The outcome of the task.
     pub outcome: Outcome,
 }
 
 impl Performance {
-    /// Nothing has happened yet, with tools of those names.
+    /// A performance without rows, with tools of those names.
     pub fn new(task: &Task, tools: &[String]) -> Self {
         let limit = task.force_limit_n;
         Self {
             task: task.clone(),
             began: None,
             now: 0.0,
-            hands: tools.iter().map(|name| HandWay::new(name)).collect(),
+            hands: tools.iter().map(|name| HandTracker::new(name)).collect(),
             forces: tools.iter().map(|_| Forces::new(limit)).collect(),
-            cut: CutWay::new(&task.goal),
-            goal: GoalWatch::new(&task.goal, tools),
+            cut: CutTracker::new(&task.goal),
+            goal: GoalTracker::new(&task.goal, tools),
             errors: Errors::default(),
             is_over: false,
         }
     }
 
-    /// Adds what a tool did in a step, unless the task is over.
+    /// Adds a tool's row of a step, unless the task is over.
     pub fn add(&mut self, row: &SessionRow) {
         if self.is_over {
             return;
@@ -119,7 +119,7 @@ impl Performance {
         self.errors.perforations += happened(Event::Perforation);
         self.errors.shaft_contacts += happened(Event::ShaftContact);
         self.errors.undone += happened(Event::UndoCut);
-        // Jaws that still are shut lost it.
+        // Jaws that are still shut lost the tissue.
         let lost = row.events.contains(Event::GripRelease) && row.grip > 0.5;
         let lifted = row.events.contains(Event::Lifted);
         self.errors.drops += u64::from(lost && !lifted);
@@ -128,7 +128,7 @@ impl Performance {
         self.is_over = matches!(self.status(), Status::Over { .. });
     }
 
-    /// How far the task is.
+    /// The progress of the task.
     pub fn status(&self) -> Status {
         let late = self
             .task
@@ -137,23 +137,22 @@ impl Performance {
         self.goal.status(&self.cut, late)
     }
 
-    /// Whether a place is marked and its diameter is still to be stated.
+    /// Whether a place is marked and its diameter is still missing.
     pub fn awaits_diameter(&self) -> bool {
         self.goal.awaits_diameter()
     }
 
-    /// Where the cut that is being made is beside its line.
+    /// Deviation of the present cut from its line.
     pub fn deviation(&self) -> Option<Deviation> {
         self.cut.deviation()
     }
 
-    /// The stretches of the line of a cut that are not cut to the wanted depth yet: the ends of their straight pieces
-    /// [m].
+    /// The stretches of the line that are not yet cut to the required depth: the ends of their straight pieces [m].
     pub fn uncut(&self) -> Vec<[Vec3; 2]> {
         self.cut.uncut()
     }
 
-    /// What should not have happened.
+    /// The unwanted events.
     pub fn errors(&self) -> Errors {
         self.errors
     }
@@ -167,7 +166,7 @@ impl Performance {
     pub fn score(&self) -> Score {
         Score {
             duration: self.elapsed(),
-            hands: self.hands.iter().map(HandWay::score).collect(),
+            hands: self.hands.iter().map(HandTracker::score).collect(),
             forces: self.forces.iter().map(Forces::score).collect(),
             errors: self.errors,
             cut: self.cut.score(),
@@ -176,7 +175,7 @@ impl Performance {
     }
 }
 
-/// The score of rows that are all there.
+/// The score of a complete set of rows.
 pub fn score<'r>(
     task: &Task,
     tools: &[String],

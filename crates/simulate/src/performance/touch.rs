@@ -1,4 +1,4 @@
-//! How far the touch of a place beside the organ is.
+//! Progress of touching a target in front of which the organ lies.
 
 use palpate_files::scene::TouchGoal;
 use palpate_files::{Event, SessionRow};
@@ -6,9 +6,9 @@ use palpate_geometry::Vec3;
 
 use super::goal::{Advice, Cue, Outcome};
 
-/// Watches two tools: one that touches, and one that may hold the organ out of its way.
+/// Evaluates two tools: one that touches, and one that may hold the organ out of its way.
 #[derive(Debug, Clone)]
-pub(super) struct TouchWatch {
+pub(super) struct TouchTracker {
     goal: TouchGoal,
     tool: Option<usize>,
     holder: Option<usize>,
@@ -18,7 +18,7 @@ pub(super) struct TouchWatch {
     pull: f64,
     /// Whether the shaft of the tool touches the organ.
     shaft_touches: bool,
-    /// Where the tool was last; none before it is there, and after it is lifted.
+    /// Last position of the tool; none before it is present, and after it is lifted.
     tip: Option<Tip>,
     /// Time [s] and cue of its row before.
     last: Option<(f64, Cue)>,
@@ -33,14 +33,14 @@ pub(super) struct TouchWatch {
 /// The tip of the tool.
 #[derive(Debug, Clone, Copy)]
 struct Tip {
-    /// From the target [m].
+    /// Distance from the target [m].
     distance: f64,
     /// [N]
     force: f64,
     touches_organ: bool,
 }
 
-impl TouchWatch {
+impl TouchTracker {
     pub(super) fn new(goal: &TouchGoal, tools: &[String]) -> Self {
         let number = |name: &String| tools.iter().position(|tool| tool == name);
         Self {
@@ -71,14 +71,14 @@ impl TouchWatch {
 
     fn follow_holder(&mut self, row: &SessionRow, force: f64) {
         let happened = |event| row.events.contains(event);
-        let lets_go = [
+        let releases = [
             Event::GripRelease,
             Event::Lifted,
             Event::Jump,
             Event::BeginAnew,
         ];
         self.holds |= happened(Event::Grip);
-        self.holds &= !lets_go.into_iter().any(happened);
+        self.holds &= !releases.into_iter().any(happened);
         self.pull = force;
         if self.holds && self.goal.tear_force_n.is_some_and(|tear| force > tear) {
             self.torn = Some(force);
@@ -89,9 +89,9 @@ impl TouchWatch {
         let happened = |event| row.events.contains(event);
         self.shaft_touches |= happened(Event::ShaftContact);
         self.shaft_touches &= !happened(Event::ShaftRelease) && !happened(Event::BeginAnew);
-        let way = Vec3::from(row.position_m) - Vec3::from(self.goal.target_m);
+        let offset = Vec3::from(row.position_m) - Vec3::from(self.goal.target_m);
         self.tip = (!happened(Event::Lifted)).then_some(Tip {
-            distance: way.norm(),
+            distance: offset.norm(),
             force,
             touches_organ: row.contact,
         });
@@ -102,10 +102,10 @@ impl TouchWatch {
             self.within += row.time_s - time;
         }
         if !matches!(cue, Cue::Grasp | Cue::Lift) {
-            let nearer = |beside: f64| beside.min(way.norm());
-            self.beside = Some(self.beside.map_or(way.norm(), nearer));
+            let nearer = |beside: f64| beside.min(offset.norm());
+            self.beside = Some(self.beside.map_or(offset.norm(), nearer));
         }
-        // What presses the organ does not press the target.
+        // A force of the organ is no force on the target.
         let injures = |most: f64| !row.contact && force > most;
         if self.goal.injury_force_n.is_some_and(injures) {
             self.injured = Some(force);
@@ -146,7 +146,7 @@ impl TouchWatch {
         self.within >= self.goal.hold_s || self.injured.is_some() || self.torn.is_some()
     }
 
-    /// What of the time is over [-].
+    /// The completed part of the time [-].
     pub(super) fn part(&self) -> f64 {
         (self.within / self.goal.hold_s).min(1.0)
     }

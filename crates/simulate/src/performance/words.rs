@@ -1,6 +1,6 @@
 use super::{Outcome, SizeOutcome};
 
-/// What became of a task, in a sentence for who did it.
+/// The outcome of a task, in a sentence for the trainee.
 pub fn outcome_words(outcome: &Outcome) -> String {
     match *outcome {
         Outcome::Free => "Nothing had to be done.".to_owned(),
@@ -71,7 +71,7 @@ pub fn outcome_words(outcome: &Outcome) -> String {
     }
 }
 
-/// What was stated of a size, and what it is.
+/// The stated size and the true one.
 fn size_words(size: &SizeOutcome) -> String {
     let truth = 2e3 * size.truth.radius_m;
     match size.stated {

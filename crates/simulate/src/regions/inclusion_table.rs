@@ -6,40 +6,40 @@ use palpate_geometry::{
 use palpate_mechanics::contact::Tip;
 use palpate_mechanics::inclusion::{InclusionField, Load};
 
-/// Radii for which the inclusions are tabulated, each so many times the one before: of what touches, up to that of the tool, and of
-/// loads, from this part of the least of what touches on [-].
+/// Radii for which the inclusions are tabulated, as a geometric series: of contact areas, up to that of the tool, and
+/// of loads, from this part of the least contact area on [-].
 const TIPS: usize = 9;
 const TIP_FACTOR: f64 = std::f64::consts::SQRT_2;
 const LOADS: usize = 8;
 const LOAD_FACTOR: f64 = 2.0;
 const LEAST_LOAD: f64 = 1.7;
 
-/// Radius of the flat punch that spreads a force as far as Hertz's pressure does, in radii of that: ⟨r²⟩ is ⅔ a² of the one and ⅖ a² of
-/// the other [-].
+/// Radius of the flat punch that spreads a force as far as Hertz's pressure does, relative to the radius of that: ⟨r²⟩
+/// is ⅔ a² of the one and ⅖ a² of the other [-].
 const PUNCH_OF_HERTZ: f64 = 0.774_596_669_241_483;
 
-/// Places of a triangle: its corners, then the middles of 01, 12, 20.
+/// Nodes of a triangle: its corners, then the middles of 01, 12, 20.
 const PLACES: usize = 6;
 
-/// How much less tips, and loads that stand for them in a mesh, are moved where inclusions lie under the surface that is seen;
-/// nothing of bodies without any.
+/// Reduction of the displacement of tips, and of the loads that represent them in a mesh, by inclusions under the
+/// displayed surface; empty for bodies without any.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct InclusionTable {
-    /// Radius of the least area that touches [m].
+    /// Radius of the least contact area [m].
     least: f64,
-    /// Of each place, and which places each triangle has: what is to be interpolated.
-    felt: Vec<Felt>,
+    /// Values of each node, and the nodes of each triangle, for interpolation.
+    reductions: Vec<Reductions>,
     at: Vec<[u32; PLACES]>,
 }
 
-/// For each of the radii [1/m], which of a sphere are those without inclusions under the same force.
+/// The reduction for each of the radii [1/m]; for a sphere the radii are those without inclusions under the same force.
 #[derive(Debug, Clone, Copy, Default)]
-struct Felt {
+struct Reductions {
     tips: [f64; TIPS],
     loads: [f64; LOADS],
 }
 
-/// How much more than its load a tip is moved at a place, for each radius of what touches [1/m].
+/// Additional displacement of a tip relative to its load at a location, for each radius of contact [1/m].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TipExchange {
     least: f64,
@@ -47,7 +47,7 @@ pub(crate) struct TipExchange {
 }
 
 impl InclusionTable {
-    /// For a tip on bodies with these inclusions, whose triangles follow one another.
+    /// For a tip on bodies with these inclusions, with their triangles in succession.
     pub(crate) fn new(tip: Tip, bodies: &[(&Surface, InclusionField)]) -> Self {
         if bodies.iter().all(|(_, field)| field.is_empty()) {
             return Self::default();
@@ -57,30 +57,38 @@ impl InclusionTable {
         let least = radii[0];
         let loads: [Load; LOADS] =
             std::array::from_fn(|n| Load::bump(LEAST_LOAD * least * LOAD_FACTOR.powi(n as i32)));
-        let (mut felt, mut at) = (Vec::new(), Vec::new());
+        let (mut reductions, mut at) = (Vec::new(), Vec::new());
         for (surface, field) in bodies {
-            let first = felt.len();
+            let first = reductions.len();
             let places = places(surface, |places| {
                 at.push(places.map(|own| (first + own) as u32))
             });
-            felt.extend(collect_on_all_cores(&places, |_, (place, normal)| Felt {
-                tips: match tip {
-                    Tip::Flat { .. } => {
-                        let load = Load::punch(radius);
-                        [field.less(&[load], radius, place, normal)[0]; TIPS]
-                    }
-                    Tip::Sphere { .. } => {
-                        let loads = radii.map(Load::hertz);
-                        field.less_under_sphere(radii, field.less(&loads, radius, place, normal))
-                    }
-                },
-                loads: field.less(&loads, radius, place, normal),
+            reductions.extend(collect_on_all_cores(&places, |_, (place, normal)| {
+                Reductions {
+                    tips: match tip {
+                        Tip::Flat { .. } => {
+                            let load = Load::punch(radius);
+                            [field.less(&[load], radius, place, normal)[0]; TIPS]
+                        }
+                        Tip::Sphere { .. } => {
+                            let loads = radii.map(Load::hertz);
+                            field
+                                .less_under_sphere(radii, field.less(&loads, radius, place, normal))
+                        }
+                    },
+                    loads: field.less(&loads, radius, place, normal),
+                }
             }));
         }
-        Self { least, felt, at }
+        Self {
+            least,
+            reductions,
+            at,
+        }
     }
 
-    /// At a `place` [m] of a triangle of the shown `mesh`, beside a load of the radius `load` [m]; none where nothing is felt.
+    /// At a `place` [m] of a triangle of the displayed `mesh`, relative to a load of the radius `load` [m]; none
+    /// without any effect.
     pub(crate) fn exchange(
         &self,
         mesh: &TriangleMesh,
@@ -103,7 +111,7 @@ impl InclusionTable {
         let (below, within) = position::<LOADS>(load / (LEAST_LOAD * self.least), LOAD_FACTOR);
         let mut sums = [0.0; TIPS];
         for (own, shape) in at.iter().zip(shape) {
-            let Felt { tips, loads } = &self.felt[*own as usize];
+            let Reductions { tips, loads } = &self.reductions[*own as usize];
             let of_load = (1.0 - within) * loads[below] + within * loads[below + 1];
             for (sum, of_tip) in sums.iter_mut().zip(tips) {
                 *sum += shape * (of_load - of_tip);
@@ -116,7 +124,7 @@ impl InclusionTable {
     }
 }
 
-/// Areas that touch for which inclusions are tabulated [m].
+/// Contact areas for which inclusions are tabulated [m].
 fn radii(tip: Tip) -> [f64; TIPS] {
     let least = match tip {
         Tip::Flat { radius } => radius,
@@ -126,7 +134,8 @@ fn radii(tip: Tip) -> [f64; TIPS] {
 }
 
 impl TipExchange {
-    /// Of inclusions that are in no mesh, at a `place` [m] and along an outward `normal` [-]: no load has anything of them.
+    /// For inclusions that are in no mesh, at a `place` [m] and along an outward `normal` [-]: loads do not include
+    /// them.
     pub(crate) fn unsolved(field: &InclusionField, tip: Tip, place: &Vec3, normal: &Vec3) -> Self {
         let radii = radii(tip);
         let less = match tip {
@@ -144,8 +153,8 @@ impl TipExchange {
         }
     }
 
-    /// That under the force at which an area of the radius `touching` [m] would touch without inclusions, and its change with the
-    /// logarithm of the force.
+    /// The value under the force at which the contact area would have the radius `touching` [m] without inclusions, and
+    /// its derivative with the logarithm of the force.
     pub(crate) fn compliance(&self, touching: f64) -> [f64; 2] {
         let (below, within) = position::<TIPS>(touching / self.least, TIP_FACTOR);
         // Through the two with the slopes of those around them, which are continuous.
@@ -165,15 +174,15 @@ impl TipExchange {
     }
 }
 
-/// Between which of the radii, each so many times the one before, the one that is `times` the first is, and how far.
+/// The index of the lower of two successive radii around `times` the first one, and the fraction in between.
 fn position<const RADII: usize>(times: f64, factor: f64) -> (usize, f64) {
     let position = times.log(factor).clamp(0.0, (RADII - 1) as f64);
     let below = (position as usize).min(RADII - 2);
     (below, position - below as f64)
 }
 
-/// The places of a surface [m] and the outward normals there [-]: its vertices, then the middles of its edges. `of_triangle` hears
-/// the numbers of each triangle's.
+/// The nodes of a surface [m] and the outward normals there [-]: its vertices, then the middles of its edges.
+/// `of_triangle` receives the node numbers of each triangle.
 fn places(surface: &Surface, mut of_triangle: impl FnMut([usize; PLACES])) -> Vec<(Vec3, Vec3)> {
     let (vertices, normals) = (surface.mesh().vertices(), surface.vertex_normals());
     let each = vertices.iter().zip(normals);

@@ -1,6 +1,7 @@
-//! The tissues of an organ: layers, inclusions and what is around them, where `palpate_mechanics::regions` says.
+//! The tissues of an organ: layers, inclusions and the surrounding tissue, with the geometry of
+//! `palpate_mechanics::regions`.
 //!
-//! What a tip meets, and what the load that stands for it in a mesh does at the surface, are those of a layered half-space
+//! The surface compliance under a tip, and under the load that represents it in a mesh, is that of a layered half-space
 //! (`palpate_mechanics::layered`).
 
 mod inclusion_table;
@@ -24,16 +25,17 @@ use crate::Error;
 use crate::organ::read_tissue;
 use crate::tool::Tool;
 
-/// The nonlinear model takes a larger Poisson's ratio as this [-]: volume is kept to the percent, and a few iterations suffice.
+/// Largest Poisson's ratio in the nonlinear model [-]: volume is preserved to the percent, and a few iterations
+/// suffice.
 const LARGEST_RATIO: f64 = 0.49;
 
-/// Radii [m] for which the layers are solved: from one, each by this factor larger than the one before.
+/// Radii [m] for which the layers are solved: the first one, and the ratio of successive ones.
 const LEAST_RADIUS: f64 = 1e-4;
 const FACTOR: f64 = 1.2;
 const RADII: usize = 45;
 
-/// Areas that touch a sphere for which the layers are solved: the least over its radius, and each of the others over the one before
-/// [-].
+/// Contact areas of a sphere for which the layers are solved: the least relative to its radius, and the ratio of
+/// successive ones [-].
 const LEAST_AREA: f64 = 3e-3;
 const AREA_FACTOR: f64 = 1.12;
 const AREAS: i32 = 62;
@@ -43,9 +45,9 @@ const AREAS: i32 = 62;
 pub(crate) struct RegionTissue {
     pub(crate) tissue: Tissue,
     pub(crate) material: Material,
-    /// As the nonlinear model takes it.
+    /// In the nonlinear model.
     pub(crate) moduli: Moduli<f64>,
-    /// At rest, as the nonlinear model takes it.
+    /// At rest, in the nonlinear model.
     pub(crate) law: LinearElastic,
 }
 
@@ -58,7 +60,7 @@ pub(crate) struct RegionCavity {
     pub(crate) content: CavityContent,
 }
 
-/// Where which tissue is.
+/// The tissue of every point.
 #[derive(Debug, Clone)]
 pub(crate) struct Regions {
     /// Of the organ, of the layers from outside, of the inclusions. That of a cavity has no element.
@@ -69,16 +71,17 @@ pub(crate) struct Regions {
     pub(crate) names: Vec<String>,
     pub(crate) map: RegionMap,
     layered: LayeredHalfSpace,
-    /// How much more than their outermost tissue the layers yield to a flat tip and to a load of each radius [-].
+    /// Compliance of the layers to a flat tip and to a load of each radius, relative to their outermost tissue [-].
     punch: Vec<[f64; 2]>,
     load: Vec<[f64; 2]>,
-    /// On the tissues, and on what the nonlinear model makes of them.
+    /// Warnings about the tissues, and about their simplification in the nonlinear model.
     pub(crate) warnings: Vec<String>,
     pub(crate) nonlinear_warnings: Vec<String>,
 }
 
 impl Regions {
-    /// The `layers` and `inclusions` of the body within `surface`, whose tree is `tree`, which is otherwise of one tissue.
+    /// The `layers` and `inclusions` of the body within `surface` with the bounding-box tree `tree`; the rest has one
+    /// tissue.
     ///
     /// # Errors
     /// When a file cannot be read, or a layer or a shape does not fit into the body.
@@ -163,14 +166,14 @@ impl Regions {
             .region_below(|number| is_tissue(*number) && self.map.height(*number, place) <= 0.0)
     }
 
-    /// Whether all of it is of one law.
+    /// Whether all of it has the same law.
     pub(crate) fn are_alike(&self) -> bool {
         let first = &self.tissues[0].tissue.elasticity;
-        let mut others = self.beside();
+        let mut others = self.without_organ();
         self.cavities.is_empty() && others.all(|tissue| tissue.elasticity == *first)
     }
 
-    /// Whether all of it relaxes alike.
+    /// Whether all of it relaxes in the same way.
     pub(crate) fn relax_alike(&self) -> bool {
         let mut others = self.tissues.iter();
         let surface = &self.at_surface().material.prony;
@@ -187,24 +190,24 @@ impl Regions {
         self.map.enclosed()
     }
 
-    /// Layers and inclusions: with what tissue, beside that of the organ.
-    pub(crate) fn beside(&self) -> impl Iterator<Item = &Tissue> {
+    /// The tissues of layers and inclusions, without that of the organ.
+    pub(crate) fn without_organ(&self) -> impl Iterator<Item = &Tissue> {
         self.tissues[1..].iter().map(|region| &region.tissue)
     }
 
-    /// Inclusions: of what tissue.
+    /// The tissues of inclusions.
     pub(crate) fn of_inclusions(&self) -> impl Iterator<Item = &Tissue> {
         let inclusions = &self.tissues[1 + self.layers..];
         inclusions.iter().map(|region| &region.tissue)
     }
 
-    /// What lies at the outer surface.
+    /// The outermost tissue.
     pub(crate) fn at_surface(&self) -> &RegionTissue {
         &self.tissues[usize::from(self.layers > 0)]
     }
 
-    /// How much more than the tissue at the surface the layers yield to a flat tip of this radius [m]: along the surface, and
-    /// along its normal [-].
+    /// Compliance of the layers to a flat tip of this radius [m], relative to the tissue at the surface: along the
+    /// surface, and along its normal [-].
     pub(crate) fn yields_to_tip(&self, radius: f64) -> [f64; 2] {
         interpolate(&self.punch, radius)
     }
@@ -214,8 +217,8 @@ impl Regions {
         interpolate(&self.load, radius)
     }
 
-    /// What the inclusions, and cavities, are to loads on the tissue around them, with the `law` of each tissue, for compliances that are
-    /// scaled to Young's modulus of that of the tissue `unit`.
+    /// The effect of the inclusions, and cavities, on loads on the tissue around them, with the `law` of each tissue,
+    /// for compliances that are scaled to Young's modulus of the tissue `unit`.
     pub(crate) fn inclusions(
         &self,
         law: impl Fn(&RegionTissue) -> LinearElastic,
@@ -234,9 +237,9 @@ impl Regions {
         InclusionField::new(&self.map, &around, &moduli, law(unit).youngs_modulus())
     }
 
-    /// Puts the layers under the tip of a tool, whose law is that on what a flat tip of its typical radius meets: the area that
-    /// touches a sphere grows, and with it what is felt of them.
-    pub(crate) fn lie_under(&self, tool: &mut Tool) {
+    /// Applies the layers to the tip of a tool, whose law is that for a flat tip of its typical radius: the contact
+    /// area of a sphere grows, and with it the effect of the layers.
+    pub(crate) fn apply_to_tip(&self, tool: &mut Tool) {
         let Tip::Sphere { radius } = tool.tip else {
             return;
         };
@@ -251,7 +254,8 @@ impl Regions {
         }));
     }
 
-    /// What a tip of this radius [m] meets: the tissue at the surface, as stiff as the layers are to it.
+    /// The effective tissue under a tip of this radius [m]: the tissue at the surface, with the stiffness of the
+    /// layers.
     pub(crate) fn touched(&self, radius: f64) -> Result<(Tissue, Material), Error> {
         let RegionTissue {
             tissue, material, ..

@@ -1,4 +1,4 @@
-//! Where the layers and inclusions of a scene are.
+//! The geometry of the layers and inclusions of a scene.
 
 use palpate_files::scene::{Inclusion, InclusionPlace, Layer, Shape};
 use palpate_geometry::{AabbTree, Surface};
@@ -6,7 +6,7 @@ use palpate_mechanics::regions::{RegionError, RegionMap, RegionPlace};
 
 use crate::{Error, read_organ};
 
-/// The place of an inclusion, whose file is read if it has one, and warnings.
+/// The shape of an inclusion, whose file is read if it has one, and warnings.
 ///
 /// # Errors
 /// When the file cannot be read or has no closed surface.
@@ -21,8 +21,8 @@ pub fn read_inclusion(inclusion: &InclusionPlace) -> Result<(RegionPlace, Vec<St
     }
 }
 
-/// Where the `layers` that are felt and the `inclusions` of a body with this surface and its tree are, in this order; and
-/// warnings.
+/// The geometry of the effective `layers` and the `inclusions` of a body with this surface and its tree, in this order;
+/// and warnings.
 pub(crate) fn read_regions(
     layers: &[Layer],
     inclusions: &[Inclusion],

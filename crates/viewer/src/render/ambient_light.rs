@@ -3,8 +3,8 @@ use palpate_geometry::{AabbTree, Surface, Vec3};
 /// Rays that may be cast for one organ: a tenth of a second's work.
 const RAYS: usize = 160_000;
 
-/// How open each vertex is to light from all sides [-]: 1 on a ball, less in a hollow, as rays from there
-/// tell that meet the organ again within a third of its size.
+/// Openness of each vertex to light from all sides [-]: 1 on a ball, less in a hollow, by the rays from there
+/// that meet the organ again within a third of its size.
 pub(crate) fn ambient_light(surface: &Surface) -> Vec<f32> {
     let mesh = surface.mesh();
     let tree = AabbTree::new(mesh);

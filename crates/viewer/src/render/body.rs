@@ -24,7 +24,7 @@ pub struct Body {
     pub(super) tint: Tint,
     pub(super) fibres: Option<Fibres>,
     pub(super) openings: Vec<Opening>,
-    /// What it is in a picture of labels.
+    /// Its label in a picture of labels.
     pub(super) label: Label,
 }
 
@@ -156,14 +156,14 @@ impl Body {
             self.moving_buffer = buffer(gpu, "moving", bytes, wgpu::BufferUsages::VERTEX);
         }
         let resting: &[u8] = bytemuck::cast_slice(&resting);
-        keep(
+        upload(
             gpu,
             &mut self.resting_buffer,
             resting,
             wgpu::BufferUsages::VERTEX,
         );
         let corners: &[u8] = bytemuck::cast_slice(&self.triangles);
-        keep(
+        upload(
             gpu,
             &mut self.index_buffer,
             corners,
@@ -218,12 +218,12 @@ fn buffer(gpu: &Gpu, label: &'static str, bytes: usize, usage: wgpu::BufferUsage
     })
 }
 
-/// Writes `contents` into `kept`, or into a larger buffer in its place.
-fn keep(gpu: &Gpu, kept: &mut wgpu::Buffer, contents: &[u8], usage: wgpu::BufferUsages) {
-    if (kept.size() as usize) < contents.len() {
-        *kept = buffer(gpu, "body", contents.len(), usage);
+/// Writes `contents` into `target`, or into a larger buffer in its place.
+fn upload(gpu: &Gpu, target: &mut wgpu::Buffer, contents: &[u8], usage: wgpu::BufferUsages) {
+    if (target.size() as usize) < contents.len() {
+        *target = buffer(gpu, "body", contents.len(), usage);
     }
-    gpu.queue.write_buffer(kept, 0, contents);
+    gpu.queue.write_buffer(target, 0, contents);
 }
 
 /// Places [m] as an adapter takes them.

@@ -1,4 +1,4 @@
-//! What surrounds an organ, as its wet film mirrors it: the inside of an abdomen under two lamps, or the
+//! The surroundings of an organ, which its wet film mirrors: the inside of an abdomen under two lamps, or the
 //! user's picture; as a sphere map and as a cube map.
 //!
 //! A sphere map is the picture of a mirroring ball, as graphics hardware reads it: the reflection

@@ -1,4 +1,4 @@
-//! What `shader/film.wgsl` computes, asked of the adapter itself.
+//! Results of `shader/film.wgsl`, computed by the adapter itself.
 
 use crate::Gpu;
 

@@ -1,4 +1,4 @@
-//! Pictures of measures: how far everything is, and what it is. One sample per pixel: no mean of two distances or of two
+//! Pictures of depths and labels. One sample per pixel: no mean of two distances or of two
 //! labels stands at an edge.
 //!
 //! *How we know*: `labels::…`.
@@ -9,14 +9,14 @@ use super::Attachments;
 use super::target::{DEPTH, DEPTH_AND_LABEL, allowed, attachment, read_texture, view};
 use crate::{Error, Gpu};
 
-/// What is seen at a pixel.
+/// Label of a pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Label {
     /// Nothing of the scene.
     Background,
     /// The organ that is touched, with its openings.
     Organ,
-    /// A body beside it.
+    /// Another body.
     Neighbour,
     /// The tool of this number in the scene.
     Tool(u8),
@@ -45,7 +45,7 @@ pub struct Labels {
     pub labels: Vec<u8>,
 }
 
-/// What [`Labels`] are drawn into.
+/// The target of [`Labels`].
 pub struct LabelTarget {
     size: (u32, u32),
     measured: wgpu::Texture,

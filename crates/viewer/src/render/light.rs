@@ -2,7 +2,7 @@ use palpate_geometry::Vec3;
 
 use crate::Camera;
 
-/// What light there is, with colours as linear red, green, blue.
+/// Lighting, with colours as linear red, green, blue.
 pub(super) struct Light {
     /// Direction towards the key light, or the place of the lamp [m].
     pub(super) key: Vec3,

@@ -63,7 +63,7 @@ impl Maps {
         &self.bound[usize::from(has_vessels)]
     }
 
-    /// What the shader `tissue.wgsl` binds in its group 1.
+    /// Layout of group 1 of the shader `tissue.wgsl`.
     pub(super) fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
         let texture = |view_dimension| wgpu::BindingType::Texture {
             sample_type: wgpu::TextureSampleType::Float { filterable: true },

@@ -2,7 +2,7 @@
 //! window shows or a file receives.
 //!
 //! Tissue is lit by a key light and by light from all sides, less in hollows and under tools, which cast soft
-//! shadows of the key light. Light that enters tissue comes out beside: each colour has its own normal between that of
+//! shadows of the key light. Light that enters tissue leaves it nearby: each colour has its own normal between that of
 //! the relief and that of the surface, red the smoothest [Ma et al. 2007]. With a map of the surroundings (section
 //! 7.5) tissue is wet: a film of water fills its relief, darkens it [Lekner and Dorf 1988], mirrors the map by Fresnel's
 //! law and shows the lamp as a microfacet surface of the film's roughness. Without one it is dull. An endoscope's light
@@ -57,13 +57,13 @@ pub struct View {
     pub camera: Camera,
     /// How the organ is drawn.
     pub shading: Shading,
-    /// What tissue shows of itself.
+    /// Details of tissue.
     pub looks: Looks,
-    /// What lies within this distance of the camera's target is drawn [m].
+    /// Distance from the camera's target within which bodies are drawn [m].
     pub reach: f64,
 }
 
-/// What tissue shows beyond its shape.
+/// Details of tissue beyond its shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Looks {
     /// Its fine relief, patches and vessels.
@@ -89,18 +89,18 @@ impl Looks {
     };
 }
 
-/// What draws pictures.
+/// The renderer.
 pub struct Renderer {
     pipelines: Pipelines,
     maps: Maps,
     globals: Bound,
     bodies: Vec<Bound>,
     instruments: Vec<Bound>,
-    shapes: Vec<Option<(ToolShape, Vec<KeptPart>)>>,
+    shapes: Vec<Option<(ToolShape, Vec<UploadedPart>)>>,
 }
 
-/// A part of a tool and where its triangles are kept.
-struct KeptPart {
+/// A part of a tool with the buffer of its triangles.
+struct UploadedPart {
     part: Part,
     buffer: wgpu::Buffer,
 }
@@ -222,10 +222,10 @@ impl Renderer {
         let shapes = self.shapes.iter().zip(self.instruments.chunks(PARTS));
         for (shape, bounds) in shapes.take(count) {
             let parts = shape.iter().flat_map(|(_, parts)| parts);
-            for (kept, bound) in parts.zip(bounds) {
+            for (uploaded, bound) in parts.zip(bounds) {
                 pass.set_bind_group(1, &bound.group, &[]);
-                pass.set_vertex_buffer(0, kept.buffer.slice(..));
-                pass.draw(0..kept.part.corners.len() as u32, 0..1);
+                pass.set_vertex_buffer(0, uploaded.buffer.slice(..));
+                pass.draw(0..uploaded.part.corners.len() as u32, 0..1);
             }
         }
     }
@@ -257,10 +257,10 @@ impl Renderer {
         for (number, tool) in tools.iter().take(TOOLS).enumerate() {
             self.shape(gpu, number, &tool.shape);
             let parts = self.shapes[number].iter().flat_map(|(_, parts)| parts);
-            for (kept, bound) in parts.zip(&self.instruments[PARTS * number..]) {
+            for (uploaded, bound) in parts.zip(&self.instruments[PARTS * number..]) {
                 let uniform = InstrumentUniform {
-                    placed: columns(&tool.placed(&kept.part)),
-                    color: kept.part.look(),
+                    placed: columns(&tool.placed(&uploaded.part)),
+                    color: uploaded.part.look(),
                     label: [f32::from(tool.label.number()), 0.0, 0.0, 0.0],
                 };
                 bound.write(gpu, bytemuck::bytes_of(&uniform));
@@ -270,21 +270,25 @@ impl Renderer {
 
     /// Makes the meshes of a tool anew when its shape is another one.
     fn shape(&mut self, gpu: &Gpu, number: usize, shape: &ToolShape) {
-        let kept = &mut self.shapes[number];
-        if kept.as_ref().is_some_and(|(last, _)| last == shape) {
+        let uploaded = &mut self.shapes[number];
+        if uploaded.as_ref().is_some_and(|(last, _)| last == shape) {
             return;
         }
-        let parts = shape.parts().into_iter().take(PARTS).map(|part| KeptPart {
-            buffer: gpu
-                .device
-                .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                    label: Some("tool"),
-                    contents: bytemuck::cast_slice(&part.corners),
-                    usage: wgpu::BufferUsages::VERTEX,
-                }),
-            part,
-        });
-        *kept = Some((shape.clone(), parts.collect()));
+        let parts = shape
+            .parts()
+            .into_iter()
+            .take(PARTS)
+            .map(|part| UploadedPart {
+                buffer: gpu
+                    .device
+                    .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                        label: Some("tool"),
+                        contents: bytemuck::cast_slice(&part.corners),
+                        usage: wgpu::BufferUsages::VERTEX,
+                    }),
+                part,
+            });
+        *uploaded = Some((shape.clone(), parts.collect()));
     }
 }
 

@@ -8,7 +8,7 @@ use super::maps::Maps;
 use super::target::{COLOR, DEPTH, DEPTH_AND_LABEL};
 use crate::Gpu;
 
-/// What one pipeline draws.
+/// Subject of a pipeline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Subject {
     Backdrop,

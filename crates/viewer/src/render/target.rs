@@ -8,10 +8,10 @@ pub(super) const COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 pub(crate) const DEPTH_AND_LABEL: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Float;
 pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// What copies between textures and buffers demand.
+/// Row alignment of copies between textures and buffers.
 const ROW_ALIGNMENT: u32 = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT;
 
-/// What a picture is drawn into.
+/// The target of a picture.
 pub struct Target {
     size: (u32, u32),
     samples: u32,
@@ -111,12 +111,12 @@ pub(super) fn read_texture(
     };
     encoder.copy_texture_to_buffer(texture.as_image_copy(), into, extent(size));
     gpu.queue.submit([encoder.finish()]);
-    let (told, answer) = std::sync::mpsc::channel();
-    let tell = move |outcome| {
+    let (sender, answer) = std::sync::mpsc::channel();
+    let on_mapped = move |outcome| {
         // The receiver lives until the answer is there.
-        let _ = told.send(outcome);
+        let _ = sender.send(outcome);
     };
-    buffer.slice(..).map_async(wgpu::MapMode::Read, tell);
+    buffer.slice(..).map_async(wgpu::MapMode::Read, on_mapped);
     gpu.device
         .poll(wgpu::PollType::wait_indefinitely())
         .map_err(lost)?;

@@ -1,5 +1,5 @@
-//! The look of tissue as a block that repeats in space: where the organ's surface is at rest tells its
-//! relief and colour, so that no seam and no stretched place exists, and what is seen sticks to tissue
+//! Texture of tissue as a block that repeats in space: the resting position on the organ's surface determines
+//! relief and colour, so that there are no seams and no stretched places, and the texture follows tissue
 //! that deforms.
 //!
 //! A texel holds the slope of the relief along x, y and z and the tone: 0 a vessel, 0.3 dark, 1 light.
@@ -85,7 +85,7 @@ fn finest(values: &[[f32; 3]], vessels: f32) -> Vec<u8> {
     bytes
 }
 
-/// What tissue is made of.
+/// Components of the tissue texture.
 struct Grain {
     bumps: [Noise; 2],
     patches: Clouds,

@@ -1,4 +1,4 @@
-//! What the shaders are told, byte for byte as in `shader/*.wgsl`.
+//! Uniforms of the shaders, byte for byte as in `shader/*.wgsl`.
 
 use bytemuck::{Pod, Zeroable};
 use nalgebra::Matrix4;

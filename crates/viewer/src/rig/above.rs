@@ -14,7 +14,7 @@ const HEIGHT: f32 = 68.0;
 /// Width of a quantity with its limit, at most.
 const WIDEST: f32 = 300.0;
 
-/// What the rig does, how near its limits it is, and the emergency stop; what went wrong.
+/// Shows the state of the rig, its distance from the limits, the emergency stop and errors.
 pub(super) fn show(window: &mut RigWindow, ui: &mut Ui) {
     ui.add_space(6.0);
     ui.horizontal(|ui| {
@@ -89,8 +89,8 @@ fn state(window: &mut RigWindow, ui: &mut Ui) {
     };
     ui.label(RichText::new(word).size(21.0).color(color));
     let now = watch.now.map_or(0.0, |now| now.time);
-    let whole = watch.doing.and_then(|(order, since)| {
-        let whole = match order {
+    let whole = watch.doing.and_then(|(command, since)| {
+        let whole = match command {
             RigCommand::Rest => window.settings.recovery,
             RigCommand::Press(trajectory, _) => window.settings.time_of(&trajectory),
             _ => return None,
@@ -166,15 +166,25 @@ fn depth(window: &mut RigWindow, ui: &mut Ui) {
 }
 
 fn breath(window: &mut RigWindow, ui: &mut Ui) {
-    let held = window.watch.now.and_then(|now| now.breath);
+    let breath_time = window.watch.now.and_then(|now| now.breath);
     let number = |seconds: f64| format!("{seconds:.1} s");
-    let (name, number, part, of) = match (held, window.settings.breath) {
-        (Some(held), Some(budget)) => {
-            let left = (budget - held).max(0.0);
+    let (name, number, part, of) = match (breath_time, window.settings.breath) {
+        (Some(breath_time), Some(budget)) => {
+            let left = (budget - breath_time).max(0.0);
             let of = format!("budget {budget:.0} s");
-            ("breath is held, left", number(left), held / budget, of)
+            (
+                "breath is held, left",
+                number(left),
+                breath_time / budget,
+                of,
+            )
         }
-        (Some(held), None) => ("breath is held", number(held), 0.0, "no budget".to_owned()),
+        (Some(breath_time), None) => (
+            "breath is held",
+            number(breath_time),
+            0.0,
+            "no budget".to_owned(),
+        ),
         (None, Some(budget)) => (
             "breath",
             "drawn".to_owned(),
@@ -255,7 +265,7 @@ fn unsaved(window: &mut RigWindow, ui: &mut Ui) {
     }
 }
 
-/// What did not work.
+/// An error.
 fn notice(window: &mut RigWindow, ui: &mut Ui) {
     let Some(notice) = window.watch.notice.clone() else {
         return;

@@ -134,13 +134,13 @@ fn jog(window: &mut RigWindow, own: Jog, size: eframe::egui::Vec2, ui: &mut Ui) 
 fn drive(window: &mut RigWindow, up: bool, key: &str, size: eframe::egui::Vec2, ui: &mut Ui) {
     let free = window.watch.is_free();
     let word = if up { "up" } else { "down" };
-    let held = Button::new(format!("Hold to go {word}")).min_size(size);
+    let button = Button::new(format!("Hold to go {word}")).min_size(size);
     // Enabled while it is held, when its own command is being carried out.
     let driving = matches!(window.watch.doing, Some((RigCommand::Drive(_), _)));
     let speed = 1e3 * window.settings.jog_speed;
     let hint = format!("at {speed} mm/s for as long as it is held ({key} key)");
-    let held = ui.add_enabled(free || driving, held).on_hover_text(hint);
-    if held.is_pointer_button_down_on() {
+    let button = ui.add_enabled(free || driving, button).on_hover_text(hint);
+    if button.is_pointer_button_down_on() {
         keys::drive(window, up);
     }
 }
@@ -148,14 +148,14 @@ fn drive(window: &mut RigWindow, up: bool, key: &str, size: eframe::egui::Vec2, 
 fn programmed(window: &mut RigWindow, size: eframe::egui::Vec2, ui: &mut Ui) {
     let down = "down until tissue is met, then wait above it (A key)";
     let out = "out of the tissue (W key)";
-    for (word, hint, order) in [
+    for (word, hint, command) in [
         ("Approach", down, RigCommand::Approach),
         ("Withdraw", out, RigCommand::Withdraw),
     ] {
         let button = Button::new(word).min_size(size);
         let button = ui.add_enabled(window.watch.is_free(), button);
         if button.on_hover_text(hint).clicked() {
-            window.send(order);
+            window.send(command);
         }
     }
     ui.end_row();

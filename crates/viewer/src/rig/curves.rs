@@ -26,16 +26,16 @@ pub(super) fn force_over_depth(rows: &[RecordingRow]) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// What is left of the force at the end of the ramp [-], over the logarithm of the time since [s]; nothing for a
-/// stimulus that is not held.
+/// Force relative to that at the end of the ramp [-], over the logarithm of the time since [s]; nothing for a
+/// stimulus without a hold.
 pub(super) fn relaxation(rows: &[RecordingRow], stimulus: &Stimulus) -> Vec<[f64; 2]> {
     let Stimulus::RampAndHold { depth_m, .. } = *stimulus else {
         return Vec::new();
     };
-    let Some(held) = rows.iter().position(|row| row.depth_m > depth_m - ENCODED) else {
+    let Some(hold_start) = rows.iter().position(|row| row.depth_m > depth_m - ENCODED) else {
         return Vec::new();
     };
-    let rows = &rows[held..];
+    let rows = &rows[hold_start..];
     let began = rows[0].time_s;
     let largest = rows.iter().take_while(|row| row.time_s < began + EARLIEST);
     let largest = largest.fold(0.0_f64, |most, row| most.max(row.force_n));

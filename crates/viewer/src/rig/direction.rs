@@ -46,7 +46,7 @@ pub(super) fn show(window: &mut RigWindow, ui: &mut Ui) {
     }
 }
 
-/// What the sensor shows on each of its axes, or why it shows nothing.
+/// Reading of the sensor on each of its axes, or why there is none.
 pub(super) fn axes(window: &RigWindow, ui: &mut Ui) {
     ui.separator();
     ui.label(RichText::new("sensor, axes of the indenter").strong());

@@ -7,7 +7,7 @@ use palpate_measure::{DepthTrajectory, Recorded, RigSettings, recording_name, st
 
 use super::curves::{force_over_depth, relaxation};
 
-/// The recordings that were made, and those that were asked for.
+/// Finished and pending recordings.
 #[derive(Debug, Default)]
 pub(super) struct Journal {
     folder: PathBuf,
@@ -39,7 +39,7 @@ struct PendingRecording {
     entry: What,
 }
 
-/// What was recorded.
+/// The subject of a recording.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct What {
     /// The number of the specimen.
@@ -121,7 +121,7 @@ impl Journal {
         });
     }
 
-    /// A recording could not be written; what was pressed is kept.
+    /// Takes a recording that could not be written; its samples stay in memory.
     pub(super) fn keep_unsaved(&mut self, unwritten: Unwritten) {
         let number = unwritten.commission.number;
         let Some(place) = self.asked.iter().position(|asked| asked.number == number) else {

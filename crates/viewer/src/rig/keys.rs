@@ -4,7 +4,7 @@ use palpate_measure::live::RigCommand;
 use super::RigWindow;
 use super::by_hand::JogStep;
 
-/// What the keyboard asks for. Space is the emergency stop, whatever else has the keyboard.
+/// Handles the keyboard. Space is the emergency stop, even while a field has the keyboard.
 pub(super) fn take(window: &mut RigWindow, context: &Context) {
     let taken = |key| context.input_mut(|input| input.consume_key(Modifiers::NONE, key));
     if taken(Key::Space) {
@@ -48,13 +48,13 @@ pub(super) fn take(window: &mut RigWindow, context: &Context) {
             window.jog(way);
         }
     }
-    for (key, order) in [
+    for (key, command) in [
         (Key::A, RigCommand::Approach),
         (Key::N, RigCommand::MeasureNormal),
         (Key::W, RigCommand::Withdraw),
     ] {
         if taken(Modifiers::NONE, key) && window.watch.is_free() {
-            window.send(order);
+            window.send(command);
         }
     }
     for (key, up) in [(Key::PageDown, false), (Key::PageUp, true)] {
@@ -67,14 +67,17 @@ pub(super) fn take(window: &mut RigWindow, context: &Context) {
 /// Drives the indenter for as long as this is called at every picture.
 pub(super) fn drive(window: &mut RigWindow, up: bool) {
     let normal = window.watch.normal();
-    let order = RigCommand::Drive(if up { normal } else { -normal });
-    let driven = window.watch.doing.is_some_and(|(doing, _)| doing == order);
+    let command = RigCommand::Drive(if up { normal } else { -normal });
+    let driven = window
+        .watch
+        .doing
+        .is_some_and(|(doing, _)| doing == command);
     if driven {
-        // What only prolongs is not heard of again.
+        // A command that only prolongs the drive has no event of its own.
         if let Some(live) = window.live() {
-            live.console.send(order);
+            live.console.send(command);
         }
     } else if window.watch.is_free() {
-        window.send(order);
+        window.send(command);
     }
 }

@@ -1,11 +1,11 @@
-//! The window in which a rig is operated: what it does and its limits above, what it can be asked on the left,
-//! what is felt and what was recorded in the middle.
+//! The window that operates a rig: state and limits above, controls on the left, live and recorded plots in the
+//! middle.
 //!
-//! The window owns no rig: it sends commands, and shows what a [`LiveRig`] tells, which goes on in threads of its
-//! own however slow the picture is.
+//! The window owns no rig: it sends commands and shows the events of a [`LiveRig`], whose threads do not depend on the
+//! frame rate.
 //!
 //! *How we know*: `rig::journal::…`, `rig::curves::…`, `rig::prepared::…`; the rig by the tests of its crate; the
-//! window itself is looked at.
+//! window itself is checked by eye.
 //!
 //! *Limits*: one specimen at a time.
 
@@ -39,11 +39,11 @@ use preparation::Preparation;
 use prepared::Prepared;
 use watch::Watch;
 
-/// What a rig's window is opened with.
+/// Settings of a rig's window.
 pub struct Bench {
     /// The limits and speeds of the rig.
     pub settings: RigSettings,
-    /// What can be pressed, each with how often a protocol repeats it.
+    /// Stimuli, each with its repetitions in a protocol.
     pub stimuli: Vec<(DepthTrajectory, u64)>,
     /// The specimens, one at least.
     pub places: Vec<Place>,
@@ -59,7 +59,7 @@ pub struct Bench {
 
 /// A specimen that a rig can be put over.
 pub struct Place {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// Where on it a protocol begins.
     pub begin: Begin,
@@ -67,7 +67,7 @@ pub struct Place {
     pub make: Arc<Make>,
 }
 
-/// What a protocol does before it approaches.
+/// Start of a protocol, before the approach.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Begin {
     /// Where the indenter goes first, in the rig's axes [m].
@@ -76,7 +76,7 @@ pub struct Begin {
     pub measures_normal: bool,
 }
 
-/// Makes a rig, on a real clock, and tells the part that is done [-].
+/// Makes a rig, on a real clock, and reports the part that is done [-].
 pub type Make = dyn Fn(&mut dyn FnMut(f64)) -> Result<MadeRig, String> + Send + Sync;
 
 /// A rig over a specimen.
@@ -164,7 +164,7 @@ impl RigWindow {
         self.behind = Behind::Preparing(Preparation::start(make, context.clone()));
     }
 
-    /// Takes over what was prepared, and reads what the rig has told.
+    /// Takes over a prepared rig, and reads the events of the rig.
     fn read(&mut self) {
         let outcome = match &self.behind {
             Behind::Preparing(preparation) => preparation.outcome(),
@@ -206,9 +206,9 @@ impl RigWindow {
     }
 
     /// Sends a command whose end is reported.
-    fn send(&mut self, order: RigCommand) {
+    fn send(&mut self, command: RigCommand) {
         if let Behind::Live(live) = &mut self.behind {
-            live.console.send(order);
+            live.console.send(command);
             self.watch.waiting += 1;
         }
     }
@@ -219,7 +219,7 @@ impl RigWindow {
         self.send(RigCommand::Jog(way));
     }
 
-    /// Has a course pressed and recorded.
+    /// Queues a press and its recording.
     fn press(&mut self, trajectory: &DepthTrajectory) {
         if !self.can_record() {
             return;
@@ -234,7 +234,7 @@ impl RigWindow {
         }
     }
 
-    /// Memory keeps one recording that could not be written; the next waits until something becomes of it.
+    /// Only one unwritten recording stays in memory; the next press waits until it is saved or discarded.
     fn can_record(&mut self) -> bool {
         let is_free = self.journal.unsaved.is_none();
         if !is_free {
@@ -259,8 +259,8 @@ impl RigWindow {
         }
         let all: Vec<DepthTrajectory> = self.prepared.iter().flat_map(Prepared::repeated).collect();
         for trajectory in all {
-            for order in [RigCommand::Rest, RigCommand::Approach, RigCommand::Rest] {
-                self.send(order);
+            for command in [RigCommand::Rest, RigCommand::Approach, RigCommand::Rest] {
+                self.send(command);
             }
             self.press(&trajectory);
         }

@@ -1,4 +1,4 @@
-//! The estimate while a stimulus is pressed, made on a thread of its own: a fit takes longer than a picture.
+//! The estimate during a stimulus, on its own thread: a fit takes longer than a picture.
 
 use std::sync::mpsc::{Receiver, Sender, channel};
 
@@ -14,10 +14,10 @@ use crate::style::{DEPTH, QUIET, WHITE};
 /// Samples that make the next estimate worth its time.
 const MORE: usize = 100;
 
-/// What is known of the tissue under the indenter.
+/// The current estimate of the tissue under the indenter.
 #[derive(Debug, Default)]
 pub(super) struct Online {
-    /// To the thread; none when no estimate is made of what is pressed.
+    /// To the thread; none when the press is not estimated.
     samples: Option<Sender<OnlineSample>>,
     estimates: Option<Receiver<OnlineEstimate>>,
     last: Option<OnlineEstimate>,
@@ -26,7 +26,7 @@ pub(super) struct Online {
 }
 
 impl Online {
-    /// Begins with a press to `deepest` [m] of what `header` describes.
+    /// Begins with a press to `deepest` [m] into the specimen of `header`.
     pub(super) fn begin(&mut self, header: &RecordingHeader, deepest: f64) {
         self.end();
         self.last = None;
@@ -43,9 +43,9 @@ impl Online {
             return;
         };
         let (samples, taken) = channel();
-        let (told, estimates) = channel();
+        let (sender, estimates) = channel();
         let thread = std::thread::Builder::new().name("estimate".to_owned());
-        if thread.spawn(move || run(online, &taken, &told)).is_ok() {
+        if thread.spawn(move || run(online, &taken, &sender)).is_ok() {
             self.samples = Some(samples);
             self.estimates = Some(estimates);
         }
@@ -58,7 +58,7 @@ impl Online {
 
     pub(super) fn add(&mut self, sample: OnlineSample) {
         if let Some(samples) = &self.samples {
-            // A thread that ended tells nothing more.
+            // The thread may have ended.
             let _ = samples.send(sample);
         }
     }
@@ -132,17 +132,17 @@ fn symbol(name: &str) -> &str {
     }
 }
 
-/// Takes samples until nobody sends any, and tells what they come to.
+/// Receives samples until the sender is dropped, and sends estimates.
 fn run(
     mut online: OnlineEstimator,
     samples: &Receiver<OnlineSample>,
-    told: &Sender<OnlineEstimate>,
+    sender: &Sender<OnlineEstimate>,
 ) {
     let mut since = 0;
     while let Ok(sample) = samples.recv() {
         online.add(sample);
         since += 1;
-        // What has come meanwhile belongs to the same estimate.
+        // Samples that arrived meanwhile belong to the same estimate.
         for more in samples.try_iter() {
             online.add(more);
             since += 1;
@@ -151,12 +151,12 @@ fn run(
             continue;
         }
         since = 0;
-        if told.send(online.estimate()).is_err() {
+        if sender.send(online.estimate()).is_err() {
             return;
         }
     }
     if since > 0 && online.is_touching() {
-        // Nobody waits for it where the window is gone.
-        let _ = told.send(online.estimate());
+        // Fails when the window is closed.
+        let _ = sender.send(online.estimate());
     }
 }

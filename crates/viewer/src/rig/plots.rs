@@ -14,7 +14,7 @@ const FADED: f32 = 0.35;
 /// How far from a whole power of ten a mark may be by rounding [-].
 const WHOLE: f64 = 1e-6;
 
-/// What a plot is of.
+/// Contents of a plot.
 struct Drawn<'a> {
     title: String,
     axes: [&'a str; 2],
@@ -25,12 +25,12 @@ struct Drawn<'a> {
     logarithmic: bool,
 }
 
-/// What is felt, above, and what was recorded, below.
+/// Shows live plots above and recorded ones below.
 pub(super) fn show(window: &RigWindow, ui: &mut Ui) {
     let whole = ui.available_size();
     let size = vec2(0.5 * (whole.x - GAP), 0.5 * (whole.y - GAP));
     ui.spacing_mut().item_spacing = vec2(GAP, GAP);
-    for row in [felt(window), recorded(window)] {
+    for row in [live_plots(window), recorded_plots(window)] {
         ui.horizontal(|ui| {
             for (number, drawn) in row.into_iter().enumerate() {
                 ui.allocate_ui_with_layout(size, Layout::top_down(Align::Min), |ui| {
@@ -44,7 +44,7 @@ pub(super) fn show(window: &RigWindow, ui: &mut Ui) {
     }
 }
 
-fn felt(window: &RigWindow) -> [Drawn<'_>; 2] {
+fn live_plots(window: &RigWindow) -> [Drawn<'_>; 2] {
     let history = &window.watch.history;
     let time = |axis, title: &str, points, color| Drawn {
         title: title.to_owned(),
@@ -67,7 +67,7 @@ fn felt(window: &RigWindow) -> [Drawn<'_>; 2] {
     ]
 }
 
-fn recorded(window: &RigWindow) -> [Drawn<'_>; 2] {
+fn recorded_plots(window: &RigWindow) -> [Drawn<'_>; 2] {
     let mut force_over_depth = Vec::new();
     let mut relaxation = Vec::new();
     let mut name = "nothing is recorded yet".to_owned();
@@ -87,8 +87,8 @@ fn recorded(window: &RigWindow) -> [Drawn<'_>; 2] {
             );
         }
     }
-    let held = relaxation.iter().any(|(points, _)| !points.is_empty());
-    let of_hold = match held || relaxation.is_empty() {
+    let has_hold = relaxation.iter().any(|(points, _)| !points.is_empty());
+    let of_hold = match has_hold || relaxation.is_empty() {
         true => "force over that at the end of the ramp".to_owned(),
         false => "a swing is not held".to_owned(),
     };

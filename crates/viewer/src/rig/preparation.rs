@@ -6,7 +6,7 @@ use eframe::egui;
 
 use super::{MadeRig, Make};
 
-/// A rig that is being made on a thread of its own.
+/// A rig that is being made on its own thread.
 pub(super) struct Preparation {
     outcome: Receiver<Result<MadeRig, String>>,
     /// The part that is done [-], as bits.
@@ -16,25 +16,25 @@ pub(super) struct Preparation {
 impl Preparation {
     /// Starts, and wakes the window when there is something.
     pub(super) fn start(make: &Arc<Make>, context: egui::Context) -> Self {
-        let (tell, outcome) = channel();
+        let (sender, outcome) = channel();
         let part = Arc::new(AtomicU64::new(0));
-        let (make, told) = (make.clone(), part.clone());
-        let refused = tell.clone();
+        let (make, progress) = (make.clone(), part.clone());
+        let failed = sender.clone();
         let work = move || {
             palpate_servo::lower_priority();
-            let made = make(&mut |part| told.store(part.to_bits(), Ordering::Relaxed));
-            // Nobody waits any more when another was chosen since.
-            let _ = tell.send(made);
+            let made = make(&mut |part| progress.store(part.to_bits(), Ordering::Relaxed));
+            // Fails when another specimen was chosen since.
+            let _ = sender.send(made);
             context.request_repaint();
         };
         if let Err(error) = std::thread::Builder::new().spawn(work) {
             let cause = format!("the system gives no thread ({error}); close other programs");
-            let _ = refused.send(Err(cause));
+            let _ = failed.send(Err(cause));
         }
         Self { outcome, part }
     }
 
-    /// What came of it; none yet while it lasts.
+    /// The outcome; none until it is finished.
     pub(super) fn outcome(&self) -> Option<Result<MadeRig, String>> {
         match self.outcome.try_recv() {
             Ok(outcome) => Some(outcome),

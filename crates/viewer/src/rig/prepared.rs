@@ -1,7 +1,7 @@
 use palpate_files::protocol::{Stimulus, Sweep};
 use palpate_measure::{DepthTrajectory, RigSettings};
 
-/// A stimulus on its button, which can be changed.
+/// A stimulus with its button and its settings.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Prepared {
     pub(super) stimulus: Stimulus,
@@ -38,7 +38,7 @@ impl Prepared {
             .flat_map(move |trajectory| std::iter::repeat_n(trajectory, repeats))
     }
 
-    /// What it is, and how far and how often.
+    /// Its kind, depth and repetitions.
     pub(super) fn words(&self) -> [String; 2] {
         let mm = |metres: f64| format!("{} mm", (1e6 * metres).round() / 1e3);
         match self.stimulus {
@@ -112,7 +112,7 @@ impl Prepared {
 mod tests {
     use super::*;
 
-    /// What does not fit into a breath is refused in a sentence that says both times.
+    /// A stimulus longer than a breath is refused in a sentence with both times.
     #[test]
     fn a_stimulus_longer_than_a_breath_is_refused_on_its_button() {
         let stimulus = Stimulus::RampAndHold {

@@ -9,24 +9,24 @@ use super::journal::Journal;
 use super::online::Online;
 use crate::history::History;
 
-/// What is known of a rig that runs.
+/// State of a running rig.
 #[derive(Debug, Default)]
 pub(super) struct Watch {
     pub(super) now: Option<RigSample>,
     /// Force, and the way down from where the rig began.
     pub(super) history: History,
-    /// What is being done, and since when on the rig's clock [s].
+    /// The running command, and its start on the rig's clock [s].
     pub(super) doing: Option<(RigCommand, f64)>,
-    /// Orders that were given and neither done nor dropped.
+    /// Commands that were sent and neither done nor dropped.
     pub(super) waiting: usize,
     pub(super) fault: Option<Shown>,
-    /// What did not work, or was dropped.
+    /// The last error.
     pub(super) notice: Option<String>,
     /// The largest force that the sensor shows [N].
     pub(super) sensor_range: f64,
-    /// What recordings say of the specimen and the indenter.
+    /// Header of recordings on the specimen and the indenter.
     pub(super) specimen: RecordingHeader,
-    /// The tissue as it is estimated meanwhile.
+    /// The estimate of the tissue during a press.
     pub(super) online: Online,
     last_forces: [f64; AVERAGED],
     last_axes: [ForceTorque; AVERAGED],
@@ -53,13 +53,13 @@ impl Watch {
         watch
     }
 
-    /// Reads what `live` has told since the last picture.
+    /// Reads samples and events of `live` since the last picture.
     pub(super) fn read(&mut self, live: &mut LiveRig, journal: &mut Journal) {
         for sample in live.samples.drain() {
-            self.see(sample);
+            self.add_sample(sample);
         }
         for news in live.news.try_iter() {
-            self.hear(news, journal);
+            self.handle(news, journal);
         }
         if self.online.is_enough()
             && let Some((RigCommand::Press(_, number), _)) = self.doing
@@ -68,7 +68,7 @@ impl Watch {
         }
     }
 
-    fn see(&mut self, sample: RigSample) {
+    fn add_sample(&mut self, sample: RigSample) {
         self.history
             .add(sample.time, [sample.force, -sample.height]);
         self.last_forces[self.samples % AVERAGED] = sample.force;
@@ -113,11 +113,11 @@ impl Watch {
         Some(sum.map(|vector| vector / AVERAGED as f64))
     }
 
-    fn hear(&mut self, news: ConsoleEvent, journal: &mut Journal) {
+    fn handle(&mut self, news: ConsoleEvent, journal: &mut Journal) {
         match news {
-            ConsoleEvent::Begun(order) => {
-                self.doing = Some((order, self.now.map_or(0.0, |now| now.time)));
-                if let RigCommand::Press(trajectory, _) = order {
+            ConsoleEvent::Begun(command) => {
+                self.doing = Some((command, self.now.map_or(0.0, |now| now.time)));
+                if let RigCommand::Press(trajectory, _) = command {
                     match trajectory.stimulus() {
                         Stimulus::RampAndHold { .. } => {
                             let deepest = trajectory.deepest_expected();
@@ -127,13 +127,13 @@ impl Watch {
                     }
                 }
             }
-            ConsoleEvent::Ended(order, ended) => {
-                self.done_with(order, journal);
+            ConsoleEvent::Ended(command, ended) => {
+                self.done_with(command, journal);
                 if let Err(error) = ended {
                     self.notice = Some(error.to_string());
                 }
             }
-            ConsoleEvent::Dropped(order) => self.done_with(order, journal),
+            ConsoleEvent::Dropped(command) => self.done_with(command, journal),
             ConsoleEvent::Disturbed(error) => self.notice = Some(error.to_string()),
             ConsoleEvent::Faulted(fault) => {
                 self.fault = Some(Shown {
@@ -141,7 +141,7 @@ impl Watch {
                     seen: false,
                     arming: false,
                 });
-                // It says all.
+                // The fault replaces the notice.
                 self.notice = None;
             }
             ConsoleEvent::Armed => self.fault = None,
@@ -156,11 +156,11 @@ impl Watch {
         }
     }
 
-    fn done_with(&mut self, order: RigCommand, journal: &mut Journal) {
+    fn done_with(&mut self, command: RigCommand, journal: &mut Journal) {
         self.doing = None;
         self.online.end();
         self.waiting = self.waiting.saturating_sub(1);
-        if let RigCommand::Press(_, number) = order {
+        if let RigCommand::Press(_, number) = command {
             journal.forget(number);
         }
     }
@@ -176,7 +176,7 @@ impl Watch {
         Some(-now.height - now.depth?)
     }
 
-    /// What the rig does, in a word or two.
+    /// State of the rig, in a word or two.
     pub(super) fn state(&self) -> &'static str {
         let Some(now) = self.now else {
             return "starting";

@@ -1,4 +1,4 @@
-//! What is shown where there is no organ, and what is wrapped around one.
+//! The placeholder without an organ, and dropped pictures that are wrapped around one.
 
 use eframe::egui;
 
@@ -25,7 +25,7 @@ impl SimulatorWindow {
         }
     }
 
-    /// What fills the place of the picture when there is no organ.
+    /// Fills the place of the picture when there is no organ.
     pub(super) fn show_absence(&mut self, ui: &mut egui::Ui) {
         let context = ui.ctx().clone();
         ui.centered_and_justified(|ui| {

@@ -1,4 +1,4 @@
-//! What keys ask for once.
+//! Actions of keys that act once.
 
 use eframe::egui;
 

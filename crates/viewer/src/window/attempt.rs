@@ -1,4 +1,4 @@
-//! A task that is attempted: from reading what there is to do to how it was done.
+//! An attempt at a task: from the instructions to the score.
 
 use std::path::{Path, PathBuf};
 
@@ -15,7 +15,7 @@ use super::play::{ModelRequest, Play};
 use super::texts::text;
 use super::training::PastResult;
 
-/// A task that is attempted.
+/// An attempt at a task.
 pub(super) struct Attempt {
     pub(super) task: Task,
     pub(super) phase: Phase,
@@ -27,7 +27,7 @@ pub(super) struct Attempt {
     pub(super) ghosts: Vec<Option<Ghost>>,
     /// The script that does it, while it is shown.
     demonstration: Option<Demonstration>,
-    /// Whether this variant was shown: who has seen it knows its answer.
+    /// Whether this variant was shown: its answer is then known.
     pub(super) was_shown: bool,
     /// Times [s] and forces [N], the largest of all tools.
     pub(super) forces: Vec<[f64; 2]>,
@@ -35,7 +35,7 @@ pub(super) struct Attempt {
     pub(super) marked: Option<Vec3>,
     /// The diameter that is to be stated [mm], as it is set so far.
     pub(super) diameter: Option<u32>,
-    /// What went wrong beside the touch.
+    /// An error outside the touch.
     pub(super) trouble: Option<String>,
     /// The recording, where it cannot be written.
     pub(super) unsaved: Option<Unsaved>,
@@ -64,7 +64,7 @@ impl Unsaved {
     }
 }
 
-/// How far an attempt is.
+/// Phase of an attempt.
 pub(super) enum Phase {
     /// The trainee reads.
     Reads,
@@ -74,7 +74,7 @@ pub(super) enum Phase {
     Over(Box<Done>),
 }
 
-/// How it was done.
+/// Result of an attempt.
 pub(super) struct Done {
     pub(super) score: Score,
     pub(super) compared: Vec<Comparison>,
@@ -89,11 +89,11 @@ pub(super) struct Done {
 /// The least and the largest diameter that can be stated [mm].
 pub(super) const DIAMETERS: [u32; 2] = [4, 40];
 
-/// Forces are kept for a plot at most so often [s].
+/// Shortest interval between the forces of a plot [s].
 const PLOTTED: f64 = 0.02;
 
 impl Attempt {
-    /// Of a scene's task. An expert's sessions that cannot be read are told and left out.
+    /// Of a scene's task. An expert's sessions that cannot be read give a warning and are left out.
     pub(super) fn new(play: &Play) -> Self {
         let task = play.scene.task.clone();
         let names = names(play);
@@ -243,7 +243,7 @@ impl Attempt {
         self.diameter = Some(now.saturating_add_signed(by).clamp(least, most));
     }
 
-    /// What was stated of the size, once the attempt is over: the diameter [m].
+    /// The stated diameter, once the attempt is over [m].
     pub(super) fn stated_diameter(&self) -> Option<f64> {
         match &self.phase {
             Phase::Over(done) => match done.score.outcome {
@@ -254,7 +254,7 @@ impl Attempt {
         }
     }
 
-    /// Where the cut that is being made is beside its line, and the largest distance that counts [m].
+    /// Deviation of the current cut from its line, and the largest distance that counts [m].
     pub(super) fn deviation(&self) -> Option<(Deviation, f64)> {
         let Goal::Cut { tolerance_m, .. } = self.task.goal else {
             return None;
@@ -346,12 +346,12 @@ impl Attempt {
         self.performance.elapsed()
     }
 
-    /// What should not have happened.
+    /// Errors so far.
     pub(super) fn errors(&self) -> Errors {
         self.performance.errors()
     }
 
-    /// What the trainee did before, as far as it is known.
+    /// Earlier attempts of the trainee, as far as known.
     pub(super) fn compare_with(&mut self, earlier: Vec<PastResult>) {
         if let Phase::Over(done) = &mut self.phase {
             done.earlier = earlier;

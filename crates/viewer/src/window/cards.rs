@@ -1,4 +1,4 @@
-//! What lies over the picture while a task is attempted: what there is to do, how far it is, how it was done.
+//! Cards over the picture during an attempt: instructions, progress and result.
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Align2, Color32, Frame, Margin, RichText, Ui, Vec2};
@@ -12,7 +12,7 @@ use super::results::over;
 use super::texts::{decimal, of_task, text};
 use crate::style::{BAR, CARD_OVER_PICTURE, DEPTH, FAULT, QUIET, WARNING, WHITE};
 
-/// What somebody wants of an attempt.
+/// Action on an attempt.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum AttemptAction {
     /// To begin, or to begin again.
@@ -33,7 +33,7 @@ pub(super) enum AttemptAction {
     Home,
 }
 
-/// What the cards know beside the attempt.
+/// Context of the cards, in addition to the attempt.
 pub(super) struct CardContext {
     /// How far the preparation of the organ is [-] and what it still takes [s], if known; none when it is done.
     pub(super) preparing: Option<(f64, Option<f64>)>,
@@ -41,11 +41,11 @@ pub(super) struct CardContext {
     pub(super) begins: bool,
     /// Whether there is a start screen.
     pub(super) has_home: bool,
-    /// How far the demonstration is that shall be seen beside the attempt [-].
+    /// Progress of the demonstration for comparison with the attempt [-].
     pub(super) comparing: Option<f64>,
 }
 
-/// Shows the card of an attempt; what was asked by it.
+/// Shows the card of an attempt and returns the chosen action.
 pub(super) fn show(ui: &Ui, attempt: &mut Attempt, around: &CardContext) -> Option<AttemptAction> {
     let mut asked = None;
     let mut unsaved = attempt.unsaved.take();
@@ -88,7 +88,7 @@ fn card(ui: &Ui, name: &str, align: Align2, width: f32, show: impl FnOnce(&mut U
     let place = ui.max_rect();
     let offset = match align {
         Align2::CENTER_TOP => Vec2::new(0.0, 10.0),
-        // Beside what the picture shows of the truth.
+        // Next to the solution in the picture.
         Align2::RIGHT_CENTER => Vec2::new(-10.0, 0.0),
         _ => Vec2::ZERO,
     };
@@ -113,7 +113,7 @@ pub(super) fn title(attempt: &Attempt) -> String {
     title.map_or_else(|| text!("common-free-play"), of_task)
 }
 
-/// What there is to do.
+/// The instructions.
 fn reads(ui: &mut Ui, attempt: &Attempt, around: &CardContext, asked: &mut Option<AttemptAction>) {
     ui.label(RichText::new(title(attempt)).size(22.0).color(WHITE));
     ui.add_space(6.0);
@@ -208,7 +208,7 @@ pub(super) fn tasks_button(ui: &mut Ui, around: &CardContext, asked: &mut Option
     }
 }
 
-/// How far it is.
+/// The progress.
 fn goes_on(
     ui: &mut Ui,
     attempt: &Attempt,
@@ -280,7 +280,7 @@ fn not_recorded(ui: &mut Ui, unsaved: Option<&mut Unsaved>, asked: &mut Option<A
     }
 }
 
-/// The force that counts, beside its band or its limit, and the one thing to change of it.
+/// The force that counts, versus its band or its limit, and the cue how to change it.
 fn gauge(ui: &mut Ui, attempt: &Attempt) {
     let force = attempt.forces.last().map_or(0.0, |[_, force]| *force);
     let ([low, high, full], force, cue) = match (&attempt.task.goal, attempt.status()) {
@@ -386,7 +386,7 @@ fn cue_words(cue: Cue, [more, less]: [&'static str; 2]) -> (String, Color32) {
 /// A cut this near to its line is on it, in units of the distance that counts [-].
 const ON_THE_LINE: f64 = 0.25;
 
-/// How far the cut that is being made is beside its line, in words, and their color; nothing where none is made.
+/// Deviation of the current cut from its line, in words, and their color; nothing without a cut.
 fn deviation_words(attempt: &Attempt) -> (String, Color32) {
     let Some((deviation, tolerance)) = attempt.deviation() else {
         return (String::new(), DEPTH);

@@ -91,7 +91,7 @@ impl Choice {
         self.tool = tool.min(self.given.tools.len() - 1);
         self.tip = self.given.tools[self.tool].tip;
         let (given, written) = (&mut self.given, &mut self.written);
-        // Which hand moves a tool changes nothing that is felt.
+        // The hand that moves a tool does not affect the force.
         for device in [given, written].map(|scene| &mut scene.tools[self.tool].device) {
             if !device.is_haptic() {
                 *device = DeviceKind::Mouse;

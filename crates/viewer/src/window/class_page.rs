@@ -1,4 +1,4 @@
-//! The teacher's page: who has done what is assigned, and how trainees learn each task.
+//! The teacher's page: progress of assignments, and learning curves of each task.
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{self, RichText, Ui};
@@ -16,11 +16,11 @@ pub(super) struct ClassPage {
     tasks: Vec<String>,
     /// The assignment as it is filled in.
     form: NewAssignment,
-    /// What came of the last assignment.
+    /// Outcome of the last assignment.
     said: Option<Result<String, String>>,
 }
 
-/// What somebody wants on the page.
+/// Action on the page.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum ClassPageAction {
     /// To leave it.

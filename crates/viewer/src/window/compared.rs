@@ -26,7 +26,7 @@ const GAP: f32 = 4.0;
 
 /// The session on the right.
 pub(super) struct Compared {
-    /// What the session on the left is called, and this one.
+    /// Names of the session on the left and of this one.
     names: [String; 2],
     pub(super) play: Play,
     picture: OrganView,
@@ -38,7 +38,7 @@ pub(super) struct ShownDemonstration {
     /// How far it is, from 0 to 1 [-].
     part: Arc<Mutex<f64>>,
     is_cancelled: Arc<AtomicBool>,
-    /// The session that is seen on the left.
+    /// The session on the left.
     folder: SessionFolder,
 }
 
@@ -48,18 +48,18 @@ impl ShownDemonstration {
         let (sender, outcome) = channel();
         let part = Arc::new(Mutex::new(0.0));
         let is_cancelled = Arc::new(AtomicBool::new(false));
-        let (told, cancelled) = (part.clone(), is_cancelled.clone());
+        let (shared_part, cancelled) = (part.clone(), is_cancelled.clone());
         let (scene, simulation) = (play.scene.clone(), play.simulation.clone());
         let thread = std::thread::Builder::new().name("palpate-demonstration".to_owned());
         let thread = thread.spawn(move || {
             let session = Demonstration::record(&scene, &simulation, &mut |part| {
-                *told.lock().unwrap_or_else(PoisonError::into_inner) = part;
+                *shared_part.lock().unwrap_or_else(PoisonError::into_inner) = part;
                 match cancelled.load(Ordering::Relaxed) {
                     true => ControlFlow::Break(()),
                     false => ControlFlow::Continue(()),
                 }
             });
-            // Nobody listens any more once the window went on.
+            // Fails when the comparison was closed.
             let _ = sender.send(session);
             context.request_repaint();
         });
@@ -101,7 +101,7 @@ impl SimulatorWindow {
         Ok(())
     }
 
-    /// Begins to compute the demonstration of the task that was attempted, to see it beside the session in `folder`.
+    /// Begins to compute the demonstration of the attempted task, for comparison with the session in `folder`.
     pub(super) fn compare_with_demonstration(
         &mut self,
         folder: &std::path::Path,
@@ -157,7 +157,7 @@ impl SimulatorWindow {
         let size = Vec2::new(width, whole.height());
         let left = Rect::from_min_size(whole.min, size);
         let right = Rect::from_min_size(whole.min + Vec2::new(width + GAP, 0.0), size);
-        // Nobody plots what was felt on the right.
+        // The forces on the right are not plotted.
         drop(compared.play.source.rows());
         let [own, other] = &compared.names;
         let mut half = |rect: Rect, picture: &mut OrganView, play: &mut Play, name: &str| {

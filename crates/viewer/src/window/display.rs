@@ -41,11 +41,14 @@ pub fn check_display() -> Result<(), Error> {
     }
 }
 
-/// Whether the loader would find `library`: in the folders that it is told of, and in those of the system.
+/// Whether the loader would find `library`: in the folders of its search path, and in those of the system.
 fn is_there(library: &str) -> bool {
-    let told = std::env::var("LD_LIBRARY_PATH").unwrap_or_default();
+    let search_path = std::env::var("LD_LIBRARY_PATH").unwrap_or_default();
     let system = ["/lib", "/usr/lib", "/lib64", "/usr/lib64", "/usr/local/lib"];
-    let folders = told.split(':').chain(system).filter(|f| !f.is_empty());
+    let folders = search_path
+        .split(':')
+        .chain(system)
+        .filter(|f| !f.is_empty());
     let mut folders = folders.map(Path::new);
     folders.any(|folder| holds(folder, library)) || is_cached(library)
 }

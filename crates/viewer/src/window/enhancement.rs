@@ -30,11 +30,11 @@ pub(super) fn show(window: &mut SimulatorWindow, ui: &mut Ui) {
             .response()
             .map_or(0, |response| response.triangles),
     );
-    let told = match simulation.is_carried() {
+    let summary = match simulation.is_carried() {
         true => text!("finer-carried", shown = shown, solved = solved),
         false => text!("finer-solved", solved = solved),
     };
-    ui.label(quiet(told).small());
+    ui.label(quiet(summary).small());
     if wanted != before {
         window.picture.enhancement = Some(wanted);
         let enhanced = window.picture.enhance(&window.gpu, play);

@@ -13,7 +13,7 @@ use palpate_geometry::{AabbTree, Surface, Vec3};
 
 use crate::{Camera, Picked, pick};
 
-/// What a scene gives to a gesture.
+/// Context of a gesture in a scene.
 #[derive(Debug, Clone, Copy)]
 pub struct GestureContext<'a> {
     /// The organ at rest.
@@ -219,9 +219,9 @@ fn aimed(over: &Picked, depth: f64, ground: &GestureContext<'_>) -> Option<Aim> 
     };
     let tip = over.point + (overhang - depth) * over.normal;
     let [right, up, back] = ground.camera.axes();
-    // Held by a hand beside the camera: steep on the surface, and not in the way of the eye.
-    let held = 0.9 * over.normal + 0.45 * up + 0.40 * right + 0.15 * back;
-    let shaft = held.try_normalize(1e-3).unwrap_or(over.normal);
+    // Shaft of a hand next to the camera: steep on the surface, and out of the line of sight.
+    let tilted = 0.9 * over.normal + 0.45 * up + 0.40 * right + 0.15 * back;
+    let shaft = tilted.try_normalize(1e-3).unwrap_or(over.normal);
     let turned = UnitQuaternion::rotation_between(&Vec3::z(), &shaft)
         .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vec3::x_axis(), std::f64::consts::PI));
     tip.iter().all(|c| c.is_finite()).then_some(Aim {

@@ -1,4 +1,4 @@
-//! What a task draws over the picture: what is left to do, the truth when it is over, and an expert's tools as bright
+//! Overlays of a task: the remaining work, the solution when it is over, and an expert's tools as bright
 //! outlines.
 
 use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2};

@@ -1,4 +1,4 @@
-//! The start screen: what there is to do, who does it, how it went so far, and what this is not.
+//! The start screen: tasks, trainee, results so far, and a disclaimer.
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Frame, Margin, RichText, TextureHandle, Ui};
@@ -9,7 +9,7 @@ use super::texts::{of_task, text};
 use super::training::{Assigned, OfferedTask, PastResult, Training};
 use crate::style::{CARD, DEPTH, FAULT, QUIET, WARNING, WHITE};
 
-/// What was chosen on the start screen.
+/// A choice on the start screen.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Chosen {
     /// A task, by its number.
@@ -27,11 +27,11 @@ pub(super) enum Chosen {
 /// The start screen.
 #[derive(Default)]
 pub(super) struct Home {
-    /// What went wrong with what was chosen last.
+    /// Error of the last choice.
     pub(super) trouble: Option<String>,
     /// Whose results are shown, and what they are.
     results: Option<(String, Result<Vec<PastResult>, String>)>,
-    /// What they shall do.
+    /// Their assignments.
     assigned: Vec<Assigned>,
     /// The pictures of the tasks, once they are shown.
     pictures: Vec<Option<TextureHandle>>,
@@ -199,7 +199,7 @@ fn texture(ui: &Ui, task: &OfferedTask) -> Option<TextureHandle> {
     Some(ui.ctx().load_texture(name, image, options))
 }
 
-/// What is shown of a thing to choose, below its title.
+/// Contents of a choice below its title.
 struct Shown<'a> {
     words: String,
     /// How it went so far, and whether it was ever done.

@@ -1,4 +1,4 @@
-//! The whole window without a display, by keys alone, as somebody reads it who does not see it.
+//! The whole window without a display, by keys and screen reader alone.
 //!
 //! Judge: the accessibility tree that the operating system gets.
 
@@ -122,7 +122,7 @@ impl SettingsKeeper for Forgetful {
     }
 }
 
-/// The window, its frame and somebody who reads it.
+/// The window, its frame and its screen reader.
 struct Used {
     window: SimulatorWindow,
     frame: Frame,

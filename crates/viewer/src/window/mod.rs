@@ -1,10 +1,10 @@
-//! The window in which an organ is touched: the picture on the left, what can be chosen and what is felt on
+//! The simulator's window, in which an organ is touched: the picture on the left, choices, force and depth on
 //! the right, warnings below.
 //!
-//! The window owns no model: it moves a hand, and shows what an [`Interaction`] tells of the touch, which
-//! goes on in threads of its own however slow the picture is.
+//! The window owns no model: it moves a hand and shows the state of an [`Interaction`], whose threads do not depend
+//! on the frame rate.
 //!
-//! *How we know*: `gestures::…`, `invariants::dragging_over_every_organ`; the window itself is looked at.
+//! *How we know*: `gestures::…`, `invariants::dragging_over_every_organ`; the window itself is checked by eye.
 //!
 //! Keys and a gamepad move both tools at once, a mouse one of them: `hands`.
 //!
@@ -88,7 +88,7 @@ struct SimulatorWindow {
     /// The slider of the tip's radius [mm].
     radius: f64,
     resources: Resources,
-    /// What is shown when the choice fails.
+    /// The scene that is shown when the choice fails.
     way_out: Scene,
     picture: OrganView,
     play: Option<Play>,
@@ -102,11 +102,11 @@ struct SimulatorWindow {
     moves: bool,
     /// Whether the key was pressed by which the mouse takes the other tool.
     takes_other: bool,
-    /// Who trains, and what.
+    /// Trainee and tasks.
     training: Option<Training>,
-    /// What is set, and where it is kept.
+    /// The settings, and where they are stored.
     settings: WindowSettings,
-    /// The page on which it is set, while it is shown.
+    /// The page of settings, while it is shown.
     settings_page: Option<SettingsPage>,
     /// The teacher's page, while it is shown.
     class_page: Option<ClassPage>,
@@ -118,7 +118,7 @@ struct SimulatorWindow {
     begins: bool,
     /// Whether a key was pressed that begins an attempt, or the next one.
     begins_anew: bool,
-    /// Whether what an engineer wants to see is shown during a task.
+    /// Whether the panels for engineers are shown during a task.
     engineer_view: bool,
     /// The session that is seen on the right of another one.
     compared: Option<Box<Compared>>,
@@ -130,19 +130,19 @@ struct SimulatorWindow {
     is_ended: fn() -> bool,
 }
 
-/// What a window begins with.
+/// Start of a window.
 pub enum Start {
     /// The start screen.
     Home,
     /// A scene.
     Scene(Box<Scene>),
-    /// A session that is played again, and another one that is seen beside it.
+    /// A replayed session, and another one for comparison.
     Again(Box<PlayedSession>, Option<Box<PlayedSession>>),
 }
 
 /// A session of a scene that is played again.
 pub struct PlayedSession {
-    /// What it is called in the window.
+    /// Its name in the window.
     pub name: String,
     /// The scene.
     pub scene: Scene,
@@ -152,13 +152,13 @@ pub struct PlayedSession {
     pub replay: Replay,
 }
 
-/// What a window works with.
+/// Resources of a window.
 pub struct WindowOptions {
     /// A scene that works, which is offered when another does not.
     pub way_out: Scene,
-    /// With these, whole organs are prepared beside the touch.
+    /// Resources to prepare whole organs during the touch.
     pub resources: Resources,
-    /// If any, tasks are chosen, and sessions and results kept.
+    /// If given, tasks can be chosen, and sessions and results are stored.
     pub training: Option<Training>,
     /// Changed on a page of their own.
     pub settings: WindowSettings,
@@ -255,7 +255,7 @@ impl SimulatorWindow {
         Ok(window)
     }
 
-    /// Prepares the choice, beside the window; the organ before it stays until the new one is there.
+    /// Prepares the choice on another thread; the current organ stays until the new one is ready.
     fn reset(&mut self, context: &egui::Context) {
         let preparation = Preparation::start(
             self.choice.scene(),
@@ -266,7 +266,7 @@ impl SimulatorWindow {
         self.preparation = Some(preparation);
     }
 
-    /// Takes over what was prepared.
+    /// Takes over a finished preparation.
     fn receive(&mut self) {
         let Some(outcome) = self.preparation.as_mut().and_then(Preparation::outcome) else {
             return;
@@ -300,7 +300,7 @@ impl SimulatorWindow {
             Some(play) if takes_over => Ok(play.showing(prepared)),
             touched => {
                 if prepared.has_devices() {
-                    // What is still touched lets go of them first.
+                    // The running touch releases them first.
                     drop(touched);
                 }
                 Play::start(prepared, is_ended)
@@ -373,8 +373,8 @@ impl SimulatorWindow {
 }
 
 impl SimulatorWindow {
-    /// The emergency stop by the space bar, which beside a device with forces comes before whatever else has the
-    /// keyboard; and the window's word that it is alive.
+    /// Handles the emergency stop by the space bar, which with a force-feedback device takes precedence over all other
+    /// keys, and reports that the window is alive.
     fn supervise(&self, context: &egui::Context) {
         let Some(play) = &self.play else { return };
         let has_devices = play.has_devices();

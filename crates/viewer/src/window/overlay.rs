@@ -14,7 +14,7 @@ use crate::style::{DEPTH, FORCE, PLATE, QUIET, WARNING};
 /// Depth that fills the gauge [m].
 const FULL: f64 = 0.015;
 
-/// What is written into the picture: how to touch, and beside a touching tool how deep and how hard.
+/// Writes into the picture: how to touch, and next to a touching tool its depth and force.
 pub(super) fn show(ui: &egui::Ui, rect: Rect, picture: &OrganView, play: &mut Play, tool: usize) {
     let painter = ui.painter_at(rect);
     let hand = picture.hands.get(tool).copied().unwrap_or_default();
@@ -105,7 +105,7 @@ fn plate(
     painter.galley(corner, text, color);
 }
 
-/// A bar beside the pointer that fills from the top as the tool goes in.
+/// A bar next to the pointer that fills from the top as the tool goes in.
 fn gauge(painter: &egui::Painter, rect: Rect, pointer: Pos2, depth: f64, force: f64) {
     let right = pointer.x + 150.0 < rect.max.x;
     let x = if right {

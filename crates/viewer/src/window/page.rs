@@ -1,4 +1,4 @@
-//! What all pages of the trainer have: their frame, and names for those who do not see pictures.
+//! Common parts of all pages of the trainer: their frame, and names for screen readers.
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{

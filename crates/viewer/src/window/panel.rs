@@ -15,7 +15,7 @@ use super::texts::{decimal, text, tool_name};
 use crate::history::SPAN;
 use crate::style::{DEPTH, FAULT, FORCE, ON_STOP, QUIET, STOP, WARNING};
 
-/// What can be chosen, and what is felt.
+/// Shows the choices, and force and depth.
 pub(super) fn side(window: &mut SimulatorWindow, ui: &mut Ui) {
     egui::ScrollArea::vertical()
         .auto_shrink([false, false])
@@ -24,13 +24,13 @@ pub(super) fn side(window: &mut SimulatorWindow, ui: &mut Ui) {
             if window.training.is_some() && ui.button(text!("common-tasks")).clicked() {
                 window.go_home();
             }
-            // What is played again, or is a task, is as it was written.
+            // A replayed session and a task cannot be changed.
             if !window.can_choose() {
                 look(window, ui);
                 ui.separator();
                 enhancement::show(window, ui);
                 ui.separator();
-                felt(window, ui);
+                force_and_depth(window, ui);
                 if !window.looks_again() {
                     ui.separator();
                     rates(window, ui);
@@ -50,7 +50,7 @@ pub(super) fn side(window: &mut SimulatorWindow, ui: &mut Ui) {
             ui.separator();
             enhancement::show(window, ui);
             ui.separator();
-            felt(window, ui);
+            force_and_depth(window, ui);
             ui.separator();
             rates(window, ui);
         });
@@ -207,7 +207,7 @@ fn look(window: &mut SimulatorWindow, ui: &mut Ui) {
 }
 
 /// Force and depth, as numbers and over time.
-fn felt(window: &SimulatorWindow, ui: &mut Ui) {
+fn force_and_depth(window: &SimulatorWindow, ui: &mut Ui) {
     let (force, depth) = window.history.last();
     ui.horizontal(|ui| {
         let number = |text: String, color| RichText::new(text).size(21.0).monospace().color(color);
@@ -237,7 +237,7 @@ fn plot(ui: &mut Ui, key: &str, color: Color32, points: Vec<[f64; 2]>) {
     page::name(&plot.response, Role::Image, &words);
 }
 
-/// How often what happens, beside how often it should.
+/// Measured rates, versus the nominal ones.
 fn rates(window: &SimulatorWindow, ui: &mut Ui) {
     let rates = &window.rates;
     let wanted = window
@@ -324,7 +324,7 @@ fn quality(rates: &Rates, ui: &mut Ui) {
     limits(touch, ui);
 }
 
-/// What the stages between model and hand did.
+/// Measurements of the stages between model and hand.
 fn limits(touch: &LoopReport, ui: &mut Ui) {
     let did = touch.interventions;
     ui.label(text!("quality-limits")).on_hover_text(text!(
@@ -351,7 +351,7 @@ fn limits(touch: &LoopReport, ui: &mut Ui) {
     ui.end_row();
 }
 
-/// What went wrong, and warnings.
+/// Errors and warnings.
 pub(super) fn status(window: &SimulatorWindow, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         emergency_stop(window, ui);
@@ -360,10 +360,10 @@ pub(super) fn status(window: &SimulatorWindow, ui: &mut Ui) {
             .play
             .as_ref()
             .and_then(|play| play.source.hung_device());
-        let said = hung.or_else(|| window.fault.as_ref().or(window.notice.as_ref()).cloned());
-        let felt = window.rates.touch.fault.map(|fault| fault.to_string());
-        let is_latched = felt.is_some() && said.is_none();
-        if let Some(fault) = said.or(felt) {
+        let message = hung.or_else(|| window.fault.as_ref().or(window.notice.as_ref()).cloned());
+        let touch_fault = window.rates.touch.fault.map(|fault| fault.to_string());
+        let is_latched = touch_fault.is_some() && message.is_none();
+        if let Some(fault) = message.or(touch_fault) {
             ui.colored_label(FAULT, fault);
             arm(window, is_latched, ui);
         } else if let Some(preparation) = &window.preparation {
@@ -399,7 +399,7 @@ fn arm(window: &SimulatorWindow, is_latched: bool, ui: &mut Ui) {
     }
 }
 
-/// What is being prepared, and how far it is.
+/// The running preparation and its progress.
 fn waiting(preparation: &Preparation, ui: &mut Ui) {
     page::spinner(ui);
     let Some(progress) = preparation.progress() else {
@@ -414,7 +414,7 @@ fn waiting(preparation: &Preparation, ui: &mut Ui) {
     if let Some(seconds) = preparation.time_left() {
         ui.label(text!("preparing-left", seconds = seconds));
     }
-    // Nothing else moves while one waits.
+    // Nothing else moves meanwhile.
     ui.ctx().request_repaint_after(super::REST);
 }
 
@@ -431,7 +431,7 @@ fn work(work: Work) -> &'static str {
     }
 }
 
-/// Where the operating system does not give what a touch with forces needs.
+/// Warnings where the operating system lacks support for a touch with forces.
 fn conditions(rates: &Rates) -> impl Iterator<Item = String> {
     let servo = rates.touch.priority.warning("servo");
     let model = rates.answers.priority.warning("model");
@@ -441,7 +441,7 @@ fn conditions(rates: &Rates) -> impl Iterator<Item = String> {
 }
 
 fn warnings(window: &SimulatorWindow, ui: &mut Ui) {
-    // What changes the force that is felt now comes first.
+    // Warnings that affect the current force come first.
     let play = window.play.iter();
     let mut warnings: Vec<_> = play
         .flat_map(|play| play.limits.iter().chain(&play.warnings).cloned())

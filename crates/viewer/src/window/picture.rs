@@ -42,17 +42,17 @@ pub(super) struct OrganView {
     /// Whether the keys are listed.
     pub(super) lists_keys: bool,
     pub(super) gamepads: Gamepads,
-    /// What gamepads want to be done once.
+    /// Actions of gamepads that happen once.
     requests: PadRequests,
     /// Whether a key or a stick moves a hand.
     driven: bool,
     orbit: Option<Orbit>,
     /// From where the last picture was taken.
     camera: Option<Camera>,
-    /// The left button went down beside the organ: it turns the camera.
+    /// The left button went down next to the organ: it turns the camera.
     turning: bool,
     renderer: Renderer,
-    /// What puts the picture into the window; none before the first.
+    /// Paints the picture into the window; none before the first.
     painter: Option<PicturePainter>,
     target: Option<(Target, ShownPicture)>,
     /// What the target shows; what would look the same is not drawn again.
@@ -123,7 +123,7 @@ impl OrganView {
         self.gamepads.is_any()
     }
 
-    /// What gamepads wanted to be done once since the last time.
+    /// Takes the actions of gamepads since the last call.
     pub(super) fn take_requests(&mut self) -> PadRequests {
         std::mem::take(&mut self.requests)
     }
@@ -195,7 +195,7 @@ impl OrganView {
         rect
     }
 
-    /// What a task draws over the picture: what is to be done, and afterwards the truth.
+    /// Draws a task over the picture: the work to do, and afterwards the solution.
     pub(super) fn show_task(
         &self,
         ui: &egui::Ui,
@@ -293,7 +293,7 @@ impl OrganView {
         }
     }
 
-    /// Moves the hands by keys and sticks, and tells the model of those that the mouse does not move.
+    /// Moves the hands by keys and sticks, and sends those that the mouse does not move to the model.
     fn drive(&mut self, ui: &egui::Ui, play: &mut Play, tool: usize, room: &HandContext<'_>) {
         let free = !ui.ctx().egui_wants_keyboard_input();
         let elapsed = f64::from(ui.input(|input| input.unstable_dt)).min(0.05);

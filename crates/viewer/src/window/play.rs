@@ -17,7 +17,7 @@ use crate::render::{Body, Tint};
 use crate::seen_organ::SeenOrgan;
 use crate::{Error, Gpu};
 
-/// What a key wants of the model.
+/// Request of a key to the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ModelRequest {
     /// The last cut is taken back.
@@ -28,7 +28,7 @@ pub(super) enum ModelRequest {
     Reset,
     /// This place is meant, or it is done.
     Mark,
-    /// This diameter was felt [m].
+    /// The trainee states this diameter [m].
     StateDiameter(f64),
 }
 
@@ -62,8 +62,8 @@ pub(super) struct Play {
 }
 
 impl Prepared {
-    /// Reads and prepares what `scene` names. It may be called on any thread; `watch` hears how far it is, and may
-    /// break it off.
+    /// Reads and prepares what `scene` names. It may be called on any thread; `watch` receives the progress, and may
+    /// cancel it.
     ///
     /// # Errors
     /// When a file is missing or wrong.
@@ -82,7 +82,7 @@ impl Prepared {
         })
     }
 
-    /// What is seen around a simulation that is there.
+    /// View of an existing simulation.
     fn around(
         scene: Scene,
         simulation: Arc<Simulation>,
@@ -125,7 +125,7 @@ impl Play {
     /// one may drive them.
     ///
     /// # Errors
-    /// When a device is not there, or a thread does not start.
+    /// When a device is missing, or a thread does not start.
     pub(super) fn start(mut prepared: Prepared, is_ended: fn() -> bool) -> Result<Self, Error> {
         if prepared.has_devices() {
             lock_memory();
@@ -154,7 +154,7 @@ impl Play {
         touch.replace_model(&environment, model).is_ok()
     }
 
-    /// What is shown of `prepared` from now on, whose model has taken over.
+    /// Shows `prepared` from now on, whose model has taken over.
     pub(super) fn showing(self, prepared: Prepared) -> Self {
         Self::of(prepared, self.source, self.pointers)
     }
@@ -231,9 +231,9 @@ impl Play {
         }
     }
 
-    /// Tells the model what is wanted of it.
+    /// Sends a request to the model.
     pub(super) fn send(&mut self, request: ModelRequest) {
-        let order = match request {
+        let command = match request {
             ModelRequest::UndoCut => ModelCommand::UndoCut,
             ModelRequest::Reset => ModelCommand::Reset,
             ModelRequest::Mark => ModelCommand::Mark,
@@ -241,7 +241,7 @@ impl Play {
             ModelRequest::Pause if self.source.snapshot().paused => ModelCommand::Resume,
             ModelRequest::Pause => ModelCommand::Pause,
         };
-        self.source.send(order);
+        self.source.send(command);
     }
 
     /// Makes the organ whole and at rest, and goes on if all stood still.

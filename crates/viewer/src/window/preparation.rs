@@ -14,25 +14,25 @@ use palpate_simulate::{Progress, Resources, draw_variant};
 use super::play::Prepared;
 use crate::{Error, Gpu};
 
-/// A scene that is being prepared on a thread of its own. One with a model of the whole organ comes twice:
-/// at once with the local model, and again when the whole organ is ready. Dropping it breaks it off.
+/// A scene that is being prepared on its own thread. A scene with a model of the whole organ comes twice:
+/// at once with the local model, and again when the whole organ is ready. Dropping it cancels it.
 pub(super) struct Preparation {
     outcomes: Receiver<Outcome>,
-    told: Arc<Mutex<Option<Told>>>,
-    given_up: Arc<AtomicBool>,
+    timed_progress: Arc<Mutex<Option<TimedProgress>>>,
+    is_cancelled: Arc<AtomicBool>,
 }
 
-/// How far a preparation is, and when it was first told where.
+/// Progress of a preparation, with the time and the part of its first report.
 #[derive(Clone, Copy)]
-struct Told {
+struct TimedProgress {
     progress: Progress,
     first: (Instant, f64),
 }
 
-/// What came of a scene, so far or at last.
+/// The outcome of a preparation, intermediate or final.
 pub(super) struct Outcome {
     pub(super) play: Result<Prepared, Error>,
-    /// Whether nothing more comes.
+    /// Whether it is final.
     pub(super) last: bool,
     /// Whether the local model came before, which stays when this is an error.
     pub(super) second: bool,
@@ -41,7 +41,7 @@ pub(super) struct Outcome {
 /// Bits of a random number that a seed has no use for: people read it, and may type it.
 const SPARE_BITS: u32 = 40;
 
-/// What the thread needs.
+/// State of the thread.
 struct Work {
     scene: Scene,
     /// Of the variant, if the scene draws its numbers.
@@ -49,8 +49,8 @@ struct Work {
     resources: Resources,
     gpu: Gpu,
     context: egui::Context,
-    told: Arc<Mutex<Option<Told>>>,
-    given_up: Arc<AtomicBool>,
+    timed_progress: Arc<Mutex<Option<TimedProgress>>>,
+    is_cancelled: Arc<AtomicBool>,
 }
 
 impl Preparation {
@@ -62,22 +62,22 @@ impl Preparation {
         gpu: &Gpu,
         context: egui::Context,
     ) -> Self {
-        let (tell, outcomes) = channel();
-        let (told, given_up) = (Arc::default(), Arc::default());
+        let (sender, outcomes) = channel();
+        let (timed_progress, is_cancelled) = (Arc::default(), Arc::default());
         let work = Work {
             scene,
             seed: RandomState::new().hash_one(()) >> SPARE_BITS,
             resources: resources.clone(),
             gpu: gpu.clone(),
             context,
-            told: Arc::clone(&told),
-            given_up: Arc::clone(&given_up),
+            timed_progress: Arc::clone(&timed_progress),
+            is_cancelled: Arc::clone(&is_cancelled),
         };
-        let refused = tell.clone();
-        let started = std::thread::Builder::new().spawn(move || work.run(&tell));
+        let failed = sender.clone();
+        let started = std::thread::Builder::new().spawn(move || work.run(&sender));
         if let Err(error) = started {
             let cause = format!("the system gives no thread ({error}); close other programs");
-            let _ = refused.send(Outcome {
+            let _ = failed.send(Outcome {
                 play: Err(Error::Window { cause }),
                 last: true,
                 second: false,
@@ -85,12 +85,12 @@ impl Preparation {
         }
         Self {
             outcomes,
-            told,
-            given_up,
+            timed_progress,
+            is_cancelled,
         }
     }
 
-    /// What came of it; none yet while it lasts.
+    /// The next outcome; none until it is ready.
     pub(super) fn outcome(&mut self) -> Option<Outcome> {
         match self.outcomes.try_recv() {
             Ok(outcome) => Some(outcome),
@@ -105,38 +105,41 @@ impl Preparation {
         }
     }
 
-    /// How far it is, if that is known.
+    /// The progress, if known.
     pub(super) fn progress(&self) -> Option<Progress> {
-        Some(self.told()?.progress)
+        Some(self.timed_progress()?.progress)
     }
 
     /// The time that it still takes [s], if it goes on as until now; none before that can be said.
     pub(super) fn time_left(&self) -> Option<f64> {
-        let told = self.told()?;
-        let (since, from) = told.first;
+        let timed_progress = self.timed_progress()?;
+        let (since, from) = timed_progress.first;
         let elapsed = since.elapsed().as_secs_f64();
-        time_left(elapsed, from, told.progress.part)
+        time_left(elapsed, from, timed_progress.progress.part)
     }
 
-    fn told(&self) -> Option<Told> {
-        *self.told.lock().unwrap_or_else(PoisonError::into_inner)
+    fn timed_progress(&self) -> Option<TimedProgress> {
+        *self
+            .timed_progress
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 impl Drop for Preparation {
     fn drop(&mut self) {
-        self.given_up.store(true, Ordering::Relaxed);
+        self.is_cancelled.store(true, Ordering::Relaxed);
     }
 }
 
 impl Work {
-    fn run(mut self, tell: &Sender<Outcome>) {
-        // The touch goes on beside it.
+    fn run(mut self, sender: &Sender<Outcome>) {
+        // The touch runs at the same time.
         lower_priority();
         match draw_variant(&self.scene, self.seed) {
             Ok(variant) => self.scene = variant,
             Err(error) => {
-                let _ = tell.send(Outcome {
+                let _ = sender.send(Outcome {
                     play: Err(error.into()),
                     last: true,
                     second: false,
@@ -149,23 +152,23 @@ impl Work {
         if second {
             let mut local = self.scene.clone();
             local.model.kind = ModelKind::Local;
-            // What is felt until then is not what the scene says.
+            // Until then the force is not that of the scene.
             local.written = None;
             let play = self.play(local);
             let last = play.is_err();
-            // Nobody waits any more when the choice has changed since.
-            let heard = tell.send(Outcome {
+            // Fails when the choice has changed since.
+            let sent = sender.send(Outcome {
                 play,
                 last,
                 second: false,
             });
             self.context.request_repaint();
-            if last || heard.is_err() {
+            if last || sent.is_err() {
                 return;
             }
         }
         let play = self.play(self.scene.clone());
-        let _ = tell.send(Outcome {
+        let _ = sender.send(Outcome {
             play,
             last: true,
             second,
@@ -175,18 +178,21 @@ impl Work {
 
     fn play(&self, scene: Scene) -> Result<Prepared, Error> {
         Prepared::of(scene, &self.resources, &self.gpu, &mut |progress| {
-            let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
-            *told = Some(match *told {
+            let mut timed_progress = self
+                .timed_progress
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner);
+            *timed_progress = Some(match *timed_progress {
                 // The local model came first, and the whole organ begins anew.
                 Some(before) if progress.part >= before.progress.part => {
-                    Told { progress, ..before }
+                    TimedProgress { progress, ..before }
                 }
-                _ => Told {
+                _ => TimedProgress {
                     progress,
                     first: (Instant::now(), progress.part),
                 },
             });
-            match self.given_up.load(Ordering::Relaxed) {
+            match self.is_cancelled.load(Ordering::Relaxed) {
                 true => ControlFlow::Break(()),
                 false => ControlFlow::Continue(()),
             }
@@ -194,7 +200,7 @@ impl Work {
     }
 }
 
-/// What is left [s] of work of which the part grew from `from` to `part` in `elapsed` [s], in steps that people count in.
+/// Remaining time [s] of work whose finished part grew from `from` to `part` in `elapsed` [s], rounded for people.
 /// None before a twentieth and a second.
 fn time_left(elapsed: f64, from: f64, part: f64) -> Option<f64> {
     let done = part - from;

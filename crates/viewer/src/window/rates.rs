@@ -10,9 +10,9 @@ pub(super) struct Rates {
     pub(super) model: f64,
     /// Ticks of the servo loop [Hz].
     pub(super) servo: f64,
-    /// What the servo loop measured of itself since the start; zeros without one.
+    /// Measurements of the servo loop since the start; zeros without one.
     pub(super) touch: LoopReport,
-    /// What the model did.
+    /// Measurements of the model.
     pub(super) answers: ModelReport,
     counted: Counted,
 }

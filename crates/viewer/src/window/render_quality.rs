@@ -1,7 +1,6 @@
 use std::time::Duration;
 
-/// How much work a picture may be: a slow machine draws fewer samples, then fewer pixels, and never keeps
-/// the touch waiting.
+/// Render quality: a slow machine draws fewer samples, then fewer pixels, and never delays the touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct RenderQuality {
     rung: usize,
@@ -18,8 +17,8 @@ const SLOW: Duration = Duration::from_millis(90);
 const QUICK: Duration = Duration::from_millis(45);
 
 /// Slow pictures in a row that lower the effort, and quick ones that raise it.
-const PATIENCE: u32 = 8;
-const HOPE: u32 = 180;
+const SLOW_IN_A_ROW: u32 = 8;
+const QUICK_IN_A_ROW: u32 = 180;
 
 impl RenderQuality {
     /// Everything, or less where the processor draws.
@@ -50,11 +49,11 @@ impl RenderQuality {
         } else {
             0
         };
-        if self.slow >= PATIENCE && self.rung + 1 < LADDER.len() {
+        if self.slow >= SLOW_IN_A_ROW && self.rung + 1 < LADDER.len() {
             self.rung += 1;
             self.slow = 0;
         }
-        if self.quick >= HOPE && self.rung > 0 {
+        if self.quick >= QUICK_IN_A_ROW && self.rung > 0 {
             self.rung -= 1;
             self.quick = 0;
         }
@@ -90,7 +89,7 @@ mod tests {
     #[test]
     fn a_late_touch_lowers_a_quick_picture() {
         let mut render_quality = RenderQuality::new(false);
-        (0..PATIENCE).for_each(|_| render_quality.count(Duration::from_millis(10), true));
+        (0..SLOW_IN_A_ROW).for_each(|_| render_quality.count(Duration::from_millis(10), true));
         assert_eq!(render_quality.samples(), 1);
     }
 }

@@ -1,4 +1,4 @@
-//! How an attempt was done: a verdict, what to do about it, one plot; the rest is folded.
+//! Result of an attempt: a verdict, advice, one plot; the rest is folded.
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{self, RichText, Ui};
@@ -13,7 +13,7 @@ use super::page::{self, main_button, or_key, quiet};
 use super::texts::{decimal, phrase, say_if_there, text, tool_name};
 use crate::style::{DEPTH, FORCE, QUIET, WARNING, WHITE};
 
-/// How it was done.
+/// Shows the result.
 pub(super) fn over(
     ui: &mut Ui,
     attempt: &Attempt,
@@ -21,7 +21,7 @@ pub(super) fn over(
     around: &CardContext,
     asked: &mut Option<AttemptAction>,
 ) {
-    let told = feedback(&attempt.task, &done.score, done.late);
+    let feedback = feedback(&attempt.task, &done.score, done.late);
     let color = match done.score.outcome.passed() {
         Some(true) => DEPTH,
         Some(false) => WARNING,
@@ -29,13 +29,13 @@ pub(super) fn over(
     };
     ui.label(RichText::new(title(attempt)).color(QUIET));
     ui.label(
-        RichText::new(phrase(&told.verdict))
+        RichText::new(phrase(&feedback.verdict))
             .size(22.0)
             .strong()
             .color(color),
     );
     ui.add_space(4.0);
-    for sentence in [&told.good, &told.change, &told.next] {
+    for sentence in [&feedback.good, &feedback.change, &feedback.next] {
         ui.label(RichText::new(phrase(sentence)).size(15.0).color(WHITE));
     }
     ui.add_space(6.0);
@@ -79,7 +79,7 @@ pub(super) fn over(
     }
 }
 
-/// The force over time, beside its band or its limit.
+/// The force over time, versus its band or its limit.
 fn forces(ui: &mut Ui, attempt: &Attempt) {
     let lines: Vec<f64> = match &attempt.task.goal {
         Goal::Traction {
@@ -171,8 +171,8 @@ fn earlier(ui: &mut Ui, done: &Done) {
         });
 }
 
-/// Whether a tool was held at all; what stayed idle has nothing to tell.
-fn was_held(done: &Done, measure: &Measure) -> bool {
+/// Whether the tool of a measure was used; measures of idle tools are left out.
+fn was_used(done: &Done, measure: &Measure) -> bool {
     let hands = done.score.hands.iter();
     let mut idle = hands.filter(|hand| hand.path <= 0.0);
     !idle.any(|hand| {
@@ -200,7 +200,7 @@ fn measures(ui: &mut Ui, done: &Done) {
             }
             ui.end_row();
             let all = done.score.measures().into_iter();
-            for measure in all.filter(|own| was_held(done, own)) {
+            for measure in all.filter(|own| was_used(done, own)) {
                 let (name, value) = words(&measure.key, measure.value);
                 ui.label(name);
                 ui.label(RichText::new(value).monospace().color(WHITE));

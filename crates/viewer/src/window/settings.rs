@@ -1,4 +1,4 @@
-//! What a window needs to know of a person's settings, and where it keeps them.
+//! A person's settings for the window, and their store.
 
 use std::path::PathBuf;
 
@@ -6,19 +6,19 @@ use palpate_files::{Language, Settings};
 
 /// The settings of a window.
 pub struct WindowSettings {
-    /// What is set.
+    /// The settings.
     pub settings: Settings,
     /// The language that the environment names.
     pub environment: Language,
     /// The language that was asked for at this start, if any; until another one is set.
     pub asked_language: Option<Language>,
-    /// Why it is not what was set before, or is not kept; in a sentence.
+    /// Why the settings differ from the stored ones, or cannot be stored; in a sentence.
     pub trouble: Option<String>,
-    /// Where it is kept.
+    /// The store of the settings.
     pub keeper: Box<dyn SettingsKeeper>,
 }
 
-/// What a folder or file of the program is for.
+/// Use of a folder or file of the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FolderContent {
     /// Sessions and results.
@@ -32,7 +32,7 @@ pub enum FolderContent {
 /// A folder or file that the program uses.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NamedFolder {
-    /// What is in it.
+    /// Its contents.
     pub content: FolderContent,
     /// Where it is.
     pub path: PathBuf,
@@ -47,12 +47,12 @@ pub struct CacheUse {
     pub bytes: u64,
 }
 
-/// Where settings are kept, and what is set up on this machine.
+/// The store of settings, and the setup of this machine.
 pub trait SettingsKeeper {
     /// Keeps the settings.
     ///
     /// # Errors
-    /// When they cannot be kept; in a sentence.
+    /// When they cannot be stored; in a sentence.
     fn save(&mut self, settings: &Settings) -> Result<(), String>;
 
     /// Haptic devices that are connected, and why others are not; a sentence each. It may take seconds.

@@ -1,4 +1,4 @@
-//! The page of settings. What is changed is kept at once.
+//! The page of settings. Changes are stored at once.
 
 use std::path::PathBuf;
 

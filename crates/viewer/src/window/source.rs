@@ -1,4 +1,4 @@
-//! Where what is shown comes from: hands that touch now, or a session that is played again.
+//! Source of the displayed state: live hands, or a replayed session.
 
 use std::time::{Duration, Instant};
 
@@ -8,14 +8,14 @@ use palpate_simulate::interactive::{
 };
 use palpate_simulate::{Replay, SessionFolderWriter, Simulation};
 
-/// What a picture has time for [ms]: steps that are played again take their turn with the pictures.
+/// Time budget of a picture for replayed steps [ms].
 const BUDGET: Duration = Duration::from_millis(12);
 
-/// How far the pictures may lag behind the pace before the pace waits for them [s of the session]: a state that was kept
+/// How far the pictures may lag behind the pace before the pace waits for them [s of the session]: a stored state
 /// is never farther away once the session was played ahead.
 const MOST_BEHIND: f64 = 2.0;
 
-/// Where what is shown comes from.
+/// Source of the displayed state.
 pub(super) enum Source {
     /// Hands that touch now.
     Touched(Box<Interaction>),
@@ -23,7 +23,7 @@ pub(super) enum Source {
     Again(Box<Playback>),
 }
 
-/// A session that is played again at a pace that can be chosen, forth and back.
+/// A session that is replayed forwards and backwards, at a chosen pace.
 pub(super) struct Playback {
     replay: Replay,
     snapshot: Snapshot,
@@ -72,10 +72,10 @@ impl Source {
         }
     }
 
-    pub(super) fn send(&mut self, order: ModelCommand) {
+    pub(super) fn send(&mut self, command: ModelCommand) {
         match self {
-            Self::Touched(interaction) => interaction.send(order),
-            Self::Again(playback) => match order {
+            Self::Touched(interaction) => interaction.send(command),
+            Self::Again(playback) => match command {
                 ModelCommand::Pause => playback.plays = false,
                 ModelCommand::Resume => playback.plays = true,
                 ModelCommand::Reset => playback.go_to(0),
@@ -84,7 +84,7 @@ impl Source {
         }
     }
 
-    /// What a person has to know of a device that does not answer any more.
+    /// Warning about a device that does not answer any more.
     pub(super) fn hung_device(&self) -> Option<String> {
         match self {
             Self::Touched(interaction) => interaction.hung_device(),
@@ -106,7 +106,7 @@ impl Source {
         }
     }
 
-    /// Says that the window is alive; when it is not, forces are taken off.
+    /// Reports that the window is alive; without reports, forces are taken off.
     pub(super) fn report_alive(&self) {
         if let Self::Touched(interaction) = self {
             interaction.report_alive();

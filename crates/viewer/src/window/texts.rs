@@ -139,7 +139,7 @@ pub(super) fn tool_name(name: &str) -> String {
     }
 }
 
-/// What is written on a key of the keyboard.
+/// Label of a key of the keyboard.
 pub(super) fn key_name(key: &str) -> String {
     let named = format!("key-{}", key.to_lowercase());
     say_if_there(&named).unwrap_or_else(|| key.to_owned())

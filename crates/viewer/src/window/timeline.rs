@@ -1,4 +1,4 @@
-//! Below a session that is played again: where it is, and how fast.
+//! The timeline below a replayed session: its time and pace.
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Ui, WidgetInfo};

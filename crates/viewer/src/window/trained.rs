@@ -1,4 +1,4 @@
-//! The window as a trainer: start screen, tasks, results, sessions looked at again.
+//! The window as a trainer: start screen, tasks, results, replays.
 
 use std::path::Path;
 
@@ -153,7 +153,7 @@ impl SimulatorWindow {
         }
     }
 
-    /// Looks whether the task is over, and keeps its result.
+    /// Checks whether the task is over, and stores its result.
     pub(super) fn watch_attempt(&mut self, context: &egui::Context) {
         let (Some(attempt), Some(play)) = (&mut self.attempt, &mut self.play) else {
             return;
@@ -185,13 +185,13 @@ impl SimulatorWindow {
             attempt.compare_with(earlier);
             return;
         };
-        let kept = training.record.keep(&TrainingResult {
+        let saved = training.record.keep(&TrainingResult {
             trainee,
             scene: &play.scene,
             session: folder,
             score: &done.score,
         });
-        if let Err(trouble) = kept {
+        if let Err(trouble) = saved {
             attempt.trouble = Some(text!("result-not-kept", trouble = trouble));
         }
         attempt.compare_with(earlier);
@@ -312,7 +312,7 @@ impl SimulatorWindow {
     }
 
     pub(super) fn begin_attempt(&mut self) {
-        // Whoever asks before the organ is prepared begins when it is.
+        // A request before the organ is prepared takes effect when it is.
         self.begins = self.preparing().is_some();
         if self.begins {
             return;
@@ -358,8 +358,8 @@ impl SimulatorWindow {
         }
     }
 
-    /// What can be chosen and what is measured; a trainee within a task sees the organ alone, unless something is
-    /// wrong. Beside a device with forces the emergency stop stays.
+    /// Choices and measurements; a trainee within a task sees the organ alone, unless something is
+    /// wrong. With a force-feedback device the emergency stop stays.
     pub(super) fn show_panels(&mut self, ui: &mut egui::Ui) {
         if self.compared.is_some() && self.notice.is_none() {
             return;
@@ -381,7 +381,7 @@ impl SimulatorWindow {
     }
 }
 
-/// The scene beside a session.
+/// The scene next to a session.
 fn scene_of(session: &Path) -> Result<Scene, String> {
     let folder = SessionFolder::read(session).map_err(|error| error.to_string())?;
     folder.scene.ok_or_else(|| {

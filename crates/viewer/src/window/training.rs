@@ -1,4 +1,4 @@
-//! What a window needs to know of a training, and where it gives the results.
+//! Data of a training for the window, and the receiver of the results.
 
 use std::io::Cursor;
 use std::path::PathBuf;
@@ -8,17 +8,17 @@ use palpate_files::Scene;
 use palpate_files::scene::Task;
 use palpate_simulate::performance::Score;
 
-/// What a window needs to train somebody.
+/// Data of a training.
 pub struct Training {
     /// The tasks to choose from: scenes with a title.
     pub tasks: Vec<OfferedTask>,
-    /// What is touched without a task.
+    /// The scene without a task.
     pub free: Scene,
-    /// The folder in which sessions are kept.
+    /// The folder of sessions.
     pub sessions: PathBuf,
-    /// Who trains.
+    /// The trainee.
     pub trainee: String,
-    /// Where results are kept.
+    /// The store of results.
     pub record: Box<dyn TrainingRecord>,
 }
 
@@ -66,18 +66,18 @@ impl TaskPicture {
     }
 }
 
-/// Where results are kept.
+/// The store of results.
 pub trait TrainingRecord {
-    /// The folder for a new session of a task, which is not there yet.
+    /// The folder for a new session of a task, which does not exist yet.
     fn new_session(&self, task: &Task) -> PathBuf;
 
-    /// Keeps a result; what went wrong, in a sentence.
+    /// Stores a result.
     ///
     /// # Errors
-    /// When it cannot be kept.
+    /// When it cannot be stored; in a sentence.
     fn keep(&mut self, result: &TrainingResult<'_>) -> Result<(), String>;
 
-    /// What a trainee shall do, the first due first.
+    /// Assignments of a trainee, the first due first.
     ///
     /// # Errors
     /// When it cannot be read; in a sentence.
@@ -92,7 +92,7 @@ pub trait TrainingRecord {
     /// Gives a cohort or a trainee something to do.
     ///
     /// # Errors
-    /// When the PIN is wrong, the date is none, or it cannot be kept; in a sentence.
+    /// When the PIN is wrong, the date is none, or it cannot be stored; in a sentence.
     fn assign(&mut self, given: &NewAssignment) -> Result<(), String>;
 
     /// The results of a trainee, the last one last.
@@ -102,7 +102,7 @@ pub trait TrainingRecord {
     fn results(&self, trainee: &str) -> Result<Vec<PastResult>, String>;
 }
 
-/// What a teacher gives somebody to do.
+/// An assignment by a teacher.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct NewAssignment {
     /// The cohort or trainee.
@@ -117,18 +117,18 @@ pub struct NewAssignment {
     pub pin: String,
 }
 
-/// What a teacher sees of all trainees.
+/// All trainees, for a teacher.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Class {
     /// Cohorts and trainees, to whom something can be given to do.
     pub assignees: Vec<String>,
-    /// What cohorts shall do, the first due first.
+    /// Assignments of cohorts, the first due first.
     pub assignments: Vec<AssignedTask>,
     /// Each task that was attempted.
     pub tasks: Vec<TaskProgress>,
 }
 
-/// What a cohort shall do.
+/// An assignment of a cohort.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct AssignedTask {
     /// The cohort.
@@ -167,7 +167,7 @@ pub enum StandingWord {
     Late,
 }
 
-/// How trainees come on with a task.
+/// Progress of all trainees in a task.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TaskProgress {
     /// The title of the task.
@@ -180,7 +180,7 @@ pub struct TaskProgress {
     pub expert_time: Option<f64>,
 }
 
-/// How a trainee comes on with a task.
+/// Progress of a trainee in a task.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TraineeProgress {
     /// Who.
@@ -195,7 +195,7 @@ pub struct TraineeProgress {
     pub times: Vec<[f64; 2]>,
 }
 
-/// What somebody shall do.
+/// An assignment of a trainee.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Assigned {
     /// The title of the task.
@@ -210,7 +210,7 @@ pub struct Assigned {
     pub is_over: bool,
 }
 
-/// How somebody has just done a task.
+/// A new result.
 pub struct TrainingResult<'a> {
     /// Who.
     pub trainee: &'a str,
@@ -222,7 +222,7 @@ pub struct TrainingResult<'a> {
     pub score: &'a Score,
 }
 
-/// How somebody once did a task.
+/// A stored result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PastResult {
     /// The title of the task.

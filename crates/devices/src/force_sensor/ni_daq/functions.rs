@@ -1,4 +1,4 @@
-//! The functions of `libnidaqmx` that are used, as `NIDAQmx.h` has them.
+//! The required functions of `libnidaqmx`, as declared in `NIDAQmx.h`.
 
 #![allow(
     unsafe_code,
@@ -22,9 +22,9 @@ const CONTINUOUS: i32 = 10_123;
 const BY_SCAN: u32 = 1;
 /// The library's number for too few samples within the time.
 const TIMED_OUT: i32 = -200_284;
-/// How long a reading is waited for [s].
+/// Timeout of a reading [s].
 const WAITED: f64 = 0.05;
-/// Room for the text of an error [byte].
+/// Capacity for the text of an error [byte].
 const TEXT: usize = 2048;
 /// Channels.
 const SIX: usize = 6;
@@ -83,17 +83,17 @@ impl Functions {
         })
     }
 
-    /// An error for a code below zero; above are warnings.
+    /// An error for a negative code; positive ones are warnings.
     fn check(&self, code: i32) -> Result<(), OpenError> {
         if code >= 0 {
             return Ok(());
         }
         let mut room = [0 as c_char; TEXT];
-        // One byte less than there is: what the library writes ends in any case.
+        // One byte less than its size: the text then always ends with a zero.
         (self.error)(room.as_mut_ptr(), (TEXT - 1) as u32);
         // SAFETY: the last byte was never given away and is zero.
-        let said = unsafe { text(room.as_ptr()) };
-        let what = match said.lines().next() {
+        let message = unsafe { text(room.as_ptr()) };
+        let what = match message.lines().next() {
             Some(line) if !line.is_empty() => line.trim_end_matches('.').to_owned(),
             _ => "no reason".to_owned(),
         };
@@ -107,13 +107,13 @@ pub(super) struct Task {
     handle: Handle,
 }
 
-/// Room for what is read at once.
+/// Capacity for one reading.
 pub(super) struct Volts {
     values: Vec<f64>,
 }
 
 impl Volts {
-    /// For so many scans of six.
+    /// For so many scans of six voltages.
     pub(super) fn new(scans: usize) -> Self {
         Self {
             values: vec![0.0; SIX * scans],
@@ -130,7 +130,7 @@ impl Task {
     pub(super) fn start(functions: Functions, gauges: &Gauges) -> Result<Self, OpenError> {
         let mut handle: Handle = ptr::null_mut();
         functions.check((functions.create)(c"".as_ptr(), &raw mut handle))?;
-        // Cleared from here on, whatever fails.
+        // From here on the task is cleared, whatever fails.
         let task = Self { functions, handle };
         let channels =
             CString::new(gauges.channels.as_str()).map_err(|_| OpenError::SensorLibrary {
@@ -148,7 +148,7 @@ impl Task {
             VOLTS,
             ptr::null(),
         ))?;
-        // Room for a second, should the thread be held up.
+        // Capacity for a second, in case the thread is delayed.
         let room = gauges.rate.ceil() as u64;
         let clock = ptr::null();
         functions.check((functions.set_clock)(
@@ -163,7 +163,7 @@ impl Task {
         Ok(task)
     }
 
-    /// Fills `volts` and says how many scans there are; none when the time was over first.
+    /// Fills `volts` and returns the number of scans; none after the timeout.
     ///
     /// # Errors
     /// The library's number for it.

@@ -1,9 +1,9 @@
 //! Force curves of Asylum Research's microscopes in Igor binary waves (`.ibw`): the note has lines `name: value`, the labels
 //! name the columns.
 //!
-//! Deflection is in metres (`Defl`) or in volts (`DeflV`), the position of the base grows towards the specimen (`ZSnsr`, or
-//! without a sensor `Raw`), and the step of the rows is in seconds. A wave of one column is the deflection, and the position
-//! is in the wave beside it.
+//! Deflection is in metres (`Defl`) or in volts (`DeflV`), the position of the base grows towards the specimen
+//! (`ZSnsr`, or without a sensor `Raw`), and the step of the rows is in seconds. A wave of one column is the
+//! deflection, and the position is in the other wave of the pair.
 
 use super::igor_pair::position_named;
 use super::igor_wave::{Wave, columns};
@@ -39,7 +39,7 @@ pub(super) fn read(file: &InstrumentFile<'_>) -> Result<Recording, Error> {
     let (name, position) = position.ok_or_else(missing)?;
     let stated = wave.noted_number("SpringConstant");
     let spring_constant = stated
-        .or(file.said.spring_constant_n_per_m)
+        .or(file.given.spring_constant_n_per_m)
         .filter(|own| Domain::STIFFNESS.contains(*own))
         .ok_or_else(|| {
             let what = "the spring constant of its cantilever, in newtons per metre";
@@ -47,7 +47,7 @@ pub(super) fn read(file: &InstrumentFile<'_>) -> Result<Recording, Error> {
         })?;
     let noted = wave.noted_number("InvOLS");
     let sensitivity = noted
-        .or(file.said.sensitivity_m_per_v)
+        .or(file.given.sensitivity_m_per_v)
         .filter(|own| Domain::SENSITIVITY.contains(*own));
     let deflection: Vec<f64> = match wave.column(&DEFLECTIONS) {
         Some((_, metres)) => metres.to_vec(),
@@ -83,27 +83,27 @@ pub(super) fn read(file: &InstrumentFile<'_>) -> Result<Recording, Error> {
     curve.recording(file, "the wave", header, vec![remark])
 }
 
-/// A wave of one column together with that of the position beside it.
+/// A wave of one column, joined with the wave of its position.
 fn paired(file: &InstrumentFile<'_>, mut wave: Wave) -> Result<Wave, Error> {
     let (label, _) = &wave.columns[0];
     let part = format!("the wave {label} of one column");
     let damaged = |cause| file.damaged(part.clone(), cause);
-    let asked = file.columns.depth.as_deref();
-    let names = match &asked {
+    let column = file.columns.depth.as_deref();
+    let names = match &column {
         Some(name) => std::slice::from_ref(name),
         None => &POSITIONS[..],
     };
-    let (name, beside) = position_named(file.path, names).ok_or_else(|| {
+    let (name, position) = position_named(file.path, names).ok_or_else(|| {
         damaged(
             "is no force curve without the position of the base: put that wave beside it under the same name with ZSnsr \
              (or Raw, or what --depth says) in place of Defl, and name the file of the deflection; or join both in Igor \
              (Concatenate), label the columns (SetDimLabel), and save that wave",
         )
     })?;
-    let bytes = read_bytes(&beside, MOST_OF_TABLE)?;
+    let bytes = read_bytes(&position, MOST_OF_TABLE)?;
     let other = InstrumentFile {
         bytes: &bytes,
-        path: &beside,
+        path: &position,
         ..*file
     };
     if columns(&bytes) != Some(1) {

@@ -1,5 +1,5 @@
-//! Two waves of one column that are one curve: the deflection, and beside it the position of the base. In their names one
-//! says `Defl` where the other says `ZSnsr`: `Curve0007Defl.ibw`, `Curve0007ZSnsr.ibw`.
+//! Two waves of one column that form one curve: the deflection, and in the same folder the position of the base.
+//! Where one name has `Defl` the other has `ZSnsr`: `Curve0007Defl.ibw`, `Curve0007ZSnsr.ibw`.
 
 use std::path::{Path, PathBuf};
 
@@ -12,7 +12,7 @@ pub fn position_beside(deflection: &Path) -> Option<PathBuf> {
     position_named(deflection, &POSITIONS).map(|(_, path)| path)
 }
 
-/// As [`position_beside`], with one of these names of positions, and which one.
+/// As [`position_beside`], for these names of positions; also returns the matching name.
 pub(super) fn position_named<'n>(
     deflection: &Path,
     positions: &[&'n str],
@@ -20,20 +20,20 @@ pub(super) fn position_named<'n>(
     renamed(deflection, &deflection_names(), positions)
 }
 
-/// The file with the deflection to which the position of the base in a file belongs; none where the file has more than
-/// one column, or no deflection is beside it.
+/// The file with the deflection that belongs to the file of a position; none where the file has more than one column,
+/// or no deflection is in the same folder.
 pub fn deflection_beside(position: &Path) -> Option<PathBuf> {
     let (_, deflection) = renamed(position, &POSITIONS, &deflection_names())?;
     let bytes = read_bytes(position, MOST_OF_TABLE).ok()?;
     (columns(&bytes)? == 1).then_some(deflection)
 }
 
-/// What a deflection is called, the longest names first: one of them begins another.
+/// Names of a deflection, the longest first: one of them begins another.
 fn deflection_names() -> [&'static str; 4] {
     [VOLTS[1], DEFLECTIONS[1], VOLTS[0], DEFLECTIONS[0]]
 }
 
-/// The first file that is there with a new name in place of an old one, where that stands last, and the new name.
+/// The first existing file with a new name in place of the last occurrence of an old one, and the new name.
 fn renamed<'n>(path: &Path, old: &[&str], new: &[&'n str]) -> Option<(&'n str, PathBuf)> {
     let is_wave = path
         .extension()

@@ -19,7 +19,7 @@ pub(super) fn is_wave(bytes: &[u8]) -> bool {
     matches!(bytes, [1 | 2 | 3 | 5, 0, ..] | [0, 1 | 2 | 3 | 5, ..])
 }
 
-/// Where the parts of a wave stand in its file [bytes].
+/// Positions of the parts of a wave in its file [bytes].
 struct Layout {
     version: i16,
     /// The end of the headers, which the checksum covers.
@@ -160,7 +160,7 @@ impl<'b> WaveBytes<'b> {
     }
 }
 
-/// What a wave contains.
+/// The content of a wave.
 pub(super) struct Wave {
     /// The labels of the columns, each with its numbers; a single column has the wave's name.
     pub(super) columns: Vec<(String, Vec<f64>)>,
@@ -174,7 +174,7 @@ pub(super) struct Wave {
     pub(super) unit: String,
 }
 
-/// How many columns the wave in a file has; none where it is no wave.
+/// The number of columns of the wave in a file; none where it is no wave.
 pub(super) fn columns(bytes: &[u8]) -> Option<usize> {
     is_wave(bytes).then_some(())?;
     let wave = WaveBytes::new(bytes);

@@ -20,7 +20,7 @@ use super::{Curve, InstrumentFile, MOST_SAMPLES};
 use crate::recording::{Recording, RecordingHeader};
 use crate::{Domain, Error, quantity::plain_quantity};
 
-/// Channels of the height, the best first: sensors measure what the piezo was told to do.
+/// Channels of the height, the best first: sensors measure the commanded motion of the piezo.
 const HEIGHTS: [&str; 5] = [
     "measuredHeight",
     "capacitiveSensorHeight",
@@ -107,7 +107,7 @@ struct Map<'f> {
     general: &'f Properties,
 }
 
-/// How the deflection and the force come from the values of their channel.
+/// Conversion of a channel's values to deflection and force.
 struct Calibration {
     /// Values to metres.
     deflection: Linear,
@@ -213,7 +213,7 @@ impl Map<'_> {
     }
 
     fn calibration(&self, segment: &Segment<'_>) -> Result<Calibration, Error> {
-        let said = self.file.said;
+        let given = self.file.given;
         let base = segment.base(DEFLECTION);
         let uncalibrated_spring = || {
             let what = "the spring constant of its cantilever, in newtons per metre";
@@ -223,12 +223,12 @@ impl Map<'_> {
         let stated = stated.filter(|(of, _)| *of == "volts");
         let sensitivity = stated
             .map(|(_, own)| own.multiplier)
-            .or(said.sensitivity_m_per_v);
+            .or(given.sensitivity_m_per_v);
         if base == Some("force") {
             let stated = segment.last_step(DEFLECTION, "force");
             let stated = stated.filter(|(of, _)| *of == "distance");
             let stiffness = stated.map(|(_, own)| own).or_else(|| {
-                let multiplier = said.spring_constant_n_per_m?;
+                let multiplier = given.spring_constant_n_per_m?;
                 Some(Linear {
                     multiplier,
                     ..Linear::SAME
@@ -248,7 +248,7 @@ impl Map<'_> {
         let force = segment.conversion(DEFLECTION, "force");
         let multiplier = distance
             .map(|own| own.multiplier)
-            .or(said.sensitivity_m_per_v);
+            .or(given.sensitivity_m_per_v);
         let multiplier = multiplier.filter(|own| *own != 0.0).ok_or_else(|| {
             let what = "the sensitivity of its optical lever, in metres per volt";
             self.file.uncalibrated("sensitivity_m_per_v", what)
@@ -259,7 +259,7 @@ impl Map<'_> {
         });
         let known = force.map(|force| force.multiplier / multiplier);
         let spring_constant = known
-            .or(said.spring_constant_n_per_m)
+            .or(given.spring_constant_n_per_m)
             .filter(|own| Domain::STIFFNESS.contains(*own))
             .ok_or_else(uncalibrated_spring)?;
         Ok(Calibration {
@@ -359,5 +359,5 @@ fn is_upside_down(curve: &Curve) -> bool {
     mean_near(lowest) < mean_near(highest)
 }
 
-/// How near to its lowest or highest place the base is there [-].
+/// Tolerance of the lowest or highest position of the base [-].
 const NEAR: f64 = 0.02;

@@ -35,7 +35,7 @@ impl Linear {
         multiplier: 1.0,
     };
 
-    /// What makes values into those that this makes into them; none where it makes all of them one.
+    /// The inverse conversion; none where this one makes all values one.
     pub(super) fn inverse(self) -> Option<Self> {
         let own = Self {
             offset: -self.offset / self.multiplier,
@@ -66,14 +66,14 @@ impl Segment<'_> {
             .is_some()
     }
 
-    /// How long it took [s].
+    /// Its duration [s].
     pub(super) fn duration(&self) -> Option<f64> {
         self.header("duration")
             .and_then(number)
             .filter(|duration| *duration > 0.0)
     }
 
-    /// What the cantilever did, such as `extend`, `pause` or `retract`.
+    /// The motion of the cantilever, such as `extend`, `pause` or `retract`.
     pub(super) fn style(&self) -> &str {
         self.header("settings.style").unwrap_or("segment")
     }
@@ -120,7 +120,8 @@ impl Segment<'_> {
         })
     }
 
-    /// What values of the base become as those of a `conversion`, such as `distance`; none where it is not defined.
+    /// The conversion from values of the base to those of a `conversion`, such as `distance`; none where it is not
+    /// defined.
     pub(super) fn conversion(&self, name: &str, conversion: &str) -> Option<Linear> {
         let base = self.base(name)?;
         let mut all = Linear::SAME;
@@ -136,12 +137,12 @@ impl Segment<'_> {
         None
     }
 
-    /// What the values of a channel are before any conversion, such as `volts`.
+    /// The unit of a channel's values before any conversion, such as `volts`.
     pub(super) fn base(&self, name: &str) -> Option<&str> {
         self.of_channel(name, "conversion-set.conversions.base")
     }
 
-    /// The last step of a `conversion`: the one that it is made of, and how.
+    /// The last step of a `conversion`: its source, and the function.
     pub(super) fn last_step(&self, name: &str, conversion: &str) -> Option<(&str, Linear)> {
         let own = format!("conversion-set.conversion.{conversion}");
         let before = self.of_channel(name, &format!("{own}.base-calibration-slot"))?;

@@ -1,4 +1,4 @@
-//! Files of instruments that indent: which one a file is, by its content, and its curves as recordings.
+//! Files of indentation instruments: recognises them by content, and reads their curves as recordings.
 //!
 //! Height is that of the cantilever's base, measured upwards; the tip is lower by less than that, for the cantilever
 //! bends. So depth = (z₀ + d₀) − (z + d), with z the height, d the deflection and z₀, d₀ those of the first sample; force is
@@ -38,14 +38,14 @@ impl Recording {
     pub fn read_all(
         path: impl AsRef<Path>,
         columns: &ForeignColumns,
-        said: &RecordingHeader,
+        given: &RecordingHeader,
     ) -> Result<Vec<Self>, Error> {
         let path = path.as_ref();
-        Self::parse_all(&read_bytes(path, MOST_OF_TABLE)?, path, columns, said)
+        Self::parse_all(&read_bytes(path, MOST_OF_TABLE)?, path, columns, given)
     }
 
-    /// Reads all recordings in the `bytes` of a file, whose name in errors is `path`. The spring constant and the sensitivity
-    /// of a cantilever are taken from `said` where the file does not state them.
+    /// Reads all recordings in the `bytes` of a file, whose name in errors is `path`. The spring constant and the
+    /// sensitivity of a cantilever come from `given` where the file does not have them.
     ///
     /// # Errors
     /// When the bytes hold no recording, or forces cannot be computed because a calibration is missing.
@@ -53,14 +53,14 @@ impl Recording {
         bytes: &[u8],
         path: impl AsRef<Path>,
         columns: &ForeignColumns,
-        said: &RecordingHeader,
+        given: &RecordingHeader,
     ) -> Result<Vec<Self>, Error> {
         let path = path.as_ref();
         let file = InstrumentFile {
             bytes,
             path,
             columns,
-            said,
+            given,
         };
         if jpk::is_archive(bytes) {
             return jpk::read(&file);
@@ -76,7 +76,7 @@ impl Recording {
         if let Some(recording) = optics11::read(text, &file)? {
             return Ok(vec![recording]);
         }
-        let recording = match columns.names_any() || !Self::says_format(text) {
+        let recording = match columns.names_any() || !Self::states_format(text) {
             true => Self::parse_foreign(text, path, columns)?,
             false => Self::parse(&crate::whole_file::text(bytes.to_vec(), path)?, path)?,
         };
@@ -84,12 +84,12 @@ impl Recording {
     }
 }
 
-/// A file, and what is stated besides.
+/// A file, with the values that the user gives.
 struct InstrumentFile<'f> {
     bytes: &'f [u8],
     path: &'f Path,
     columns: &'f ForeignColumns,
-    said: &'f RecordingHeader,
+    given: &'f RecordingHeader,
 }
 
 impl InstrumentFile<'_> {

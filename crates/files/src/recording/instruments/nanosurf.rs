@@ -213,7 +213,7 @@ fn channels<'b>(
     }
 }
 
-/// What the curves of a file share.
+/// Data that all curves of a file share.
 struct Curves<'f> {
     file: &'f InstrumentFile<'f>,
     header: &'f Header<'f>,
@@ -251,7 +251,7 @@ impl Curves<'_> {
         let noted = self
             .header
             .quantity("DataSet\\Calibration\\Cantilever", "Prop0");
-        let known = noted.or(self.file.said.spring_constant_n_per_m);
+        let known = noted.or(self.file.given.spring_constant_n_per_m);
         known
             .filter(|own| Domain::STIFFNESS.contains(*own))
             .ok_or_else(|| {
@@ -278,7 +278,7 @@ impl Curves<'_> {
                 "N" => 1.0,
                 "m" => spring_constant,
                 "V" => {
-                    let sensitivity = self.file.said.sensitivity_m_per_v.ok_or_else(|| {
+                    let sensitivity = self.file.given.sensitivity_m_per_v.ok_or_else(|| {
                         let what = "the sensitivity of its optical lever, in metres per volt";
                         self.file.uncalibrated("sensitivity_m_per_v", what)
                     })?;
@@ -354,7 +354,7 @@ impl Curves<'_> {
                 .then(|| format!("{} {line}", stem.to_string_lossy())),
             position_m: self.places.of_curve(line).map(|[x, y]| [x, y, 0.0]),
             spring_constant_n_per_m: Some(spring_constant),
-            sensitivity_m_per_v: self.file.said.sensitivity_m_per_v,
+            sensitivity_m_per_v: self.file.given.sensitivity_m_per_v,
             source: Some(
                 format!("Nanosurf {}", head.unwrap_or_default())
                     .trim_end()

@@ -1,4 +1,4 @@
-//! Where the curves of a Nanosurf file were measured: on grids, or at listed places.
+//! Positions of the curves of a Nanosurf file: on grids, or in a list.
 //!
 //! ```text
 //! Map0=x₀;x₁;y₀;y₁;columns;rows;rotation;placement     the outermost curves of a grid, in metres
@@ -23,13 +23,13 @@ const LISTED: &str = "DataSet\\SpecInfos\\SpecPosTable";
 /// Grids of a file at most.
 const MOST_GRIDS: usize = 256;
 
-/// The places of all curves.
+/// The positions of all curves.
 pub(super) enum Places {
     /// Grids, one after another.
     Grids(Vec<Grid>),
     /// One place for each curve [m].
     Listed(Vec<[f64; 2]>),
-    /// The header has no table of places.
+    /// The header has no table of positions.
     Unstated,
     /// Why the table is not used.
     Unusable(&'static str),
@@ -84,7 +84,7 @@ impl Grid {
 }
 
 impl Places {
-    /// As the `header` states them, for so many curves.
+    /// The positions that the `header` states, for so many curves.
     pub(super) fn of(header: &Header<'_>, curves: usize) -> Self {
         let is_grid = header
             .get(MODE, "SpecMode")
@@ -163,7 +163,7 @@ impl Places {
         }
     }
 
-    /// Why the places are not known, although the header has a table of them.
+    /// Why the positions are not known, although the header has a table of them.
     pub(super) fn cause(&self) -> Option<&'static str> {
         match self {
             Self::Unusable(cause) => Some(cause),

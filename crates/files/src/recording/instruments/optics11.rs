@@ -12,7 +12,7 @@ use crate::{Domain, Error};
 
 /// How many lines stand above the table at most [-].
 const MOST_LINES: usize = 200;
-/// Columns of the table, and what they are in SI units.
+/// Columns of the table, and their SI units.
 const COLUMNS: [(&str, &str); 4] = [
     ("Time", "s"),
     ("Load", "n"),
@@ -116,7 +116,7 @@ fn header(entries: &[(&str, &str)]) -> RecordingHeader {
     }
 }
 
-/// How it was read, and what the instrument's own fit gave.
+/// How it was read, and the result of the instrument's own fit.
 fn remark(header: &RecordingHeader, entries: &[(&str, &str)]) -> String {
     let stated =
         |key: &str, value: Option<f64>| value.map(|value| plain_quantity(key, value, None));

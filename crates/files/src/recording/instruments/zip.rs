@@ -9,12 +9,12 @@ use std::io::Read;
 use flate2::Crc;
 use flate2::read::DeflateDecoder;
 
-/// What a damaged archive suffers from.
+/// The defect of a damaged archive.
 type Cause = &'static str;
 
 /// The largest part that is read [bytes].
 const MOST_OF_PART: u64 = 1 << 28;
-/// Deflate makes no byte into more than 1032 [RFC 1951].
+/// Deflate expands a byte to at most 1032 [RFC 1951].
 const EXPANSION: u64 = 1032;
 /// The record at the end, without its comment; of ZIP64 the record before it and its locator between the two [bytes].
 const END: usize = 22;

@@ -11,16 +11,16 @@ pub(super) struct Distribution {
     pub(super) recipe: Recipe,
 }
 
-/// How a value is drawn.
+/// The distribution of a value.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Recipe {
-    /// Evenly between two numbers.
+    /// Uniform between two numbers.
     Uniform([f64; 2]),
-    /// Evenly in a box.
+    /// Uniform in a box.
     UniformVector([[f64; 3]; 2]),
-    /// Each of several values as often as the others.
+    /// One of several values, with equal probability.
     OneOf(Vec<Drawn>),
-    /// Evenly over a part of a surface.
+    /// Uniform over a part of a surface.
     OnSurface(OnSurface),
     /// A depth below a draw on the surface, against the normal there.
     Below { name: String, depth: Depth },
@@ -35,7 +35,7 @@ pub(super) enum Depth {
     Drawn(String),
 }
 
-/// A part of a surface: what of it lies in a box, and faces a direction.
+/// A part of a surface: within a box, and facing a direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OnSurface {
     /// The corner of the box with the smallest coordinates [m].
@@ -172,7 +172,7 @@ impl Distribution {
         })
     }
 
-    /// Checks that the draws that this one takes are there, and are of the right kind.
+    /// Checks that the draws that this one refers to exist, and are of the right kind.
     fn check_names(&self, all: &Table) -> Result<(), Error> {
         let Recipe::Below { name, depth } = &self.recipe else {
             return Ok(());
@@ -203,7 +203,7 @@ impl Distribution {
         }
     }
 
-    /// Refuses the surface of a neighbour that a scene with so many does not have.
+    /// Rejects the surface of a neighbour that a scene with so many does not have.
     pub(super) fn check_neighbour(&self, count: usize) -> Result<(), Error> {
         let neighbour = match &self.recipe {
             Recipe::OnSurface(on) => on.neighbour,

@@ -1,4 +1,4 @@
-//! Scenes whose numbers are drawn: a table `[draw]` names distributions, `{ draw = "NAME" }` takes a drawn value
+//! Scenes with random numbers: a table `[draw]` names distributions, and `{ draw = "NAME" }` stands for a drawn value
 //! anywhere else in the scene.
 //!
 //! A value depends on the seed, its name and nothing else: the uniform numbers of a draw are the first 53 bits of
@@ -24,7 +24,7 @@ use distribution::{Distribution, Recipe};
 /// The largest seed: every seed is exact in TOML, JSON and a floating-point number.
 pub const LARGEST_SEED: u64 = (1 << 53) - 1;
 
-/// The draws of a scene that is not drawn yet.
+/// The draws of a scene before it is drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Draws {
     path: PathBuf,
@@ -33,7 +33,7 @@ pub struct Draws {
     each: Vec<Distribution>,
 }
 
-/// Which variant of a task a scene is.
+/// The identity of a variant of a task.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Variant {
     /// The seed that it was drawn with.
@@ -91,9 +91,9 @@ impl Uniform<'_> {
 }
 
 impl Draws {
-    /// Takes the draws out of a document; none where it has no `[draw]`. The document has provisional values in their
-    /// places then, with which everything else in it can be checked: those of seed 0, and for a place on the surface
-    /// the middle of its box.
+    /// Takes the draws out of a document; none where it has no `[draw]`. The document then has provisional values in
+    /// their places, with which all other keys can be checked: those of seed 0, and for a location on the surface the
+    /// middle of its box.
     pub(super) fn take(root: &mut Table, keys: &Keys<'_>) -> Result<Option<Self>, Error> {
         let Some(entry) = root.remove("draw") else {
             return Ok(None);
@@ -110,14 +110,14 @@ impl Draws {
         Ok(Some(draws))
     }
 
-    /// Refuses surfaces of neighbours that a scene with so many does not have.
+    /// Rejects surfaces of neighbours that a scene with so many does not have.
     pub(super) fn check_neighbours(&self, count: usize) -> Result<(), Error> {
         self.each
             .iter()
             .try_for_each(|own| own.check_neighbour(count))
     }
 
-    /// The parts of surfaces on which places are drawn; if there are any, those surfaces have to be known.
+    /// The parts of surfaces on which locations are drawn; if there are any, those surfaces must be known.
     pub fn surfaces(&self) -> impl Iterator<Item = &OnSurface> {
         self.each.iter().filter_map(|own| match &own.recipe {
             Recipe::OnSurface(on) => Some(on),
@@ -163,8 +163,8 @@ impl Scene {
     /// needs them ([`Draws::surfaces`]). A scene that draws nothing, or was drawn, is its only variant.
     ///
     /// # Errors
-    /// The seed is larger than [`LARGEST_SEED`], the surface has no point of the kind that is asked for, or a drawn
-    /// value is outside the domain of its key.
+    /// The seed is larger than [`LARGEST_SEED`], the surface has no point of the requested kind, or a drawn value is
+    /// outside the domain of its key.
     pub fn drawn(&self, seed: u64, find: FindOnSurface<'_>) -> Result<Self, Error> {
         let Some(draws) = &self.draws else {
             return Ok(self.clone());

@@ -1,4 +1,4 @@
-//! Drawn values in the places that take them.
+//! Substitutes drawn values.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use crate::error::Place;
 use crate::toml_document::{Entry, Table, Value, toml_number};
 use crate::words::nearest;
 
-/// The key by which a place takes a drawn value.
+/// The key that refers to a draw.
 const TAKES: &str = "draw";
 
 /// A table in which every `{ draw = "NAME" }` is the value of that name.
@@ -42,10 +42,10 @@ fn in_value(
                 found,
                 expected: expected.into(),
             };
-            let asked = &table[TAKES].value;
-            let Value::Text(name) = asked else {
+            let reference = &table[TAKES].value;
+            let Value::Text(name) = reference else {
                 let expected = "the name of a draw, in double quotes".to_owned();
-                return Err(bad(asked.described(), expected));
+                return Err(bad(reference.described(), expected));
             };
             match values.iter().find(|(own, _)| own == name) {
                 Some((_, drawn)) => Ok(drawn.in_document()),
@@ -55,7 +55,7 @@ fn in_value(
                         Some((nearest, _)) => format!("a name in `[draw]`, such as {nearest:?}"),
                         None => "a name in `[draw]`".to_owned(),
                     };
-                    Err(bad(asked.described(), expected))
+                    Err(bad(reference.described(), expected))
                 }
             }
         }

@@ -12,7 +12,7 @@ use crate::io::text::shortened;
 #[derive(Debug, Clone)]
 pub(super) enum Bytes<'a> {
     Within(&'a [u8]),
-    Beside(Rc<Vec<u8>>),
+    External(Rc<Vec<u8>>),
 }
 
 impl Deref for Bytes<'_> {
@@ -21,7 +21,7 @@ impl Deref for Bytes<'_> {
     fn deref(&self) -> &[u8] {
         match self {
             Self::Within(bytes) => bytes,
-            Self::Beside(bytes) => bytes,
+            Self::External(bytes) => bytes,
         }
     }
 }
@@ -39,7 +39,7 @@ pub(super) fn open_buffers<'a>(
     for buffer in &document.buffers {
         let bytes = match &buffer.uri {
             None => Bytes::Within(chunk.take().unwrap_or_default()),
-            Some(uri) => Bytes::Beside(by_uri(uri, folder, &mut files, &mut left)?),
+            Some(uri) => Bytes::External(by_uri(uri, folder, &mut files, &mut left)?),
         };
         if bytes.len() < buffer.byte_length {
             return Err(ReadFault::Truncated {
@@ -53,7 +53,7 @@ pub(super) fn open_buffers<'a>(
     Ok(buffers)
 }
 
-/// What a URI names; `files` are those that were read before, and `left` [bytes] is what may still be read.
+/// The file of a URI; `files` are those read before, and `left` [bytes] is the rest of the limit.
 fn by_uri(
     uri: &str,
     folder: &Path,
@@ -136,7 +136,7 @@ mod tests {
         let document = Document::parse(text.as_bytes()).unwrap();
         let opened = open_buffers(&document, None, folder.path()).unwrap();
         assert_eq!(opened.len(), 300);
-        let Bytes::Beside(first) = &opened[0] else {
+        let Bytes::External(first) = &opened[0] else {
             panic!("it lies beside the document");
         };
         // 300 of the list, and this one is among them.

@@ -18,7 +18,8 @@ use crate::{LabelMap, ReadError, ReadFault};
 const GZIP: &[u8] = b"\x1f\x8b";
 
 /// Reads a label map: `.nii`, `.nii.gz`, `.nrrd`, or a segmentation object of DICOM, which may be the only one in a folder.
-/// Labels are named by the file itself, or by a JSON file beside it of the same name, as `{"labels": {"1": "liver"}}`.
+/// Names of labels come from the file itself, or from a JSON file of the same name in its folder, as `{"labels": {"1":
+/// "liver"}}`.
 ///
 /// # Errors
 /// When the file cannot be read, is damaged, or holds something else than labels, or a folder holds no segmentation object
@@ -36,7 +37,7 @@ fn read_here(path: &Path) -> Result<LabelMap, ReadFault> {
     if path.is_dir() {
         let (file, bytes) = dicom::only_segmentation(path)?;
         let mut map = dicom::read_segmentation(&bytes)?;
-        map.add_names(names::beside(&file));
+        map.add_names(names::in_sidecar_file(&file));
         return Ok(map);
     }
     let bytes = read_whole(path, MOST_BYTES)?;
@@ -51,7 +52,7 @@ fn read_here(path: &Path) -> Result<LabelMap, ReadFault> {
         let found = found.chars().take(40).collect();
         return Err(ReadFault::UnknownMapExtension { found });
     };
-    map.add_names(names::beside(path));
+    map.add_names(names::in_sidecar_file(path));
     Ok(map)
 }
 

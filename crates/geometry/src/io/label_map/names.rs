@@ -5,9 +5,9 @@ use std::path::Path;
 /// The longest list of names that is read [bytes].
 const MOST_BYTES: u64 = 1 << 20;
 
-/// Names in a JSON file beside the map: `{"labels": {"1": "liver"}}`. None when there is no such
+/// Names in a JSON file next to the map: `{"labels": {"1": "liver"}}`. None when there is no such
 /// file, or it is about something else.
-pub(super) fn beside(map: &Path) -> Vec<(u16, String)> {
+pub(super) fn in_sidecar_file(map: &Path) -> Vec<(u16, String)> {
     let name = map.file_name().unwrap_or_default().to_string_lossy();
     let stem = name.trim_end_matches(".gz");
     let stem = stem.rsplit_once('.').map_or(stem, |(stem, _)| stem);
@@ -20,11 +20,13 @@ pub(super) fn beside(map: &Path) -> Vec<(u16, String)> {
     };
     let text = text.unwrap_or_default();
     #[derive(serde::Deserialize)]
-    struct Beside {
+    struct Sidecar {
         labels: BTreeMap<u16, String>,
     }
-    let beside = serde_json::from_slice::<Beside>(&text);
-    beside.map_or(Vec::new(), |beside| beside.labels.into_iter().collect())
+    let in_sidecar_file = serde_json::from_slice::<Sidecar>(&text);
+    in_sidecar_file.map_or(Vec::new(), |in_sidecar_file| {
+        in_sidecar_file.labels.into_iter().collect()
+    })
 }
 
 /// Names in the extension of a NIfTI header: `<Label Key="5" …>liver</Label>`, as TotalSegmentator

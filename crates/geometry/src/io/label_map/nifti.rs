@@ -93,7 +93,7 @@ impl Header {
             }
         };
         let (slope, shift) = (self.float(112), self.float(116));
-        // A slope of zero says that there is none.
+        // A slope of zero means none.
         let is_scaled = slope != 0.0 && slope.is_finite() && shift.is_finite();
         Ok(Encoding {
             kind,

@@ -150,7 +150,7 @@ impl Header {
         Ok((to_lps * steps, to_lps * origin, warnings))
     }
 
-    /// What the axes of the space are multiplied by to point to the left, the back and the head.
+    /// Signs that turn the axes of the space to the left, the back and the head.
     fn signs(&self) -> Result<(Vec3, Vec<String>), ReadFault> {
         let Some(entry) = self.find("space") else {
             let warning = "the file does not say how the picture lies in the body; left, back and head \

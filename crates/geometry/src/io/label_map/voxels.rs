@@ -24,7 +24,7 @@ pub(super) enum Kind {
 pub(super) struct Encoding {
     pub(super) kind: Kind,
     pub(super) big_endian: bool,
-    /// What a value is multiplied by, and what is then added [-].
+    /// Factor and offset of a value [-].
     pub(super) scale: (f64, f64),
 }
 
@@ -76,7 +76,7 @@ pub(super) fn size(lengths: [i64; 3]) -> Result<[usize; 3], ReadFault> {
     }
 }
 
-/// `count` labels. Memory grows with what is really there, whatever the header announces.
+/// `count` labels. Memory grows with the actual data, whatever the header announces.
 pub(super) fn labels(
     source: &mut dyn Read,
     count: usize,
@@ -99,7 +99,7 @@ pub(super) fn labels(
         let bytes = &mut chunk[..CHUNK.min((count - labels.len()) * width)];
         read_next(source, bytes, "the block of voxels")?;
         if encoding.kind == Kind::Unsigned(1) && encoding.scale == (1.0, 0.0) {
-            // Each is a label as it stands: most maps, and the fastest way.
+            // Each value is a label: most maps, and the fastest path.
             labels.extend(bytes.iter().map(|&label| u16::from(label)));
             continue;
         }

@@ -67,7 +67,7 @@ pub(super) struct Element {
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
-    /// Where the values begin: bytes from the start, and the line from one.
+    /// Start of the values: bytes from the start, and the line from one.
     pub(super) end: usize,
     pub(super) end_line: usize,
 }

@@ -1,5 +1,5 @@
 //! PLY, as text and binary of either byte order. Written here rather than taken from a crate because
-//! every count must be held against the length of the file before it is believed.
+//! every count must be checked against the length of the file before it is used.
 
 mod header;
 mod values;

@@ -1,7 +1,7 @@
 use super::{PointField, array, field, integers, vectors};
 use crate::Vec3;
 
-/// What the cells of a grid are, and the order of their nodes, which is that of VTK.
+/// The kind of the cells of a grid, with VTK's order of nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CellKind {
     /// Four corners.
@@ -40,7 +40,7 @@ impl CellKind {
 /// The cells of a grid, all of one kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cells<'a> {
-    /// What they are.
+    /// Their kind.
     pub kind: CellKind,
     /// Their nodes, one cell after the other.
     pub nodes: &'a [u32],

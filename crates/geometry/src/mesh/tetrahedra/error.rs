@@ -1,4 +1,4 @@
-/// What is wrong with tetrahedra that were asked for.
+/// Errors in the construction of tetrahedra.
 #[non_exhaustive]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TetrahedronError {

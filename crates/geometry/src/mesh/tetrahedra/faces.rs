@@ -39,7 +39,7 @@ pub(crate) fn matched(faces: &[Face]) -> impl Iterator<Item = &[Face]> {
 /// Tetrahedra from which whole regions were taken out.
 #[derive(Debug, Clone)]
 pub struct HollowMesh {
-    /// What is left.
+    /// The remaining tetrahedra.
     pub mesh: TetrahedronMesh,
     /// For each region that was taken out the triangles of the boundary around it, oriented like those of
     /// [`TetrahedronMesh::boundary`].

@@ -3,7 +3,7 @@ use super::triangulation::{Diamond, Triangulation};
 use crate::Vec3;
 
 /// How much a triangle counts for more when the surface turns within it. Coarse meshes would lose
-/// tips and margins otherwise; fine ones do not feel it.
+/// tips and margins otherwise; it has no effect on fine ones.
 const TURN_WEIGHT: f64 = 2.0;
 
 /// Move points along the surface to the middle of their neighbourhoods and flip edges, until

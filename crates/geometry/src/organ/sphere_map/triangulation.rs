@@ -39,7 +39,7 @@ impl Triangulation {
         &self.triangles
     }
 
-    /// What lies around edge `k` of `triangle`.
+    /// The two triangles around edge `k` of `triangle`.
     pub(super) fn diamond(&self, triangle: u32, k: usize) -> Diamond {
         let corners = self.triangles[triangle as usize];
         let (right, right_edge) = self.twin(triangle, k);

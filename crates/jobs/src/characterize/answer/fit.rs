@@ -8,16 +8,16 @@ use serde::{Deserialize, Serialize};
 
 use super::values::correlations_of_piece;
 
-/// How a law was fitted: what its values and errors follow from.
+/// How a law was fitted: the basis of its values and errors.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct FitAnswer {
-    /// Least and largest value of each parameter that is sought; null: without a bound.
+    /// Lower and upper bound of each fitted parameter; null: no bound.
     pub bounds: BTreeMap<String, [Option<f64>; 2]>,
-    /// Of the parameters that have an error, and of the relaxation's that the law was found with.
+    /// Of the parameters that have an error, and of the relaxation parameters used for the law.
     pub covariance: CovarianceAnswer,
     /// Samples that were fitted.
     pub samples: usize,
-    /// Independent samples that would tell as much [-].
+    /// Effective number of independent samples [-].
     pub effective_samples: f64,
     /// Akaike's, with the correction for few samples [-]; comparable between the laws of a specimen.
     pub information_criterion: Option<f64>,

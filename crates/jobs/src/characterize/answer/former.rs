@@ -1,5 +1,5 @@
-//! The keys of the first version, for one release beside those that replace them: laws and lumped models at the
-//! top of a specimen. They are written and never read.
+//! Keys of the first version (laws and lumped models at the top of a specimen), for one release alongside those that
+//! replace them. They are written and never read.
 
 use palpate_characterize::lumped::MeanModulus;
 use serde::{Serialize, Serializer};
@@ -18,7 +18,7 @@ struct WithFormerKeys<'a> {
     mooney_rivlin: Option<&'a LawAnswer>,
     exponential: Option<&'a LawAnswer>,
     kelvin: Option<&'a Named>,
-    /// The column, which never was the law of this name.
+    /// The column model, which never was the law of this name.
     blatz: Option<&'a Named>,
     nonlinear_springs: Option<&'a Named>,
 }
@@ -41,12 +41,12 @@ impl<'a> WithFormerKeys<'a> {
     }
 }
 
-/// A specimen with them.
+/// A specimen with the former keys.
 pub(crate) fn of_one<S: Serializer>(specimen: &Specimen, serializer: S) -> Result<S::Ok, S::Error> {
     WithFormerKeys::of(specimen).serialize(serializer)
 }
 
-/// Specimens with them.
+/// Specimens with the former keys.
 pub(super) fn of_all<S: Serializer>(
     specimens: &[Specimen],
     serializer: S,

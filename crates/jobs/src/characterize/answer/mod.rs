@@ -1,4 +1,4 @@
-//! The machine-readable answer: what stays of a characterization.
+//! The machine-readable answer of a characterization.
 
 mod fit;
 pub(crate) mod former;
@@ -29,7 +29,7 @@ pub struct Answer {
     pub specimens: Vec<Specimen>,
     /// Parameters over subjects, by organ, condition and key.
     pub pooled: BTreeMap<String, Pooled>,
-    /// What could not be read, and why.
+    /// Recordings that cannot be used, with the reason.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub unusable: Vec<Unusable>,
     /// Warnings.

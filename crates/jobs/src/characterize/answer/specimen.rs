@@ -16,7 +16,7 @@ use super::values::{
 use super::verdicts::judge_relaxation;
 use crate::characterize::finished::Studied;
 
-/// What was found about one specimen.
+/// Results for one specimen.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Specimen {
     /// By its organ, subject and site, or by its first file.
@@ -24,32 +24,32 @@ pub struct Specimen {
     /// Its recordings.
     #[serde(serialize_with = "crate::lossy")]
     pub files: Vec<PathBuf>,
-    /// Its name; none where no file says it.
+    /// The organ; none where no file states it.
     pub organ: Option<String>,
-    /// As the files say.
+    /// As the files state it.
     pub subject: Option<String>,
-    /// As the files say.
+    /// As the files state it.
     pub site: Option<String>,
-    /// As the files say.
+    /// As the files state it.
     pub condition: Option<String>,
-    /// Where on its surface it was pressed [m]; none where no file says it.
+    /// The indented location on its surface [m]; none where no file states it.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub position_m: Option<[f64; 3]>,
     /// Prony series.
     pub relaxation: Option<RelaxationAnswer>,
-    /// The laws that were found, by their names in a tissue file.
+    /// The fitted laws, by their names in a tissue file.
     pub laws: BTreeMap<String, LawAnswer>,
     /// How they were fitted, by the same names.
     pub fits: BTreeMap<String, FitAnswer>,
-    /// What was found without geometry.
+    /// Parameters of models without geometry.
     pub lumped: LumpedAnswer,
-    /// The law to be preferred: a key of `laws`.
+    /// The preferred law: a key of `laws`.
     pub preferred: Option<String>,
-    /// What can be told apart and what cannot, in plain sentences.
+    /// Which parameters the recordings can and cannot identify, in plain sentences.
     pub identifiability: Vec<String>,
-    /// Warnings, in recordings and in what was found.
+    /// Warnings about the recordings and the results.
     pub warnings: Vec<String>,
-    /// Why something was not found, by its key in `laws` or `lumped`, or `relaxation`.
+    /// Why a result is missing, by its key in `laws` or `lumped`, or `relaxation`.
     pub reasons: BTreeMap<String, String>,
 }
 
@@ -92,19 +92,19 @@ impl Specimen {
         }
     }
 
-    /// The elastic laws that were found, by their keys, the simplest first.
+    /// The fitted elastic laws, by their keys, the simplest first.
     pub fn laws(&self) -> impl Iterator<Item = (&'static str, &LawAnswer)> {
         let laws = SoughtLaw::NAMES.into_iter().map(LawName::word);
         laws.filter_map(|name| Some((name, self.laws.get(name)?)))
     }
 
-    /// The law to be preferred, by its key.
+    /// The preferred law, by its key.
     pub fn preferred(&self) -> Option<(&str, &LawAnswer)> {
         let name = self.preferred.as_deref()?;
         Some((name, self.laws.get(name)?))
     }
 
-    /// What a specimen is called: by its organ and subject, or by its first file.
+    /// The title of a specimen: its organ and subject, or its first file.
     pub(crate) fn title(header: &RecordingHeader, file: &Path) -> String {
         let named = [&header.organ, &header.subject, &header.site].map(|name| name.as_deref());
         let named: Vec<&str> = named.into_iter().flatten().collect();
@@ -117,7 +117,7 @@ impl Specimen {
     }
 }
 
-/// The laws that were found; why others were not goes to `reasons`.
+/// The fitted laws; the reasons for missing ones go to `reasons`.
 fn laws(
     found: &Characterization,
     reasons: &mut BTreeMap<String, String>,
@@ -141,7 +141,7 @@ fn laws(
     laws
 }
 
-/// What was found without geometry; why something was not goes to `reasons`.
+/// Models without geometry; the reasons for missing ones go to `reasons`.
 fn lumped(bare: &WithoutGeometry, reasons: &mut BTreeMap<String, String>) -> LumpedAnswer {
     let tables = bare.lumped();
     let tables = tables.tables();
@@ -175,7 +175,7 @@ fn lumped(bare: &WithoutGeometry, reasons: &mut BTreeMap<String, String>) -> Lum
     }
 }
 
-/// How the errors of the preferred law go together, with those of the relaxation; none without a law.
+/// Correlations of the errors of the preferred law and of the relaxation; none without a law.
 fn correlations(found: &Characterization) -> Option<Correlations> {
     let preferred = found.preferred_law()?;
     let pressed = found.laws.iter().find(|(law, _)| *law == preferred);
@@ -184,7 +184,8 @@ fn correlations(found: &Characterization) -> Option<Correlations> {
     pressed.or_else(|| Some(correlations_of_piece(pulled?.1.as_ref().ok()?)))
 }
 
-/// What the fits say, and which parameters of the preferred law and the relaxation are known together alone.
+/// Warnings of the fits, and which parameters of the preferred law and the relaxation are identified only in
+/// combination.
 fn identifiability(found: &Characterization) -> Vec<String> {
     let relaxation = || Some(found.relaxation.as_ref().ok()?.correlations());
     let own = correlations(found).or_else(relaxation);
@@ -202,7 +203,7 @@ fn identifiability(found: &Characterization) -> Vec<String> {
     found.identifiability.iter().cloned().chain(pairs).collect()
 }
 
-/// Warnings about recordings and in what was found; `no_law` is why there is no law.
+/// Warnings about recordings and results; `no_law` is why there is no law.
 fn warnings(studied: &Studied, no_law: Option<&String>) -> Vec<String> {
     let of_file = |(recording, file): (&CleanRecording, &PathBuf)| {
         let warnings = recording.warnings.iter();

@@ -16,31 +16,30 @@ pub type Named = BTreeMap<String, Known>;
 pub struct Known {
     /// In the unit of its key.
     pub value: f64,
-    /// By noise, by the zeros of the recordings, and of laws and relaxations by what the model may be off.
+    /// Standard error from noise, from the zeros of the recordings, and, for laws and relaxations, from model error.
     pub standard_error: Option<f64>,
-    /// What holds the truth with a probability of 95 %: the standard error times the quantile of Student's
-    /// distribution, to both sides.
+    /// 95 % confidence interval: the standard error times the quantile of Student's distribution, to both sides.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub interval_95: Option<[f64; 2]>,
-    /// How well it is known; null where nobody judged it.
+    /// How well the parameter is identified; null where this was not assessed.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub verdict: Option<Identified>,
-    /// The parameter with which its error goes together.
+    /// The parameter with which its error is correlated.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub correlated_with: Option<Partner>,
     /// The part by the elements and by the product of force and G(t), a bound.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub discretisation_error: Option<f64>,
-    /// The spread when the fit is made again with its residuals in other blocks.
+    /// The spread over repeated fits with block-resampled residuals.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub bootstrap_error: Option<f64>,
-    /// Between which the objective stays below its 95 % bound while the relaxation is held at what was found, so that
-    /// the uncertainty of the relaxation is not in it; a side without a bound is null.
+    /// 95 % bounds of the objective with the relaxation fixed at its fitted values, so without the uncertainty of the
+    /// relaxation; a side without a bound is null.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub profile_95: Option<[Option<f64>; 2]>,
 }
 
-/// What is found without the geometry of the specimen: it belongs to this indenter on this specimen.
+/// Parameters found without the geometry of the specimen: they apply to this indenter on this specimen.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct LumpedAnswer {
     /// (6.1).
@@ -78,11 +77,11 @@ pub struct RelaxationAnswer {
     pub tau_s: Vec<Known>,
     alpha: Vec<f64>,
     sum_squared_error: f64,
-    /// By what power the elastic force grows faster with depth than a neo-Hookean (or linear) one [-].
+    /// Exponent of depth by which the elastic force grows faster than a neo-Hookean (or linear) one [-].
     shape_exponent: Known,
-    /// The same if every ramp is taken for a step.
+    /// The same if every ramp is treated as a step.
     as_step: Option<Steps>,
-    /// What one, two, three and four terms come to.
+    /// Results with one, two, three and four terms.
     tried: Vec<Tried>,
 }
 
@@ -110,19 +109,19 @@ pub struct LawAnswer {
     pub parameters: BTreeMap<String, Known>,
     #[serde(skip_serializing_if = "Option::is_none", default)]
     correlation: Option<f64>,
-    /// What noise does to the parameters (6.4.6).
+    /// Effect of noise on the parameters (6.4.6).
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub noise_study: Vec<Noise>,
-    /// Why the fit was not made again, or not with its residuals in other blocks.
+    /// Why there is no repeated fit, or none with block-resampled residuals.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     not_repeated: Option<String>,
-    /// Steps of the fit.
+    /// Iterations of the fit.
     pub iterations: usize,
-    /// Runs of finite elements: none where the force is tabulated.
+    /// Finite element runs: none where the force is tabulated.
     pub solves: usize,
     /// Σ ε² [N²], or of nominal stresses [Pa²].
     sum_squared_error: f64,
-    /// Root mean square of what the law does not follow, over the largest force [-].
+    /// Root mean square of the residuals, over the largest force [-].
     pub misfit: f64,
 }
 

@@ -1,4 +1,4 @@
-//! How well parameters are known, as the answer says it.
+//! How well each parameter is identified.
 
 use nalgebra::DMatrix;
 use palpate_characterize::fit::{Verdict, verdicts};
@@ -7,13 +7,13 @@ use serde::{Deserialize, Serialize};
 
 use super::values::{Known, LawAnswer, RelaxationAnswer};
 
-/// How well a parameter is known, decided from its standard error and its correlations.
+/// How well a parameter is identified, decided from its standard error and its correlations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Identified {
     /// By itself.
     Known,
-    /// Its error goes with that of another parameter, which `correlated_with` names.
+    /// Its error is correlated with that of another parameter, named by `correlated_with`.
     Correlated,
     /// Its standard error is more than a quarter of it, or the tests do not determine it.
     HardlyKnown,
@@ -23,7 +23,7 @@ pub enum Identified {
     Stated,
 }
 
-/// Another parameter, with which an error goes together.
+/// The other parameter of a correlation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Partner {
     /// By its key; of the relaxation `g_1`, `tau_1_s` and so on.

@@ -1,5 +1,5 @@
-//! What is drawn of a specimen: curves of few points, and the way of its fits. It is plain data, kept beside
-//! the answer, so that a report can be made of what was found earlier.
+//! Plot data of a specimen: curves of few points, and the iterations of its fits. It is stored with the answer, so
+//! that a report can be made later.
 
 mod of_laws;
 mod of_recordings;
@@ -17,23 +17,23 @@ use super::finished::Studied;
 /// Probability of the bands [-].
 pub const LEVEL: f64 = 0.95;
 
-/// What is drawn of one specimen.
+/// Plot data of one specimen.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Portrait {
-    /// What the recordings say of specimen and indenter: names and values.
+    /// Facts on specimen and indenter from the headers: names and values.
     pub facts: Vec<(String, String)>,
     /// Of the specimen.
     pub recordings: Vec<DrawnRecording>,
-    /// That were found.
+    /// The fitted laws.
     pub laws: Vec<DrawnLaw>,
-    /// That was found.
+    /// The fitted relaxation.
     pub relaxation: Option<DrawnSeries>,
 }
 
 /// One recording.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct DrawnRecording {
-    /// As it was named.
+    /// Its file, as named by the user.
     pub file: String,
     /// SHA-256 of the file.
     pub digest: String,
@@ -45,7 +45,7 @@ pub struct DrawnRecording {
     pub cutoff_hz: Option<f64>,
     /// First contact, as the recording counts time [s] and depth [m], and the depth's standard error [m].
     pub contact: (f64, f64, Option<f64>),
-    /// What the indenter did, and from when to when [s].
+    /// Segments of the stimulus, each from and to [s].
     pub segments: Vec<(String, [f64; 2])>,
     /// Times [s] from first contact.
     pub time: Vec<f64>,
@@ -55,11 +55,11 @@ pub struct DrawnRecording {
     pub force: Vec<f64>,
     /// The same after the filter [N].
     pub filtered_force: Vec<f64>,
-    /// What was fitted.
+    /// The fit.
     pub fitted: Option<DrawnFit>,
 }
 
-/// What of a recording was fitted, beside the models.
+/// The fit of a recording, next to the measured values.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct DrawnFit {
     /// Times [s] from first contact.
@@ -76,9 +76,9 @@ pub struct DrawnFit {
     /// The angle of its loading to the axis of its fibres [degrees]; none where it is not stated.
     #[serde(default)]
     pub fibre_axis_angle_deg: Option<f64>,
-    /// That were found.
+    /// The fitted laws.
     pub laws: Vec<DrawnCurve>,
-    /// That was found.
+    /// The fitted relaxation.
     pub relaxation: Option<DrawnRelaxation>,
 }
 
@@ -87,20 +87,20 @@ pub struct DrawnFit {
 pub struct DrawnCurve {
     /// By its key in the answer.
     pub law: String,
-    /// As what was measured.
+    /// In the unit of the measured values.
     pub values: Vec<f64>,
-    /// How far up and down the band of [`LEVEL`] reaches.
+    /// Half width of the band of [`LEVEL`].
     pub reach: Vec<f64>,
 }
 
 /// Forces over the instantaneous elastic force at the largest depth [-].
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct DrawnRelaxation {
-    /// What was measured.
+    /// Measured.
     pub measured: Vec<f64>,
-    /// What was fitted.
+    /// Fitted.
     pub fitted: Vec<f64>,
-    /// Times [s] from first contact and values if ramps are taken for steps.
+    /// Times [s] from first contact, and values if ramps are treated as steps.
     pub of_step: Vec<(f64, f64)>,
 }
 
@@ -111,7 +111,7 @@ pub struct DrawnSeries {
     pub points: Vec<(f64, f64)>,
 }
 
-/// How a law was found.
+/// The iterations of the fit of a law.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct DrawnLaw {
     /// By its key in the answer.
@@ -120,12 +120,12 @@ pub struct DrawnLaw {
     pub names: Vec<String>,
     /// Their values after each step of the fit, the first being the start.
     pub iterations: Vec<Vec<f64>>,
-    /// Σ ε² there.
+    /// Σ ε² after each step.
     pub sums_of_squares: Vec<f64>,
 }
 
 impl Portrait {
-    /// What was fitted of each recording, with its file, at the samples that are drawn.
+    /// The fit of each recording, with its file, at the drawn samples.
     pub(crate) fn fitted(&self) -> Vec<(String, DrawnFit)> {
         let each = self.recordings.iter();
         each.filter_map(|own| Some((own.file.clone(), own.fitted.clone()?)))
@@ -165,7 +165,7 @@ fn key(law: SoughtLaw) -> String {
     law.name().word().to_owned()
 }
 
-/// What the headers of all recordings say alike.
+/// Facts on which the headers of all recordings agree.
 fn shared_facts(studied: &Studied) -> Vec<(String, String)> {
     let mut each = studied.recordings.iter().map(|own| facts(&own.header));
     let mut shared = each.next().unwrap_or_default();
@@ -173,11 +173,11 @@ fn shared_facts(studied: &Studied) -> Vec<(String, String)> {
     shared
 }
 
-/// What a header says of specimen and indenter.
+/// Facts on specimen and indenter in a header.
 fn facts(header: &RecordingHeader) -> Vec<(String, String)> {
     let length = |of: Option<f64>| of.map(|m| quantity("_m", m, None));
     let degrees = |angle: Option<f64>| angle.map(|angle| format!("{angle}°"));
-    let said = [
+    let entries = [
         (
             "condition",
             header.condition.map(|own| own.word().replace('_', " ")),
@@ -219,7 +219,7 @@ fn facts(header: &RecordingHeader) -> Vec<(String, String)> {
         ),
         ("made by", header.source.clone()),
     ];
-    let known = said.into_iter();
+    let known = entries.into_iter();
     known
         .filter_map(|(name, value)| Some((name.to_owned(), value?)))
         .collect()

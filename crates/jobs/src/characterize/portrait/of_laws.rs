@@ -5,7 +5,7 @@ use palpate_characterize::lumped::UniaxialFit;
 
 use super::{DrawnLaw, key};
 
-/// The laws that were found, with the way of each fit.
+/// The fitted laws, with the iterations of each fit.
 pub(crate) fn drawn(found: &Characterization) -> Vec<DrawnLaw> {
     let pressed = found.laws.iter().filter_map(|(_, law)| law.as_ref().ok());
     let pulled = found

@@ -20,7 +20,7 @@ pub(crate) fn drawn(studied: &Studied) -> Vec<DrawnRecording> {
         DrawnRecording {
             file: file.display().to_string(),
             digest: studied.digests[place].clone(),
-            fitted: own.and_then(|own| beside(recording, &own, is_piece, kept)),
+            fitted: own.and_then(|own| drawn_fit(recording, &own, is_piece, kept)),
             ..alone(recording)
         }
     });
@@ -28,7 +28,7 @@ pub(crate) fn drawn(studied: &Studied) -> Vec<DrawnRecording> {
 }
 
 fn alone(recording: &CleanRecording) -> DrawnRecording {
-    let kept = kept(&recording.time, &recording.depth, &recording.force);
+    let chosen = kept(&recording.time, &recording.depth, &recording.force);
     let handling = &recording.handling;
     let contact = handling.contact;
     let last = recording.time.len().saturating_sub(1);
@@ -44,16 +44,16 @@ fn alone(recording: &CleanRecording) -> DrawnRecording {
         cutoff_hz: handling.cutoff_hz,
         contact: (contact.time_s, contact.depth_m, contact.depth_error_m),
         segments: segments.collect(),
-        time: some(&recording.time, &kept),
-        depth: some(&recording.depth, &kept),
-        force: some(&recording.force, &kept),
-        filtered_force: some(&recording.filtered_force, &kept),
+        time: some(&recording.time, &chosen),
+        depth: some(&recording.depth, &chosen),
+        force: some(&recording.force, &chosen),
+        filtered_force: some(&recording.filtered_force, &chosen),
         fitted: None,
     }
 }
 
-fn some(values: &[f64], kept: &[usize]) -> Vec<f64> {
-    kept.iter().map(|&sample| values[sample]).collect()
+fn some(values: &[f64], chosen: &[usize]) -> Vec<f64> {
+    chosen.iter().map(|&sample| values[sample]).collect()
 }
 
 fn kind(kind: SegmentKind) -> String {
@@ -66,25 +66,25 @@ fn kind(kind: SegmentKind) -> String {
     }
 }
 
-/// What was fitted of each recording of a specimen, with its file, at every sample.
+/// The fit of each recording of a specimen, with its file, at every sample.
 pub(crate) fn all_samples(studied: &Studied) -> Vec<(String, DrawnFit)> {
     let fitted = studied.found.fitted(&studied.recordings, LEVEL).into_iter();
     let is_piece = !studied.found.uniaxial.is_empty();
     let every = |time: &[f64], _: &[f64], _: &[f64]| (0..time.len()).collect();
     let each = fitted.filter_map(|own| {
         let file = studied.files[own.place].display().to_string();
-        let drawn = beside(&studied.recordings[own.place], &own, is_piece, every)?;
+        let drawn = drawn_fit(&studied.recordings[own.place], &own, is_piece, every)?;
         Some((file, drawn))
     });
     each.collect()
 }
 
-/// A recording beside its fit, at the samples that `kept` chooses from time, course and measured values.
-fn beside(
+/// A recording with its fit, at the samples that `select` chooses from time, course and measured values.
+fn drawn_fit(
     recording: &CleanRecording,
     fitted: &FittedRecording,
     is_piece: bool,
-    kept: impl Fn(&[f64], &[f64], &[f64]) -> Vec<usize>,
+    select: impl Fn(&[f64], &[f64], &[f64]) -> Vec<usize>,
 ) -> Option<DrawnFit> {
     let of = |values: &[f64]| values.get(fitted.samples.clone()).map(<[f64]>::to_vec);
     let time = of(&recording.time)?;
@@ -94,11 +94,11 @@ fn beside(
             .map(|own| (own.stretches, own.stresses))?,
         false => (of(&recording.depth)?, of(&recording.force)?),
     };
-    let kept = kept(&time, &course, &measured);
+    let chosen = select(&time, &course, &measured);
     let laws = fitted.laws.iter().map(|law| DrawnCurve {
         law: key(law.law),
-        values: some(&law.values, &kept),
-        reach: some(&law.reach, &kept),
+        values: some(&law.values, &chosen),
+        reach: some(&law.reach, &chosen),
     });
     let loading = is_piece.then(|| PieceLoading::of(&recording.header));
     Some(DrawnFit {
@@ -108,20 +108,20 @@ fn beside(
         relaxation: fitted
             .relaxation
             .as_ref()
-            .map(|own| relaxation(own, &time, &kept)),
-        time: some(&time, &kept),
-        course: some(&course, &kept),
-        measured: some(&measured, &kept),
+            .map(|own| relaxation(own, &time, &chosen)),
+        time: some(&time, &chosen),
+        course: some(&course, &chosen),
+        measured: some(&measured, &chosen),
         is_piece,
     })
 }
 
-fn relaxation(own: &FittedRelaxation, time: &[f64], kept: &[usize]) -> DrawnRelaxation {
+fn relaxation(own: &FittedRelaxation, time: &[f64], chosen: &[usize]) -> DrawnRelaxation {
     let first = time.len() - own.of_step.len();
-    let after = kept.iter().filter(|&&sample| sample >= first);
+    let after = chosen.iter().filter(|&&sample| sample >= first);
     DrawnRelaxation {
-        measured: some(&own.measured, kept),
-        fitted: some(&own.fitted, kept),
+        measured: some(&own.measured, chosen),
+        fitted: some(&own.fitted, chosen),
         of_step: after
             .map(|&sample| (time[sample], own.of_step[sample - first]))
             .collect(),

@@ -1,4 +1,4 @@
-//! Where the fibres of a tissue point to.
+//! Directions of fibres.
 
 use std::path::Path;
 
@@ -117,7 +117,7 @@ const AROUND: &[Key] = &[
     Key::direction("line", "The direction of the line.").required("[0.0, 0.0, 1.0]"),
 ];
 
-/// What a solid knows of its fibres must be what its tissue needs.
+/// Checks that a solid defines the fibre directions that its tissue needs.
 pub(super) fn check<'t>(
     keys: &Keys<'_>,
     fibres: Option<&Fibres>,
@@ -151,7 +151,7 @@ pub(super) fn check<'t>(
     }
 }
 
-/// A kind of problem that knows no direction takes no tissue with fibres.
+/// A kind of problem without fibre directions accepts no tissue with fibres.
 pub(super) fn refuse(keys: &Keys<'_>, tissue: &Tissue, why: &'static str) -> Result<(), Error> {
     let law = tissue.elasticity.law();
     if !law.has_fibres() {

@@ -13,7 +13,7 @@ pub(crate) struct Hemisphere {
     /// Arc from the pole within which every point of the surface moves [m].
     pub(crate) patch_radius: f64,
     pub(crate) patch: Friction,
-    /// How far the patch moves along −z [m].
+    /// Displacement of the patch along −z [m].
     pub(crate) depth: f64,
 }
 

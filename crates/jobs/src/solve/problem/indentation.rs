@@ -33,7 +33,7 @@ pub(crate) struct Ramp {
     pub(crate) ramp: f64,
     /// Duration of the hold [s].
     pub(crate) hold: f64,
-    /// Times that are answered for, evenly, ends included.
+    /// Number of output times, evenly spaced, ends included.
     pub(crate) samples: usize,
     /// How relaxation is taken into account.
     pub(crate) method: Relaxing,
@@ -54,7 +54,7 @@ const FACES: &[(&str, Friction)] = &[
     ("slip", Friction::Frictionless),
 ];
 
-/// What a side is like; none where there is no side.
+/// The boundary condition of a side; none where there is no side.
 const SIDES: &[(&str, Option<Friction>)] = &[
     ("stick", Some(Friction::Bonded)),
     ("slide", Some(Friction::Frictionless)),

@@ -1,6 +1,6 @@
-//! The document of a problem: which body, of which tissue, loaded how.
+//! The document of a problem: a body, its tissue and its loads.
 //!
-//! Reading is checking: a `Problem` that exists has a solution, as far as its numbers can tell.
+//! Reading checks the problem: a `Problem` has a solution, as far as its numbers show.
 
 mod fibres;
 mod hemisphere;
@@ -30,14 +30,14 @@ pub(crate) use uniaxial::Uniaxial;
 
 use crate::Error;
 
-/// What is to be solved, and how well.
+/// A checked problem, with its accuracy.
 #[derive(Debug)]
 pub struct Problem {
     path: PathBuf,
     pub(crate) case: Case,
     pub(crate) tissue: Tissue,
     pub(crate) material: Material,
-    /// Relative error asked for [-].
+    /// Requested relative error [-].
     pub(crate) accuracy: f64,
     /// Warnings about its numbers.
     pub(crate) warnings: Vec<String>,
@@ -74,7 +74,7 @@ const DEFAULT_ACCURACY: f64 = 0.01;
 
 const ACCURACY: Domain = Domain::number("a relative error", [Included(1e-4), Included(0.2)]);
 
-/// How a part of a surface is held.
+/// The boundary condition of a surface.
 const BONDS: &[(&str, Friction)] = &[
     ("stick", Friction::Bonded),
     ("slip", Friction::Frictionless),
@@ -124,12 +124,12 @@ impl Problem {
     /// Reads a problem and the tissue that it names.
     ///
     /// # Errors
-    /// When it cannot be read, or describes what has no solution.
+    /// When it cannot be read, or describes a problem without a solution.
     pub fn read(path: &Path) -> Result<Self, Error> {
         Self::understand(&Document::read(path)?, path)
     }
 
-    /// Reads a problem from `text`, whose files are looked for beside `path`, by which errors call it.
+    /// Reads a problem from `text`. Paths in it are relative to the folder of `path`, which errors show as its name.
     ///
     /// # Errors
     /// As [`read`](Self::read).
@@ -143,7 +143,7 @@ impl Problem {
         let kind = match keys.word("kind", KINDS)? {
             Some(kind) => kind,
             None => {
-                // A misspelt `kind` is worth more than the news that it is missing.
+                // The error for a misspelt `kind` helps more than that for a missing one.
                 let of_all = KINDS.iter().flat_map(|(_, kind)| kind.keys());
                 keys.only(&of_all.map(|key| key.name).collect::<Vec<_>>())?;
                 let words: Vec<_> = KINDS.iter().map(|(word, _)| format!("{word:?}")).collect();
@@ -192,7 +192,7 @@ impl Problem {
         each.map(|((word, kind), (_, meaning))| (*word, *meaning, kind.keys()))
     }
 
-    /// What the solver says to this problem.
+    /// The error of the solver, for this problem.
     pub(crate) fn refused(&self, error: palpate_mechanics::Error) -> Error {
         Error::from(error).about(&self.path)
     }
@@ -202,12 +202,12 @@ impl Problem {
         self.case.word()
     }
 
-    /// Whether there is a deformed body to show.
+    /// Whether the solution has a deformed body.
     pub fn has_field(&self) -> bool {
         matches!(self.case, Case::Indentation(_) | Case::Solid(_))
     }
 
-    /// Whether there is a course in time.
+    /// Whether the load varies in time.
     pub fn has_recording(&self) -> bool {
         matches!(&self.case, Case::Indentation(case) if matches!(case.loading, Loading::Ramp(_)))
     }

@@ -17,12 +17,12 @@ pub(crate) struct SolidPart {
     pub(crate) name: String,
     pub(crate) place: PartPlace,
     pub(crate) content: SolidContent,
-    /// Where it is in the document, and the full name of the key that says where it lies.
+    /// Its place in the document, and the full name of the key of its location.
     pub(crate) found_at: Place,
     pub(crate) key: String,
 }
 
-/// What a part of a solid is made of.
+/// The material of a part of a solid.
 #[derive(Debug, Clone)]
 pub(crate) enum SolidContent {
     Tissue(Box<(Tissue, Material)>),
@@ -121,7 +121,7 @@ fn part(
     }
 }
 
-/// What a part of a body of `law` is made of.
+/// The material of a part of a body of `law`.
 fn content_of(
     keys: &Keys<'_>,
     content: PartContent,

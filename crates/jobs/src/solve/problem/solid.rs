@@ -14,13 +14,13 @@ use super::tools::Tool;
 use super::{BOND_MEANINGS, BONDS, required_table};
 use crate::Error as JobError;
 
-/// An organ of any shape, held somewhere, and moved or loaded elsewhere.
+/// An organ of any shape, fixed somewhere, and moved or loaded elsewhere.
 #[derive(Debug, Clone)]
 pub(crate) struct Solid {
     pub(crate) shape: Shape,
-    /// Where it is held; none: where a built-in organ grows.
+    /// The fixed region; none: the attachment of a built-in organ.
     pub(crate) anchor: Option<Region>,
-    /// Where the fibres of the tissue point to, if it has any.
+    /// Directions of the fibres of the tissue, if it has any.
     pub(crate) fibres: Option<Box<Fibres>>,
     pub(crate) patch: Option<Patch>,
     pub(crate) tools: Vec<Tool>,
@@ -30,7 +30,7 @@ pub(crate) struct Solid {
     pub(crate) points: Vec<Point>,
     /// Layers, inclusions and regions of the file.
     pub(crate) parts: Vec<SolidPart>,
-    /// Whether the stiffness is fitted to what the points were measured to do.
+    /// Whether the stiffness is fitted to the measured displacements of the points.
     pub(crate) fits: bool,
 }
 
@@ -50,22 +50,22 @@ pub(crate) struct Patch {
 #[derive(Debug, Clone)]
 pub(crate) struct Load {
     pub(crate) load: SurfaceLoad,
-    /// Where it is in the document, and the full name of the key that says where it acts.
+    /// Its place in the document, and the full name of the key of its location.
     pub(crate) place: Place,
     pub(crate) key: String,
 }
 
-/// A point of the body whose displacement is asked for.
+/// A point of the body whose displacement is requested.
 #[derive(Debug, Clone)]
 pub(crate) struct Point {
     pub(crate) name: String,
     /// [m]
     pub(crate) at: Vec3,
-    /// Whether it stands for the material point nearest to it.
+    /// Whether it is replaced by the nearest material point.
     pub(crate) is_nearest: bool,
-    /// How far it was measured to move [m], along a direction of length one [-].
+    /// Measured displacement [m], along a direction of length one [-].
     pub(crate) measured: Option<(Vec3, f64)>,
-    /// Where it is in the document, and the full name of its key.
+    /// Its place in the document, and the full name of its key.
     pub(crate) place: Place,
     pub(crate) key: String,
 }
@@ -142,7 +142,7 @@ impl Solid {
         .default("false"),
     ];
 
-    /// The body outside of its parts is of `law`.
+    /// A solid from its table; the body outside of its parts is of `law`.
     pub(crate) fn from_keys(
         keys: &Keys<'_>,
         folder: &Path,
@@ -199,7 +199,7 @@ impl Solid {
         Ok(solid)
     }
 
-    /// Whether there is something to fit the stiffness to.
+    /// Whether there are measurements to fit the stiffness to.
     fn can_fit(&self, keys: &Keys<'_>) -> Result<(), Error> {
         let measured = self.points.iter().filter_map(|point| point.measured);
         if self.patch.is_some() || !self.tools.is_empty() {
@@ -294,7 +294,7 @@ impl Load {
             return Err(keys.bad("pressure_pa", "a pressure that is not zero"));
         }
         let place = Self::place(keys)?;
-        // Without a place it is a pressure.
+        // Without a location it is a pressure.
         let key = place.as_ref().map_or("pressure_pa", |(key, _)| key);
         let load = match (force, pressure, place) {
             (Some(_), Some(_), _) => return Err(keys.given_twice("force_n", "pressure_pa")),
@@ -330,7 +330,7 @@ impl Load {
         })
     }
 
-    /// Where it acts, and the key that says so.
+    /// Its location, and the key of that location.
     fn place(keys: &Keys<'_>) -> Result<Option<(&'static str, LoadPlace)>, Error> {
         let places = ["region", "box_m", "center_m", "line"];
         let mut given = places.into_iter().filter(|key| keys.contains(key));

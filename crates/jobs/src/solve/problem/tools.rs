@@ -74,7 +74,7 @@ pub(super) const ROUNDING: Domain =
     Domain::quantity("a radius", "m", [Included(0.0), Included(1.0)]);
 const OPENING: Domain = Domain::quantity("a length", "m", [Included(0.0), Included(1.0)]);
 
-/// What lies closer to a direction than this is along it [-].
+/// Tolerance within which a vector is parallel to a direction [-].
 const ALONG: f64 = 1e-6;
 
 impl Tool {
@@ -248,7 +248,7 @@ impl Axes {
     }
 }
 
-/// Keys that the shape does not have.
+/// Rejects keys that the shape does not have.
 fn refuse_foreign(keys: &Keys<'_>, shape: Shape) -> Result<(), Error> {
     use Shape::{Bar, Cone, Cylinder, FlatPunch, Jaws, Sphere};
     let own: [(&'static str, &[Shape], &'static str); 6] = [

@@ -12,11 +12,11 @@ pub(crate) struct Uniaxial {
     pub(crate) stretches: Vec<f64>,
     /// Directions of the fibres of the tissue, if it has any, where the bar is pulled along x.
     pub(crate) frame: FibreFrame,
-    /// What the stretches of its sides are called.
+    /// Names of the stretches of its sides.
     pub(crate) sides: [&'static str; 2],
 }
 
-/// Which direction of the fibres a bar is pulled along.
+/// The fibre direction along which a bar is pulled.
 #[derive(Debug, Clone, Copy)]
 enum Pulled {
     Axis,

@@ -1,4 +1,4 @@
-//! Deformed bodies for ParaView: places at rest, and the displacement for `Warp By Vector`.
+//! Deformed bodies for ParaView: rest positions, and the displacement for `Warp By Vector`.
 
 use palpate_geometry::vtk::{CellKind, Cells, FieldValues, PointField, unstructured_grid};
 use palpate_mechanics::finite_elements::{FiniteElementModel, FiniteElementState};
@@ -11,8 +11,8 @@ use crate::Error;
 /// Where the nodes of a row-by-row grid of nine stand in VTK's: corners, middles of the edges, centre.
 const IN_ORDER_OF_VTK: [usize; 9] = [0, 2, 8, 6, 1, 5, 7, 3, 4];
 
-/// The half section of an indented block, r along x and z along z, at the largest depth with
-/// instantaneous moduli. On the coarsest mesh: a picture shows no more.
+/// The half section of an indented block, r along x and z along z, at the largest depth with instantaneous moduli. On
+/// the coarsest mesh, which is enough for a picture.
 pub(crate) fn of_indentation(problem: &Problem, case: &Indentation) -> Result<Vec<u8>, Error> {
     let depth = match &case.loading {
         Loading::Depths(depths) => depths.iter().copied().fold(0.0, f64::max),

@@ -23,7 +23,7 @@ pub enum Figures {
         depth_m: f64,
         /// [N]
         force_n: f64,
-        /// How the surface moves.
+        /// Displacement of the surface.
         profile: Profile,
     },
     /// A tube under pressure, perhaps indented.
@@ -82,12 +82,12 @@ impl Figures {
     }
 }
 
-/// How an indenter with Coulomb friction touches, at each depth or time.
+/// Contact of an indenter with Coulomb friction, at each depth or time.
 #[derive(Debug, Clone, Serialize)]
 pub struct FrictionFigures {
-    /// Of the circle that touches [m].
+    /// Radius of the contact circle [m].
     pub contact_radius_m: Vec<f64>,
-    /// Of the circle in which tissue sticks [m].
+    /// Radius of the sticking circle [m].
     pub stick_radius_m: Vec<f64>,
     /// On the tissue along the surface, away from the axis, summed around it [N].
     pub tangential_force_n: Vec<f64>,
@@ -128,21 +128,21 @@ pub struct SolidFigures {
     /// Of the points of `points_m`, in their order, or else of the patch [m].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub displacement_m: Option<Displacements>,
-    /// On the tissue where it is held [N].
+    /// Reaction on the tissue at the fixed boundary [N].
     pub reaction_n: [f64; 3],
-    /// What each tool, or each of its jaws, feels at the places of its path.
+    /// Force on each tool, or on each of its jaws, at the positions of its path.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub tools: Vec<ToolFigures>,
-    /// Displacements that were asked for.
+    /// Requested displacements.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub points: Vec<PointFigures>,
-    /// The parts of the body, after what is in none of them.
+    /// The parts of the body, after the remainder.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub regions: Vec<RegionFigures>,
     /// The cavities.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub cavities: Vec<CavityFigures>,
-    /// What the moduli of the tissues were multiplied by, where they were fitted [-].
+    /// Factor on the moduli of the tissues, where they were fitted [-].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness_factor: Option<f64>,
     /// The fitted tissue.
@@ -153,7 +153,7 @@ pub struct SolidFigures {
 /// A part of the body.
 #[derive(Debug, Clone, Serialize)]
 pub struct RegionFigures {
-    /// Its name; `body` for what is in no other.
+    /// Its name; `body` for the remainder.
     pub name: String,
     /// The name of its law.
     pub law: &'static str,
@@ -168,18 +168,18 @@ pub struct CavityFigures {
     pub name: String,
     /// The pressure on its wall [Pa].
     pub pressure_pa: f64,
-    /// What its wall encloses at rest, on the finest mesh [m³].
+    /// Enclosed volume at rest, on the finest mesh [m³].
     pub volume_at_rest_m3: f64,
-    /// The same in the deformed body [m³].
+    /// Enclosed volume in the deformed body [m³].
     pub volume_m3: f64,
 }
 
-/// The figures of a rigid tool, or of one of its jaws, at each place of its path.
+/// The figures of a rigid tool, or of one of its jaws, at each position of its path.
 #[derive(Debug, Clone, Serialize)]
 pub struct ToolFigures {
     /// Its name.
     pub name: String,
-    /// Where it is [m].
+    /// Its position [m].
     pub position_m: Vec<[f64; 3]>,
     /// On the tool [N].
     pub force_n: Vec<[f64; 3]>,
@@ -187,9 +187,9 @@ pub struct ToolFigures {
     pub moment_n_m: Vec<[f64; 3]>,
     /// Normal to the tool's surface, summed over the contact [N].
     pub normal_force_n: Vec<f64>,
-    /// The part of the surface at rest that touches it [m²].
+    /// Contact area at rest [m²].
     pub contact_area_m2: Vec<f64>,
-    /// What of that slips [m²].
+    /// Slipping part of the contact area [m²].
     pub slipping_area_m2: Vec<f64>,
 }
 
@@ -223,10 +223,10 @@ pub struct PointFigures {
     pub at_m: [f64; 3],
     /// [m]
     pub displacement_m: [f64; 3],
-    /// What was measured along its direction [m].
+    /// Measured displacement along its direction [m].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measured_m: Option<f64>,
-    /// The displacement along that direction, less what was measured [m].
+    /// The displacement along that direction, minus the measured one [m].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_m: Option<f64>,
 }

@@ -9,13 +9,13 @@ use super::figures::Profile;
 use super::{Figures, Solution, plots, warnings};
 use crate::Error;
 use crate::plot::Plot;
-use crate::solve::telling::Telling;
+use crate::solve::telling::ProgressReporter;
 
-/// Force on the patch, and how the surface moves.
+/// Force on the patch, and displacement of the surface.
 pub(crate) fn solution(
     problem: &Problem,
     case: &Hemisphere,
-    telling: &Telling<'_>,
+    reporter: &ProgressReporter<'_>,
 ) -> Result<Solution, Error> {
     let mechanical = HemisphereProblem {
         radius: case.radius,
@@ -28,7 +28,7 @@ pub(crate) fn solution(
         depth: case.depth,
     };
     let found = solve(&mechanical, problem.accuracy, |progress| {
-        telling.at(progress)
+        reporter.at(progress)
     })
     .map_err(|error| problem.refused(error))?;
     let answer = found.answer;
@@ -87,7 +87,7 @@ fn profile(case: &Hemisphere, arcs: &[f64], moved: &[f64]) -> Plot {
             .map(|(&arc, &moved)| both(arc, moved)),
     )];
     if case.patch == Friction::Frictionless {
-        // Under a flat punch without friction: 2 d/π asin(a/r) beside it.
+        // Under a flat punch without friction the surface around it moves by 2 d/π asin(a/r).
         let along = arcs.iter().map(|&arc| {
             let part = (case.patch_radius / arc).min(1.0);
             both(arc, -case.depth * FRAC_2_PI * part.asin())

@@ -19,18 +19,18 @@ use super::{
 use crate::Error;
 use crate::VERSION;
 use crate::plot::Plot;
-use crate::solve::telling::Telling;
+use crate::solve::telling::ProgressReporter;
 
 /// Force at each depth, or at each time of a ramp.
 pub(crate) fn solution(
     problem: &Problem,
     case: &Indentation,
     wanted: Wanted,
-    telling: &Telling<'_>,
+    reporter: &ProgressReporter<'_>,
 ) -> Result<Solution, Error> {
     let solution = match &case.loading {
-        Loading::Depths(depths) => at_depths(problem, case, depths, telling),
-        Loading::Ramp(ramp) => in_time(problem, case, ramp, telling),
+        Loading::Depths(depths) => at_depths(problem, case, depths, reporter),
+        Loading::Ramp(ramp) => in_time(problem, case, ramp, reporter),
     }?;
     let vtu = wanted.vtu.then(|| field::of_indentation(problem, case));
     Ok(Solution {
@@ -43,13 +43,13 @@ fn at_depths(
     problem: &Problem,
     case: &Indentation,
     depths: &[f64],
-    telling: &Telling<'_>,
+    reporter: &ProgressReporter<'_>,
 ) -> Result<Solution, Error> {
     let found = solve(
         &mechanical(problem, case),
         depths,
         problem.accuracy,
-        &mut |progress| telling.at(progress),
+        &mut |progress| reporter.at(progress),
     )
     .map_err(|error| problem.refused(error))?;
     let forces: Vec<f64> = found.answer.points.iter().map(|p| p.force).collect();
@@ -92,7 +92,7 @@ fn in_time(
     problem: &Problem,
     case: &Indentation,
     ramp: &Ramp,
-    telling: &Telling<'_>,
+    reporter: &ProgressReporter<'_>,
 ) -> Result<Solution, Error> {
     let (history, wanted) = ramp.history();
     let found = solve_history(
@@ -101,7 +101,7 @@ fn in_time(
         ramp.method,
         &history,
         problem.accuracy,
-        &mut |progress| telling.at(progress),
+        &mut |progress| reporter.at(progress),
     )
     .map_err(|error| problem.refused(error))?;
     let pick = |values: &[f64]| wanted.iter().map(|&k| values[k]).collect::<Vec<_>>();
@@ -119,7 +119,7 @@ fn in_time(
         .map(|&k| found.answer.points[k].clone())
         .collect();
     let friction = friction(&sampled);
-    let table = with_friction(table, friction.as_ref()).keeping_the_peak(&forces);
+    let table = with_friction(table, friction.as_ref()).with_peak_shown(&forces);
     let mut warnings = found.warnings;
     warnings.extend(warnings::of_depths(
         problem,
@@ -156,7 +156,7 @@ fn in_time(
     })
 }
 
-/// How the indenter touches at each point, where it has Coulomb friction at all of them.
+/// Contact of the indenter at each point, where it has Coulomb friction at all of them.
 fn friction(points: &[IndentationPoint]) -> Option<FrictionFigures> {
     let contacts: Option<Vec<_>> = points.iter().map(|point| point.friction).collect();
     let contacts = contacts.filter(|contacts| !contacts.is_empty())?;
@@ -184,8 +184,7 @@ fn with_friction(table: Table, friction: Option<&FrictionFigures>) -> Table {
 }
 
 impl Ramp {
-    /// The depth over time, with the end of the ramp among its times, and which of the times are asked
-    /// for.
+    /// The depth over time, with the end of the ramp among its times, and which of the times are requested.
     fn history(&self) -> (History, Vec<usize>) {
         let last = self.ramp + self.hold;
         let parts = (self.samples - 1) as f64;
@@ -205,7 +204,7 @@ impl Ramp {
     }
 }
 
-/// What the indenter records.
+/// The simulated recording of the indenter.
 fn recording(
     case: &Indentation,
     ramp: &Ramp,
@@ -228,7 +227,7 @@ fn recording(
         Base::Bonded => Support::Bonded,
         Base::Lubricated => Support::Lubricated,
     };
-    // No header has a rounded edge or a coefficient; the source tells them.
+    // No header has a key for a rounded edge or a coefficient; the source states them.
     let rounded = match edge_radius(&case.indenter) {
         Some(radius) => format!(", edge rounded to {} mm", plots::short(1e3 * radius)),
         None => String::new(),
@@ -273,8 +272,8 @@ pub(super) fn mechanical(problem: &Problem, case: &Indentation) -> IndentationPr
     }
 }
 
-/// What the same indenter meets on a half-space at small strain [N]; with Coulomb friction, or where it is rounded and sticks,
-/// for which there is no closed form, what it meets without friction.
+/// Force on the same indenter on a half-space at small strain [N]; with Coulomb friction, or where it is rounded and
+/// sticks, for which there is no closed form, the force without friction.
 fn half_space_force(problem: &Problem, case: &Indentation, depth: f64) -> f64 {
     let (law, radius) = (&problem.material.at_rest, case.indenter.radius);
     let friction = match case.indenter.face {
@@ -293,7 +292,7 @@ fn half_space_force(problem: &Problem, case: &Indentation, depth: f64) -> f64 {
     }
 }
 
-/// What that is called.
+/// The name of that force.
 fn half_space(case: &Indentation) -> &'static str {
     match case.indenter.face {
         FrictionLaw::Coulomb(_) => "half-space without friction",
@@ -304,7 +303,7 @@ fn half_space(case: &Indentation) -> &'static str {
     }
 }
 
-/// Radius of the area that touches at the largest depth [m].
+/// Radius of the contact area at the largest depth [m].
 fn contact_radius(case: &Indentation, depths: &[f64]) -> f64 {
     let deepest = depths.iter().copied().fold(0.0, f64::max);
     case.indenter.contact_radius(deepest)
@@ -375,7 +374,7 @@ fn over_depth(
 ) -> Plot {
     let deepest = depths.iter().copied().fold(0.0, f64::max);
     let along = (0..=60).map(|k| deepest * f64::from(k) / 60.0);
-    // Nothing is felt at depth zero, so the curve begins there.
+    // The force is zero at depth zero, so the curve begins there.
     let points = millimetres(depths).zip(millinewtons(forces));
     Plot {
         title: format!("{}: force against depth", title(case)),

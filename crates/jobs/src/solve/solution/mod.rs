@@ -1,5 +1,5 @@
-//! What comes of a problem, one file per kind: the figures of the JSON object, a table for people, a
-//! plot, and the deformed body.
+//! The solution of a problem, one file per kind: the figures of the JSON object, a table for people, a plot, and the
+//! deformed body.
 
 mod field;
 mod figures;
@@ -24,7 +24,7 @@ use serde::Serialize;
 use super::answer::Answer;
 use super::problem::{Case, Problem};
 use super::table::Table;
-use super::telling::Telling;
+use super::telling::ProgressReporter;
 use crate::plot::Plot;
 use crate::{Error, VERSION, Watch};
 
@@ -47,21 +47,21 @@ pub struct Solution {
     pub heading: String,
     #[serde(skip)]
     pub(crate) tables: Vec<Table>,
-    /// Force against depth, or what the problem asks for instead.
+    /// Force against depth, or the problem's own result.
     #[serde(skip)]
     pub plot: Plot,
     /// The bytes of a `.vtu` file.
     #[serde(skip)]
     pub vtu: Option<Vec<u8>>,
-    /// What the same indenter would record on such a tissue.
+    /// The simulated recording of the same indenter on such a tissue.
     #[serde(skip)]
     pub recording: Option<Recording>,
 }
 
-/// What is wanted beside the figures.
+/// Requested outputs in addition to the figures.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Wanted {
-    /// A plot that deserves work of its own.
+    /// A plot that takes extra computation.
     pub plot: bool,
     /// The deformed body.
     pub vtu: bool,
@@ -70,16 +70,16 @@ pub struct Wanted {
 /// Solves `problem`.
 ///
 /// # Errors
-/// When the solver refuses it, or finds no equilibrium.
+/// When the solver rejects the problem, or finds no equilibrium.
 pub fn solve(problem: &Problem, wanted: Wanted, watch: &dyn Watch) -> Result<Answer, Error> {
     let begun = Instant::now();
-    let telling = &Telling::to(watch);
+    let reporter = &ProgressReporter::to(watch);
     let mut solution = match &problem.case {
-        Case::Indentation(case) => indentation::solution(problem, case, wanted, telling),
-        Case::Hemisphere(case) => hemisphere::solution(problem, case, telling),
-        Case::Tube(case) => tube::solution(problem, case, wanted, telling),
+        Case::Indentation(case) => indentation::solution(problem, case, wanted, reporter),
+        Case::Hemisphere(case) => hemisphere::solution(problem, case, reporter),
+        Case::Tube(case) => tube::solution(problem, case, wanted, reporter),
         Case::Uniaxial(case) => uniaxial::solution(problem, case),
-        Case::Solid(case) => solid::solution(problem, case, wanted, telling),
+        Case::Solid(case) => solid::solution(problem, case, wanted, reporter),
     }?;
     if !solution.figures.are_numbers() {
         return Err(Error::failed(

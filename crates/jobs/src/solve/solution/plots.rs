@@ -1,4 +1,4 @@
-//! Series of the plots, alike for all kinds.
+//! Series of plots, shared by all kinds of problems.
 
 use crate::plot::{Series, Style};
 
@@ -23,7 +23,7 @@ pub(crate) fn dotted_line(name: &str, points: impl Iterator<Item = (f64, f64)>) 
     }
 }
 
-/// What is known without finite elements.
+/// A line from theory, without finite elements.
 pub(crate) fn closed_form(name: &str, points: impl Iterator<Item = (f64, f64)>) -> Series {
     Series {
         style: Style::DashedLine,

@@ -9,10 +9,10 @@ use super::{Figures, Solution, plots};
 use crate::Error;
 use crate::plot::{Plot, Series, Style};
 
-/// Stretches beyond which the linear law is no good word [-].
+/// Stretches beyond which the linear law is inaccurate [-].
 const SMALL: std::ops::RangeInclusive<f64> = 0.9..=1.1;
 
-/// Nominal stress at each stretch. The bar is everywhere the same, so nothing is left to the mesh.
+/// Nominal stress at each stretch. The deformation is homogeneous, so the result does not depend on a mesh.
 pub(crate) fn solution(problem: &Problem, case: &Uniaxial) -> Result<Solution, Error> {
     let law = problem.material.law.in_frame(&case.frame);
     let has_fibres = law.is_some();
@@ -72,7 +72,7 @@ fn over_stretch(problem: &Problem, law: &dyn Law, stretches: &[f64], stresses: &
         let stretch = lowest + (highest - lowest) * f64::from(k) / 120.0;
         Some((stretch, nominal_stress(law, stretch).ok()?))
     });
-    let asked = stretches.iter().copied().zip(stresses.iter().copied());
+    let requested = stretches.iter().copied().zip(stresses.iter().copied());
     Plot {
         title: format!(
             "Stretched bar, {} law",
@@ -83,7 +83,7 @@ fn over_stretch(problem: &Problem, law: &dyn Law, stretches: &[f64], stresses: &
         series: vec![
             Series {
                 style: Style::Dots,
-                ..plots::line("asked for", asked)
+                ..plots::line("asked for", requested)
             },
             plots::line("in between", between),
         ],

@@ -4,16 +4,16 @@ use palpate_simulate::TRUSTED_DEPTH;
 
 use super::super::problem::Problem;
 
-/// Depth over the radius of the contact beyond which small strain is no good word [-].
+/// Depth over the contact radius beyond which small strain is inaccurate [-].
 const LARGE_STRAIN: f64 = 0.2;
 
-/// What the source could still follow, and what its devices answer to [Hz].
+/// Highest frequency that the source could follow and its devices respond to [Hz].
 const FAST: f64 = 8.0;
 
-/// Of every kind of problem.
+/// Warnings of every kind of problem.
 pub(crate) fn shared(problem: &Problem, estimated_error: f64) -> Vec<String> {
     let mut warnings = [&problem.warnings[..], &problem.material.warnings].concat();
-    // An error that is no number is not within what was asked for.
+    // A NaN error is not within the requested accuracy.
     if estimated_error.is_nan() || estimated_error > problem.accuracy {
         warnings.push(format!(
             "the accuracy was not reached: the estimated error is {:.2} %, {} % were asked for; \
@@ -25,7 +25,7 @@ pub(crate) fn shared(problem: &Problem, estimated_error: f64) -> Vec<String> {
     warnings
 }
 
-/// Of pressing something of a contact `radius` [m] to `depths` [m].
+/// Warnings for a contact of a radius [m] pressed to `depths` [m].
 pub(crate) fn of_depths(problem: &Problem, radius: f64, depths: &[f64]) -> Vec<String> {
     let deepest = depths.iter().copied().fold(0.0, f64::max);
     let mut warnings = Vec::new();
@@ -45,7 +45,7 @@ pub(crate) fn of_depths(problem: &Problem, radius: f64, depths: &[f64]) -> Vec<S
     warnings
 }
 
-/// Of a ramp that takes `ramp` [s], which is a quarter of a sine's period.
+/// Warnings for a ramp that takes `ramp` [s], which is a quarter of a sine's period.
 pub(crate) fn of_ramp(problem: &Problem, ramp: f64) -> Vec<String> {
     let mut warnings = Vec::new();
     let frequency = 0.25 / ramp;

@@ -14,8 +14,8 @@
 //! cores. Contacts are computed from Ξ as from that of boundary elements, of means instead of centroids
 //! ([`Sampling`](crate::surface_response::Sampling)).
 //!
-//! The tetrahedra know the surface but not its triangles: P takes the sixteen equal parts of a triangle,
-//! each at the nearest place of their boundary.
+//! The tetrahedra follow the surface but not its triangles: P takes the sixteen equal parts of a
+//! triangle, each at the nearest place of their boundary.
 //!
 //! Layers and inclusions have tetrahedra of their own, which do not cross their borders ([`RegionLaws`]).
 //!

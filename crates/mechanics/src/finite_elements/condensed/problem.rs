@@ -10,7 +10,7 @@ use super::super::newton;
 use super::super::supports::Supports;
 use super::filling::Filling;
 use super::projection::{Boundary, Projection};
-use crate::boundary_elements::{Precision, Progress, ResponseMemory, Stage, held_triangles};
+use crate::boundary_elements::{Precision, Progress, ResponseMemory, Stage, fixed_triangles};
 use crate::linear::sparse::Factors;
 use crate::regions::RegionMap;
 use crate::surface_response::{ResponseParts, Sampling, SurfaceResponse, TouchableTriangle};
@@ -22,8 +22,8 @@ const AT_ONCE: usize = 16;
 /// Memory of a tetrahedron with its part of the factors in a wall of two of them [bytes].
 const OF_A_TETRAHEDRON: f64 = 40e3;
 
-/// A linear solid that is held in some triangles of its surface and can be touched in others, to be
-/// filled with tetrahedra.
+/// A linear solid that is fixed in some triangles of its surface and can be touched in others, to
+/// be filled with tetrahedra.
 #[derive(Debug, Clone, Copy)]
 pub struct CondensedProblem<'a> {
     /// Its surface.
@@ -32,7 +32,7 @@ pub struct CondensedProblem<'a> {
     pub poissons_ratio: f64,
     /// Triangles that cannot move.
     pub held: &'a [TriangleId],
-    /// Triangles that a contact may load, ascending; none of them held.
+    /// Triangles that a contact may load, ascending; none of them fixed.
     pub touchable: &'a [TriangleId],
     /// Longest edge of the tetrahedra [m]; seven tenths of a wall are short enough.
     pub edge: f64,
@@ -43,20 +43,19 @@ pub struct CondensedProblem<'a> {
 /// The tissues of a solid.
 #[derive(Debug, Clone, Copy)]
 pub struct RegionLaws<'a> {
-    /// Where they are.
+    /// Their map.
     pub map: &'a RegionMap,
     /// The law of each region, from number 0 on, with Young's moduli in parts of that to which the response is scaled [-].
     pub laws: &'a [LinearElastic],
 }
 
-/// K in factors, and the way from its unknowns to the triangles.
+/// K in factors, and the projection of its unknowns onto the triangles.
 struct Condensed {
     factors: Factors,
     projection: Projection,
     /// Number of unknowns.
     size: usize,
-    /// Where the displacements of each node stand among the unknowns in their order of elimination; none
-    /// of one that is held.
+    /// Places of each node's displacements in the order of elimination; none of a fixed node.
     rows: Vec<Option<[usize; 3]>>,
 }
 
@@ -66,8 +65,8 @@ impl CondensedProblem<'_> {
         12.0 * self.surface.mesh().volume() / self.edge.powi(3)
     }
 
-    /// What a solution in `T` takes, about; of a thick solid it is more, which `solve` knows before it
-    /// makes the factors.
+    /// Memory that a solution in `T` takes, about; a thick solid takes more, which `solve` computes
+    /// before it makes the factors.
     pub fn memory<T: Precision>(&self) -> ResponseMemory {
         let rows = 3 * self.surface.mesh().triangles().len();
         let response = rows * 3 * self.touchable.len() * size_of::<T>();
@@ -77,8 +76,8 @@ impl CondensedProblem<'_> {
         }
     }
 
-    /// Solves for a unit force on each touchable triangle in each direction. `memory` [bytes] is what may
-    /// be used. The factors are made on one core, their use on all of them.
+    /// Solves for a unit force on each touchable triangle in each direction. `memory` [bytes] is the
+    /// limit. One core makes the factors, all cores use them.
     ///
     /// # Errors
     /// When the memory does not suffice or the surface cannot be filled with tetrahedra of this size; as
@@ -90,7 +89,7 @@ impl CondensedProblem<'_> {
         progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<SurfaceResponse<T>, Error> {
         let triangles = self.surface.mesh().triangles().len();
-        let is_held = held_triangles(triangles, self.held, self.touchable)?;
+        let is_fixed = fixed_triangles(triangles, self.held, self.touchable)?;
         LinearElastic::new(1.0, self.poissons_ratio)?;
         if !(self.edge > 0.0 && self.edge.is_finite()) {
             let name = "the longest edge of the tetrahedra";
@@ -115,7 +114,7 @@ impl CondensedProblem<'_> {
                 memory,
             });
         }
-        let condensed = self.condense(&is_held, needed.response, memory, progress)?;
+        let condensed = self.condense(&is_fixed, needed.response, memory, progress)?;
         let mut parts = ResponseParts::zeros(
             self.poissons_ratio,
             touchable,
@@ -131,7 +130,7 @@ impl CondensedProblem<'_> {
 
     fn condense(
         &self,
-        is_held: &[bool],
+        is_fixed: &[bool],
         response: usize,
         memory: usize,
         progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
@@ -142,7 +141,7 @@ impl CondensedProblem<'_> {
         let boundary = Boundary::new(&mesh)?;
         let projection = Projection::new(self.surface, &boundary);
         let elements = ElementMesh::from_tetrahedra(&mesh);
-        let held = self.held_nodes(is_held, &elements.nodes, &boundary, &projection);
+        let fixed = self.fixed_nodes(is_fixed, &elements.nodes, &boundary, &projection);
         let regions: Vec<u32> = (0..mesh.tetrahedra().len())
             .map(|number| mesh.region(number))
             .collect();
@@ -158,44 +157,44 @@ impl CondensedProblem<'_> {
             return Err(Error::NotEnoughMemory { needed, memory });
         }
         report_progress(progress, Stage::Factors, 0.1)?;
-        factor(&model, &held, &mut workspace)?;
+        factor(&model, &fixed, &mut workspace)?;
         report_progress(progress, Stage::Columns, COLUMNS_BEGIN)?;
         let places = workspace.factors.places();
-        let row = |(node, &held): (usize, &bool)| {
-            (!held).then(|| [0, 1, 2].map(|axis| places[3 * node + axis]))
+        let row = |(node, &fixed): (usize, &bool)| {
+            (!fixed).then(|| [0, 1, 2].map(|axis| places[3 * node + axis]))
         };
         Ok(Condensed {
-            rows: held.iter().enumerate().map(row).collect(),
+            rows: fixed.iter().enumerate().map(row).collect(),
             factors: workspace.factors,
             projection,
             size,
         })
     }
 
-    /// Whether each node is held: those of the boundary that are nearest to a held triangle, unless a
-    /// triangle that can be touched has no others.
-    fn held_nodes(
+    /// Whether each node is fixed: nodes of the boundary nearest to a fixed triangle are, unless a
+    /// touchable triangle has no others.
+    fn fixed_nodes(
         &self,
-        is_held: &[bool],
+        is_fixed: &[bool],
         nodes: &[Vec3],
         boundary: &Boundary,
         projection: &Projection,
     ) -> Vec<bool> {
         let mesh = self.surface.mesh();
         let tree = AabbTree::new(mesh);
-        let mut held = vec![false; nodes.len()];
+        let mut fixed = vec![false; nodes.len()];
         for node in boundary.nodes() {
-            held[node] = is_held[tree.nearest(mesh, &nodes[node]).triangle.index()];
+            fixed[node] = is_fixed[tree.nearest(mesh, &nodes[node]).triangle.index()];
         }
         for &triangle in self.touchable {
             let own = projection.of(triangle);
-            if own.iter().all(|(node, _)| held[*node]) {
+            if own.iter().all(|(node, _)| fixed[*node]) {
                 for (node, _) in own {
-                    held[*node] = false;
+                    fixed[*node] = false;
                 }
             }
         }
-        held
+        fixed
     }
 
     fn columns<T: Precision>(
@@ -209,9 +208,13 @@ impl CondensedProblem<'_> {
         while solved < self.touchable.len() {
             let many = (AT_ONCE * cores()).min(self.touchable.len() - solved);
             let loaded = self.touchable[solved..solved + many].chunks(AT_ONCE);
-            let kept = displacements[3 * rows * solved..].chunks_mut(3 * rows * AT_ONCE);
-            on_all_cores(loaded.zip(kept), |(loaded, kept)| {
-                condensed.solve(loaded, self.surface, &mut kept[..3 * rows * loaded.len()]);
+            let columns = displacements[3 * rows * solved..].chunks_mut(3 * rows * AT_ONCE);
+            on_all_cores(loaded.zip(columns), |(loaded, columns)| {
+                condensed.solve(
+                    loaded,
+                    self.surface,
+                    &mut columns[..3 * rows * loaded.len()],
+                );
             });
             solved += many;
             let part = solved as f64 / self.touchable.len() as f64;
@@ -239,22 +242,22 @@ fn report_progress(
     }
 }
 
-/// Makes the factors of the stiffness with `held` nodes.
+/// Makes the factors of the stiffness with `fixed` nodes.
 fn factor(
     model: &FiniteElementModel,
-    held: &[bool],
+    fixed: &[bool],
     workspace: &mut FiniteElementWorkspace,
 ) -> Result<(), Error> {
     let mut supports = Supports::none(model);
     for axis in 0..3 {
-        let nodes = (0..held.len()).filter(|&node| held[node]);
+        let nodes = (0..fixed.len()).filter(|&node| fixed[node]);
         supports = supports.hold(model, nodes, axis, 0.0);
     }
     if supports.leave_free(model) {
         return Err(Error::NothingHeld);
     }
     let rest = FiniteElementState::at_rest(model).unknowns;
-    let rows = newton::held_rows(model, &supports);
+    let rows = newton::prescribed_rows(model, &supports);
     newton::assemble(model, &supports, &rest, workspace)
         .and_then(|()| {
             workspace.supported.copy_from_slice(&workspace.tangent);
@@ -268,8 +271,8 @@ fn factor(
 }
 
 impl Condensed {
-    /// Puts the columns of unit forces on `loaded` into `kept`.
-    fn solve<T: Precision>(&self, loaded: &[TriangleId], surface: &Surface, kept: &mut [T]) {
+    /// Writes the columns of unit forces on `loaded` to `columns`.
+    fn solve<T: Precision>(&self, loaded: &[TriangleId], surface: &Surface, columns: &mut [T]) {
         let width = 3 * loaded.len();
         let mut sides = vec![0.0; self.size * width];
         for (number, &triangle) in loaded.iter().enumerate() {
@@ -278,14 +281,14 @@ impl Condensed {
         }
         self.factors.solve_many(&mut sides, width);
         let mut means = vec![0.0; 3 * width];
-        let height = kept.len() / width;
+        let height = columns.len() / width;
         for triangle in surface.mesh().triangle_ids() {
             self.projection
                 .mean(triangle, &self.rows, &sides, &mut means);
             for (axis, means) in means.chunks_exact(width).enumerate() {
                 let row = 3 * triangle.index() + axis;
                 for (column, mean) in means.iter().enumerate() {
-                    kept[column * height + row] = T::of(*mean);
+                    columns[column * height + row] = T::of(*mean);
                 }
             }
         }

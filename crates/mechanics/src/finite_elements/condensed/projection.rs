@@ -74,14 +74,14 @@ impl Projection {
         Self { starts, shares }
     }
 
-    /// What a triangle has of the nodes.
+    /// Weights of the nodes in the mean of a triangle.
     pub(super) fn of(&self, triangle: TriangleId) -> &[(usize, f64)] {
         let triangle = triangle.index();
         &self.shares[self.starts[triangle]..self.starts[triangle + 1]]
     }
 
     /// Puts a unit force on `triangle` along each axis into the sides `first` and the next two of `width`
-    /// ones. `rows` are those of the nodes, none where they are held.
+    /// ones. `rows` are those of the nodes, none where they are fixed.
     pub(super) fn load(
         &self,
         triangle: TriangleId,

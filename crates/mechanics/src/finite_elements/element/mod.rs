@@ -1,4 +1,4 @@
-//! Elements: what is known of one before it has a place in a mesh.
+//! Reference elements, before they have a place in a mesh.
 //!
 //! All are quadratic in the displacement. [`ElementKind::Quad9`] lies in the half-plane (r, z) of an
 //! axisymmetric body; the others are solids.

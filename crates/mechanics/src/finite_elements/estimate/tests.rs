@@ -121,7 +121,7 @@ fn as_many_meshes_as_it_takes() {
     }
 }
 
-/// The largest of the quantities' errors counts; one that some meshes lack is told.
+/// The largest of the quantities' errors counts; one that some meshes lack gives a warning.
 #[test]
 fn every_quantity_counts() {
     let sizes = [0.4, 0.2, 0.1];

@@ -8,13 +8,13 @@ use super::problem::{Patch, check_edge, solved};
 use super::quarter_disc::{Lines, QuarterDisc, SQUARE};
 use crate::{Error, LinearElastic};
 
-/// Half a ball under a flat punch in the middle of its flat side, held on its round one: a half-space
-/// of which all beyond some distance is rigid.
+/// Half a ball under a flat punch in the middle of its flat side, fixed on its round one: a
+/// half-space that is rigid beyond some distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfBall {
     /// Radius in radii of the punch [-], at least 3.
     pub radius: f64,
-    /// What the punch holds.
+    /// The motion that the punch prescribes.
     pub patch: Patch,
     /// The law.
     pub law: LinearElastic,

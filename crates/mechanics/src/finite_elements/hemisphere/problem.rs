@@ -27,15 +27,15 @@ pub struct HemisphereProblem {
     pub radius: f64,
     /// Largest arc from the pole that belongs to the patch [m].
     pub patch_radius: f64,
-    /// What the patch holds.
+    /// The motion that the patch prescribes.
     pub patch: Patch,
     /// The law.
     pub law: LinearElastic,
-    /// How far the patch moves toward the base [m].
+    /// Displacement of the patch toward the base [m].
     pub depth: f64,
 }
 
-/// What the patch feels and what the surface does.
+/// The force on the patch and the displacement of the surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HemisphereAnswer {
     /// Force on the tissue along −z [N].

@@ -1,8 +1,8 @@
-//! Where tissue touches the indenter, node by node.
+//! Contact of tissue with the indenter, node by node.
 //!
-//! A node of the surface that would enter the indenter is activated: at the place where it came in (stick)
-//! or on the surface that it came through (slide). One that is pulled is let go, unless it belongs to a
-//! face that cannot lose it.
+//! A node of the surface that would enter the indenter is activated: at the place where it entered (stick)
+//! or on the surface that it entered through (slide). A node under tension is released, unless it belongs
+//! to a face that cannot lose it.
 //!
 //! With Coulomb friction a node sticks while the tangential force |T| is at most μ N, and otherwise slips with |T| = μ N
 //! from the place where it last stood: the closest-point return of plasticity, backward in time. It sticks again when
@@ -43,11 +43,11 @@ pub(super) enum ContactStatus {
 pub(super) struct Slip {
     /// Tangential over normal force on the tissue [-]; 0 without friction.
     pub(super) force_ratio: f64,
-    /// Where it was at the last equilibrium, or came in since.
+    /// Its place at the last equilibrium, or where it entered since.
     pub(super) from: Place,
 }
 
-/// A place as the indenter sees it: radius and height above its lowest point [m].
+/// A place relative to the indenter: radius and height above its lowest point [m].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
     pub(super) radius: f64,
@@ -64,7 +64,7 @@ pub(super) struct Tolerances {
 }
 
 impl Part {
-    /// The part that a free node comes to.
+    /// The part that a free node meets.
     pub(super) fn of(shape: IndenterShape) -> Self {
         match shape {
             IndenterShape::Flat { .. } => Self::Side,
@@ -137,9 +137,9 @@ impl Indenter {
 
     /// Coulomb's coefficient that bounds the force on a node [-]: none on a sharp edge between a face and a side with
     /// friction: it is on both, and the node does not go around it.
-    pub(super) fn coefficient_of(&self, touch: ContactStatus) -> Option<f64> {
-        let part = touch.part()?;
-        let on_edge = match touch {
+    pub(super) fn coefficient_of(&self, status: ContactStatus) -> Option<f64> {
+        let part = status.part()?;
+        let on_edge = match status {
             ContactStatus::Stuck { at, .. } => at.radius >= self.radius * (1.0 - 1e-9),
             ContactStatus::Sliding { .. } | ContactStatus::Free => false,
         };
@@ -162,7 +162,7 @@ impl Indenter {
             .filter_map(|part| self.coefficient(part))
     }
 
-    /// Where a place lies relative to a part.
+    /// Signed distance of a place to a part.
     pub(super) fn signed_distance(&self, part: Part, place: Place) -> MeridianDistance {
         self.surface(part, 0.0)
             .signed_distance(place.radius, place.above)
@@ -172,19 +172,19 @@ impl Indenter {
     pub(super) fn first_touch(&self, rest: Place) -> ContactStatus {
         match self.shape {
             IndenterShape::Flat { .. } if rest.radius <= self.radius * (1.0 + ROUNDING) => {
-                self.touch(Part::Face, rest)
+                self.status_at(Part::Face, rest)
             }
             IndenterShape::RoundedPunch { edge_radius }
                 if rest.radius <= (self.radius - edge_radius) * (1.0 + ROUNDING) =>
             {
-                self.touch(Part::Round, rest)
+                self.status_at(Part::Round, rest)
             }
             _ => ContactStatus::Free,
         }
     }
 
     /// Contact of a node that has come to a part.
-    fn touch(&self, part: Part, at: Place) -> ContactStatus {
+    fn status_at(&self, part: Part, at: Place) -> ContactStatus {
         match self.friction(part) {
             FrictionLaw::Bonded | FrictionLaw::Coulomb(_) => ContactStatus::Stuck { part, at },
             FrictionLaw::Frictionless => ContactStatus::Sliding {
@@ -213,7 +213,7 @@ impl Indenter {
         }
         let part = Part::of(self.shape);
         if self.friction(part) == FrictionLaw::Frictionless {
-            return (self.touch(part, now), 1.0);
+            return (self.status_at(part, now), 1.0);
         }
         let (outside, inside) = (-self.inside(then), self.inside(now));
         let share = if outside > 0.0 && outside.is_finite() {
@@ -226,16 +226,16 @@ impl Indenter {
             radius: between(then.radius, now.radius),
             above: between(then.above, now.above),
         };
-        (self.touch(part, at), share)
+        (self.status_at(part, at), share)
     }
 
     /// Whether an active node is to be released: it is at `place` and the indenter acts on the tissue
     /// with `force` [N], (r, z).
-    pub(super) fn lets_go(&self, touch: ContactStatus, place: Place, force: [f64; 2]) -> bool {
-        let Some(part) = touch.part().filter(|part| *part != Part::Face) else {
+    pub(super) fn is_released(&self, status: ContactStatus, place: Place, force: [f64; 2]) -> bool {
+        let Some(part) = status.part().filter(|part| *part != Part::Face) else {
             return false;
         };
-        let slides = matches!(touch, ContactStatus::Sliding { .. });
+        let slides = matches!(status, ContactStatus::Sliding { .. });
         // A sharp apex stays where it has gone in.
         let is_sharp =
             matches!(self.shape, IndenterShape::Cone { apex_radius, .. } if apex_radius == 0.0);
@@ -246,20 +246,20 @@ impl Indenter {
         push < 0.0 || (slides && part == Part::Side && place.above < 0.0)
     }
 
-    /// What the cone of friction makes of an active node that is at `place` off the axis and on which the indenter acts
-    /// with `force` [N], (r, z); none where it keeps its status.
+    /// The next status of an active node by the cone of friction, at `place` off the axis, where the indenter acts on
+    /// it with `force` [N], (r, z); none where it keeps its status.
     pub(super) fn stick_or_slip(
         &self,
-        touch: ContactStatus,
+        status: ContactStatus,
         place: Place,
         force: [f64; 2],
         tolerances: Tolerances,
     ) -> Option<ContactStatus> {
-        let part = touch.part()?;
-        let coefficient = self.coefficient_of(touch)?;
+        let part = status.part()?;
+        let coefficient = self.coefficient_of(status)?;
         let found = self.signed_distance(part, place);
         let [normal, tangential] = found.components(force);
-        match touch {
+        match status {
             ContactStatus::Free => None,
             ContactStatus::Stuck { at, .. } => {
                 let most = coefficient * normal.max(0.0) + tolerances.force;

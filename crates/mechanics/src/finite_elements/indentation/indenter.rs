@@ -5,7 +5,7 @@ use super::super::supports::RigidSurface;
 use super::contact::Part;
 use crate::contact::{FrictionLaw, RoundedProfile};
 
-/// What the side of a flat punch does.
+/// The side of a flat punch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Side {
     /// Touches, with this friction.
@@ -19,7 +19,7 @@ pub enum Side {
 pub enum IndenterShape {
     /// The flat end of a cylinder, with a sharp edge.
     Flat {
-        /// What its side does.
+        /// Its side.
         side: Side,
     },
     /// The flat end of a cylinder whose edge is rounded; face, edge and side are one surface.
@@ -45,7 +45,7 @@ pub struct Indenter {
     pub shape: IndenterShape,
     /// Radius of the cylinder, of the sphere, or of the base of the cone, which tissue must not reach [m].
     pub radius: f64,
-    /// What its face, or all of what has no sharp edge, does.
+    /// Friction on its face, or on all of a shape without a sharp edge.
     pub face: FrictionLaw,
 }
 

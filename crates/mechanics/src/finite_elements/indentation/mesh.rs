@@ -6,7 +6,7 @@ use super::indenter::{Indenter, IndenterShape};
 use super::run::IndentationSettings;
 use crate::{Error, Vec3};
 
-/// What a block rests on.
+/// Support of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Base {
     /// Glued to a rigid plate.
@@ -23,7 +23,7 @@ pub struct Block {
     pub radius: f64,
     /// Height [m].
     pub height: f64,
-    /// What it rests on.
+    /// Its support.
     pub base: Base,
 }
 

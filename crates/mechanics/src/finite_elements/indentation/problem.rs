@@ -13,7 +13,7 @@ use crate::{Error, IndentationCurve, PronySeries};
 pub struct IndentationProblem {
     /// The tissue.
     pub block: Block,
-    /// What is pressed into it.
+    /// The indenter.
     pub indenter: Indenter,
     /// Its instantaneous law.
     pub law: Arc<dyn Law>,
@@ -40,7 +40,7 @@ pub enum Relaxing {
 /// Forces of an indentation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IndentationAnswer {
-    /// At the depths or times that were asked for, in their order.
+    /// At the requested depths or times, in their order.
     pub points: Vec<IndentationPoint>,
     /// The elastic curve through all depths that were solved.
     pub curve: IndentationCurve,
@@ -124,8 +124,8 @@ pub fn solve_history(
 }
 
 impl IndentationAnswer {
-    /// What a reader has to know where a greater depth has a smaller elastic force, by more than the relative `accuracy`
-    /// [-]: by less it falls where tissue at an edge gives way element by element.
+    /// A warning where a greater depth has a smaller elastic force, by more than the relative `accuracy` [-]: it falls
+    /// by less where tissue at an edge yields element by element.
     fn fall(&self, accuracy: f64) -> Option<String> {
         let known: Vec<_> = self.curve.points().collect();
         let fall = known
@@ -319,7 +319,7 @@ mod tests {
     /// Judge: the numbers.
     #[test]
     fn a_fall_of_the_force_is_told_where_it_is() {
-        let told = |forces: &[f64]| {
+        let warning = |forces: &[f64]| {
             let depths = [1e-3, 2e-3, 3e-3];
             IndentationAnswer {
                 points: Vec::new(),
@@ -328,8 +328,8 @@ mod tests {
             }
             .fall(0.01)
         };
-        assert_eq!(told(&[1.0, 2.0, 1.99]), None);
-        let fall = told(&[1.0, 2.0, 0.5]).unwrap();
+        assert_eq!(warning(&[1.0, 2.0, 1.99]), None);
+        let fall = warning(&[1.0, 2.0, 0.5]).unwrap();
         assert!(
             fall.contains("between depths of 2.0000 and 3.0000 mm"),
             "{fall}"

@@ -29,7 +29,7 @@ use press::SearchMethod;
 pub struct IndentationSettings {
     /// The tissue.
     pub block: Block,
-    /// What is pressed into it.
+    /// The indenter.
     pub indenter: Indenter,
     /// Its instantaneous law; with [`Strain::Small`] the side does not touch.
     pub law: Arc<dyn Law>,
@@ -41,7 +41,7 @@ pub struct IndentationSettings {
     pub halvings: i32,
 }
 
-/// What the indenter feels at a depth.
+/// The force on the indenter at a depth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IndentationPoint {
     /// Time since the indenter first touched [s].
@@ -53,7 +53,7 @@ pub struct IndentationPoint {
     /// Strain energy of the elastic law [J].
     pub energy: f64,
     /// Change of the force with each parameter of the law [N per unit], and with the logarithm of the stiffness of an
-    /// elastic base [N], where asked for.
+    /// elastic base [N], where requested.
     pub sensitivities: Vec<f64>,
     /// How the indenter touches, with Coulomb friction.
     pub friction: Option<FrictionalContact>,
@@ -72,16 +72,16 @@ pub struct IndentationRun {
     prony: PronySeries,
     /// Nodes of the surface that can touch, from the axis outward.
     pub(super) top: Vec<usize>,
-    /// Held whatever the indenter does: bottom and axis.
+    /// Supports apart from the indenter: bottom and axis.
     rest: Vec<Option<f64>>,
     pub(super) now: ConvergedIncrement,
-    /// The standing before, from which the next is predicted.
+    /// The previous increment, from which the next is predicted.
     before: Option<ConvergedIncrement>,
-    /// How far it goes next [m].
+    /// Step lengths [m].
     steps: Steps,
     /// Whether a part of the indenter has Coulomb friction.
     has_friction: bool,
-    /// Whether the indenter never went back.
+    /// Whether the depth never decreased.
     only_deeper: bool,
 }
 
@@ -92,8 +92,8 @@ pub(super) struct ConvergedIncrement {
     pub(super) depth: f64,
     pub(super) state: FiniteElementState,
     /// Contact of each node of the top.
-    pub(super) touch: Vec<ContactStatus>,
-    memory: Option<RelaxationHistory>,
+    pub(super) statuses: Vec<ContactStatus>,
+    history: Option<RelaxationHistory>,
     pub(super) slopes: Option<Sensitivities>,
 }
 
@@ -141,7 +141,7 @@ impl IndentationRun {
         Self::in_body(Body::block(settings), settings, None)
     }
 
-    /// An indenter that just touches a layer, which is the block, on an elastic base. What relaxes relaxes in both alike.
+    /// An indenter that just touches a layer, which is the block, on an elastic base. Both relax alike.
     ///
     /// # Errors
     /// As [`Self::new`], and when the base has no thickness or no stiffness.
@@ -205,7 +205,7 @@ impl IndentationRun {
             .hold(&model, body.axis, 0, 0.0)
             .held;
         let scale = indenter.scale(settings.deepest);
-        let touch = top
+        let statuses = top
             .iter()
             .map(|&node| {
                 let rest = model.mesh().nodes[node];
@@ -233,8 +233,8 @@ impl IndentationRun {
                 time: 0.0,
                 depth: 0.0,
                 state: FiniteElementState::at_rest(&model),
-                touch,
-                memory: relaxes.then(|| RelaxationHistory::at_rest(&model, &settings.prony)),
+                statuses,
+                history: relaxes.then(|| RelaxationHistory::at_rest(&model, &settings.prony)),
                 slopes: None,
             },
             before: None,
@@ -285,10 +285,10 @@ impl IndentationRun {
             && matches!(self.indenter.shape, IndenterShape::Flat { .. })
     }
 
-    /// What the indenter feels now.
+    /// The force on the indenter now.
     pub fn point(&mut self) -> IndentationPoint {
         let step = self.last_relaxation();
-        let supports = self.supports(&self.now.touch, self.now.depth, step.as_ref());
+        let supports = self.supports(&self.now.statuses, self.now.depth, step.as_ref());
         let assembled = newton::assemble(
             &self.model,
             &supports,
@@ -297,8 +297,8 @@ impl IndentationRun {
         );
         debug_assert!(assembled.is_ok(), "an equilibrium was found here");
         let activated = || {
-            let each = self.top.iter().zip(&self.now.touch);
-            each.filter(|(_, touch)| **touch != ContactStatus::Free)
+            let each = self.top.iter().zip(&self.now.statuses);
+            each.filter(|(_, status)| **status != ContactStatus::Free)
                 .map(|(node, _)| 2 * node + 1)
         };
         IndentationPoint {
@@ -320,12 +320,12 @@ impl IndentationRun {
     /// The relaxation step that led to where the body stands.
     fn last_relaxation(&self) -> Option<RelaxationStep> {
         let before = self.before.as_ref()?;
-        let memory = before.memory.as_ref()?;
-        Some(memory.step(&self.prony, self.now.time - before.time))
+        let history = before.history.as_ref()?;
+        Some(history.step(&self.prony, self.now.time - before.time))
     }
 
     /// An equilibrium at `depth` and `time`, contacts included, and the number of solutions it took.
-    fn stand_at(
+    fn increment_at(
         &mut self,
         time: f64,
         depth: f64,
@@ -334,10 +334,10 @@ impl IndentationRun {
         let duration = time - self.now.time;
         let relaxing = self
             .now
-            .memory
+            .history
             .as_ref()
             .map(|m| m.step(&self.prony, duration));
-        let mut touch = self.now.touch.clone();
+        let mut statuses = self.now.statuses.clone();
         let mut slopes = self.now.slopes.clone();
         let mut state = self.predict(depth, relaxing.as_ref())?;
         let mut taken = 0;
@@ -348,13 +348,13 @@ impl IndentationRun {
             SolverControls::TRY
         };
         let mut controls = first;
-        let mut released = vec![false; touch.len()];
+        let mut released = vec![false; statuses.len()];
         let most = match self.has_friction {
             true => MOST_CHANGES_WITH_FRICTION,
             false => MOST_CHANGES,
         };
         for _ in 0..most {
-            let supports = self.supports(&touch, depth, relaxing.as_ref());
+            let supports = self.supports(&statuses, depth, relaxing.as_ref());
             let before = (way == SearchMethod::Downhill).then(|| state.clone());
             let workspace = &mut self.workspace;
             let done = newton::correct(controls, &self.model, &supports, &mut state, workspace);
@@ -375,7 +375,7 @@ impl IndentationRun {
             if let Some(slopes) = &mut slopes {
                 slopes.solve(&self.model, &supports, &state, &mut self.workspace)?;
             }
-            if self.update_statuses(depth, &state, &mut touch, &mut released, slopes.as_mut())? {
+            if self.update_statuses(depth, &state, &mut statuses, &mut released, slopes.as_mut())? {
                 controls = first;
                 continue;
             }
@@ -383,20 +383,20 @@ impl IndentationRun {
                 controls = FINISH;
                 continue;
             }
-            let mut memory = self.now.memory.clone();
-            if let Some(memory) = &mut memory {
-                memory.advance(&self.model, &self.prony, duration, &state);
+            let mut history = self.now.history.clone();
+            if let Some(history) = &mut history {
+                history.advance(&self.model, &self.prony, duration, &state);
             }
-            self.note_places(&mut touch, depth, &state);
-            let standing = ConvergedIncrement {
+            self.note_places(&mut statuses, depth, &state);
+            let increment = ConvergedIncrement {
                 time,
                 depth,
                 state,
-                touch,
-                memory,
+                statuses,
+                history,
                 slopes,
             };
-            return Ok((standing, taken));
+            return Ok((increment, taken));
         }
         Err(Failure::NotConverged)
     }
@@ -407,7 +407,7 @@ impl IndentationRun {
         depth: f64,
         relaxing: Option<&RelaxationStep>,
     ) -> Result<FiniteElementState, Failure> {
-        let supports = self.supports(&self.now.touch, depth, relaxing);
+        let supports = self.supports(&self.now.statuses, depth, relaxing);
         let workspace = &mut self.workspace;
         let mut state = self.now.state.clone();
         if let Some(before) = &self.before {

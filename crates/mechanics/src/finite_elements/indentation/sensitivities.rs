@@ -1,8 +1,8 @@
-//! How the answer changes with the parameters of the law, without a second run.
+//! Derivatives of the answer with respect to the parameters of the law, without a second run.
 //!
 //! At an equilibrium r(u, q) = 0, so K ∂u/∂q = −∂r/∂q: one more solution with the factors that Newton's
-//! method has made. What is held does not change with q, except where a node sticks, which remembers the
-//! change of the place at which it was activated.
+//! method has made. Prescribed displacements do not depend on q, except where a node sticks: it keeps
+//! the derivative of the place at which it was activated.
 //!
 //! *How we know*: `sensitivities::…` against runs with moved parameters.
 //!
@@ -28,7 +28,7 @@ pub(super) struct Entry {
     pub(super) rise: f64,
 }
 
-/// A parameter whose change is asked for.
+/// A parameter of the sensitivities.
 #[derive(Debug, Clone)]
 pub(super) struct SoughtChange {
     /// The law that it is of.
@@ -54,7 +54,7 @@ impl Sensitivities {
         }
     }
 
-    /// At the equilibrium `state`; what is held keeps the slopes it has.
+    /// At the equilibrium `state`; prescribed unknowns keep their slopes.
     pub(super) fn solve(
         &mut self,
         model: &FiniteElementModel,
@@ -91,7 +91,7 @@ impl Sensitivities {
     }
 
     /// ∂F/∂q of the force on the tissue [N per unit], from the tangent of the last assembly; `rows` are
-    /// the held rows that the force is the sum of.
+    /// the prescribed rows whose reactions sum to the force.
     pub(super) fn force<I: Iterator<Item = usize>>(
         &self,
         model: &FiniteElementModel,

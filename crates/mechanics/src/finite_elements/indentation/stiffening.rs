@@ -9,9 +9,9 @@ use super::run::{IndentationRun, IndentationSettings};
 use crate::contact::{Friction, Tip, half_space_stiffness, hertz_force};
 use crate::{Error, IndentationCurve, Law, LinearElastic, Material, PronySeries, Strain};
 
-/// How much more, or less, a half-space of some tissue pushes back at depth than the closed form at small strain
-/// says: r(s/a) = F(s)/F₀(s), the same for every size of the tip and every modulus. Under a sphere that differs from 1 in
-/// linear tissue, too, for Hertz's surface is a paraboloid.
+/// Ratio of the force of a half-space of some tissue at depth to the closed form at small strain, r(s/a) = F(s)/F₀(s),
+/// the same for every size of the tip and every modulus. Under a sphere that differs from 1 in linear tissue, too, for
+/// Hertz's surface is a paraboloid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stiffening {
     /// x r(x) over x = s/a, both [-]; none where r = 1.
@@ -38,9 +38,9 @@ impl Stiffening {
         }
     }
 
-    /// Of `tissue` under `tip`, from finite elements on the coarsest mesh (seconds); `at_step` hears the
-    /// part that is done [-]. It ends where no equilibrium is found, and where the force falls: tissue that slides has
-    /// closed over a sphere then, which a tip on a shaft prevents.
+    /// Of `tissue` under `tip`, from finite elements on the coarsest mesh (seconds); `at_step` receives the part done
+    /// [-]. It ends where no equilibrium is found, and where the force falls: tissue that slides has closed over a
+    /// sphere then, which a tip on a shaft prevents.
     ///
     /// # Errors
     /// When the tissue cannot be indented at all.
@@ -56,8 +56,8 @@ impl Stiffening {
         let at_rest = &tissue.at_rest;
         let flat = Tip::Flat { radius: 1.0 };
         let rest = press(&tissue.law, flat, bond)?.press(0.0, FIRST, |_| ())?;
-        // What the block is softer or stiffer than a half-space: far from the tip, so the same for both.
-        let further = FIRST / rest.force - 1.0 / half_space_stiffness(at_rest, 1.0, bond);
+        // Compliance of the block less that of a half-space: far from the tip, so the same for both.
+        let structural = FIRST / rest.force - 1.0 / half_space_stiffness(at_rest, 1.0, bond);
         let tip = of_unit_radius(tip);
         let mut run = press(&tissue.law, tip, bond)?;
         let mut equivalent = IndentationCurve::through(&[FIRST], &[FIRST]);
@@ -69,7 +69,7 @@ impl Stiffening {
                 _ => break,
             };
             before = point.force;
-            let s = depth - further * point.force;
+            let s = depth - structural * point.force;
             equivalent.extend(s, s * point.force / at_small_strain(at_rest, tip, bond, s));
             at_step(depth / deepest);
         }
@@ -88,8 +88,8 @@ impl Stiffening {
     }
 
     /// Under a sphere on layers: each of the areas, which ascend, touches here at a depth in radii [-], on the layers so many times
-    /// deeper, with so many times the force [-]. Beside Hertz the area counts, not the depth: layers that bend under the tip go down
-    /// with it.
+    /// deeper, with so many times the force [-]. Compared with Hertz the area counts, not the depth: layers that bend under the tip
+    /// go down with it.
     pub fn on_layers(&self, areas: impl Iterator<Item = (f64, [f64; 2])>) -> Self {
         let points = areas.map(|(x, [deeper, stronger])| {
             let force = self.ratio(x).0 * x.powf(1.5) * stronger;

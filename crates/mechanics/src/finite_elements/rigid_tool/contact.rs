@@ -2,10 +2,10 @@
 //!
 //! At each corner of the boundary the mean distance g to the tool and the mean slip s since the last increment give
 //!   p = max(0, λ − ε g),  t = λₜ − ε s, cut to |t| ≤ μ λ,
-//! a pressure and a traction with the multipliers λ, λₜ of the last equilibrium and a penalty ε. They take the places of the
-//! multipliers until they agree with them: then g = 0 where tissue presses, s = 0 where it sticks, and |t| = μ p along the slip
-//! where it slips. With the multiplier in the cone of friction the tangent of each equilibrium is symmetric, and exact from the
-//! second augmentation on; the direction of the normal in t is that of the last one too.
+//! a pressure and a traction with the multipliers λ, λₜ of the last equilibrium and a penalty ε. They replace the multipliers
+//! until they agree with them: then g = 0 where tissue presses, s = 0 where it sticks, and |t| = μ p along the slip where it
+//! slips. With the multiplier in the cone of friction the tangent of each equilibrium is symmetric, and exact from the second
+//! augmentation on; the direction of the normal in t is that of the last one too.
 //!
 //! *How we know*: `tests::the_tangent_is_the_derivative_of_the_forces`, `rigid_tools::…`.
 
@@ -25,10 +25,10 @@ const PENALTY: f64 = 1000.0;
 pub(in super::super) struct Contacts<'a> {
     pub(in super::super) surface: &'a ContactSurface,
     tools: &'a [RigidTool],
-    /// Where the tools are [m].
+    /// Positions of the tools [m].
     positions: Vec<Vec3>,
     /// For each tool and, within it, each corner.
-    touches: Vec<Touch>,
+    contacts: Vec<CornerContact>,
 }
 
 /// The penalty on slip in that on distance [-]. Newton's method finds from sticking to slipping more easily where it is softer.
@@ -47,7 +47,7 @@ const MOST_BENDING: f64 = 2.0;
 
 /// A corner of the boundary at a tool.
 #[derive(Debug, Clone, PartialEq)]
-struct Touch {
+struct CornerContact {
     /// Weights in the mean distance of the points that face the tool [-]; empty where none does.
     weights: Vec<f64>,
     /// The area that these stand for [m²].
@@ -58,14 +58,14 @@ struct Touch {
     traction: Vec3,
     /// Away from the tool [-].
     normal: Vec3,
-    /// Where it was beside the tool at the last increment, if it touched [m].
+    /// Its place relative to the tool at the last increment, if it touched [m].
     from: Option<Vec3>,
 }
 
-/// What a tool feels of the tissue.
+/// The force of the tissue on a tool.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ToolLoad {
-    /// Where the tool is [m].
+    /// Position of the tool [m].
     pub position: Vec3,
     /// The force of the tissue on it [N].
     pub force: Vec3,
@@ -81,11 +81,11 @@ pub struct ToolLoad {
 
 /// A corner of the boundary, and its contact with a tool.
 #[derive(Clone, Copy)]
-struct CornerTouch<'a> {
+struct ToolCorner<'a> {
     /// Number of the tool.
     tool: usize,
     corner: &'a ContactCorner,
-    touch: &'a Touch,
+    contact: &'a CornerContact,
 }
 
 /// A corner at a tool in a deformed body.
@@ -102,7 +102,7 @@ struct Evaluated {
     distances: Vec<RigidDistance>,
 }
 
-/// What acts at a corner.
+/// Pressure and traction at a corner.
 struct Forces {
     /// [Pa]
     pressure: f64,
@@ -118,7 +118,7 @@ struct Forces {
 impl<'a> Contacts<'a> {
     /// Tools at the beginning of their paths, which touch nothing yet.
     pub(in super::super) fn new(surface: &'a ContactSurface, tools: &'a [RigidTool]) -> Self {
-        let none = Touch {
+        let none = CornerContact {
             weights: Vec::new(),
             area: 0.0,
             pressure: 0.0,
@@ -130,7 +130,7 @@ impl<'a> Contacts<'a> {
             surface,
             tools,
             positions: tools.iter().map(|tool| tool.position(0.0)).collect(),
-            touches: vec![none; tools.len() * surface.corners.len()],
+            contacts: vec![none; tools.len() * surface.corners.len()],
         }
     }
 
@@ -150,15 +150,15 @@ impl<'a> Contacts<'a> {
     }
 
     /// All corners, tool by tool.
-    fn each(&self) -> impl Iterator<Item = CornerTouch<'_>> {
+    fn each(&self) -> impl Iterator<Item = ToolCorner<'_>> {
         let count = self.surface.corners.len().max(1);
-        let touches = self.touches.chunks(count).enumerate();
-        touches.flat_map(|(tool, touches)| {
-            let corners = self.surface.corners.iter().zip(touches);
-            corners.map(move |(corner, touch)| CornerTouch {
+        let contacts = self.contacts.chunks(count).enumerate();
+        contacts.flat_map(|(tool, contacts)| {
+            let corners = self.surface.corners.iter().zip(contacts);
+            corners.map(move |(corner, contact)| ToolCorner {
                 tool,
                 corner,
-                touch,
+                contact,
             })
         })
     }
@@ -167,12 +167,12 @@ impl<'a> Contacts<'a> {
         &self,
         model: &FiniteElementModel,
         unknowns: &[f64],
-        at: CornerTouch<'_>,
+        at: ToolCorner<'_>,
     ) -> Evaluated {
         let places = at.corner.places(&model.mesh.nodes, unknowns);
         let (tool, position) = (&self.tools[at.tool], &self.positions[at.tool]);
         let weights = at
-            .touch
+            .contact
             .weights
             .iter()
             .copied()
@@ -187,37 +187,37 @@ impl<'a> Contacts<'a> {
         };
         for (point, weight) in at.corner.points.iter().zip(weights) {
             let place = point.position(&places);
-            let beside = tool.signed_distance(&place, position);
-            found.gap += weight * beside.distance;
+            let separation = tool.signed_distance(&place, position);
+            found.gap += weight * separation.distance;
             found.mean += point.weight * place;
-            found.normal += weight * beside.normal;
+            found.normal += weight * separation.normal;
             for (&node, share) in point.nodes.iter().zip(point.shares) {
-                found.slopes[node] += weight * share * beside.normal;
+                found.slopes[node] += weight * share * separation.normal;
                 found.shares[node] += point.weight * share;
             }
-            found.distances.push(beside);
+            found.distances.push(separation);
         }
         found
     }
 
-    /// What acts at a corner, if anything.
+    /// Pressure and traction at a corner, if any.
     fn forces(
         &self,
         model: &FiniteElementModel,
-        CornerTouch {
+        ToolCorner {
             tool,
             corner,
-            touch,
-        }: CornerTouch<'_>,
+            contact,
+        }: ToolCorner<'_>,
         found: &Evaluated,
     ) -> Option<Forces> {
         // As stiff where a small part of the faces is under the tool as where all is.
-        let part = (touch.area / corner.area).max(f64::MIN_POSITIVE);
+        let part = (contact.area / corner.area).max(f64::MIN_POSITIVE);
         let penalty = PENALTY * model.shear_modulus / (corner.area.sqrt() * part);
-        let pressure = touch.pressure - penalty * found.gap;
-        // What decides on friction stays the same until the next augmentation.
-        let pressed_before = touch.pressure > 0.0;
-        if touch.area == 0.0 || (pressure <= 0.0 && !pressed_before) {
+        let pressure = contact.pressure - penalty * found.gap;
+        // The criteria of friction stay the same until the next augmentation.
+        let pressed_before = contact.pressure > 0.0;
+        if contact.area == 0.0 || (pressure <= 0.0 && !pressed_before) {
             return None;
         }
         let mut forces = Forces {
@@ -230,15 +230,15 @@ impl<'a> Contacts<'a> {
         let most = match self.tools[tool].friction {
             FrictionLaw::Frictionless => return Some(forces),
             FrictionLaw::Bonded => f64::INFINITY,
-            FrictionLaw::Coulomb(coefficient) => coefficient * touch.pressure,
+            FrictionLaw::Coulomb(coefficient) => coefficient * contact.pressure,
         };
-        let Some(from) = touch.from.filter(|_| pressed_before) else {
+        let Some(from) = contact.from.filter(|_| pressed_before) else {
             return Some(forces);
         };
-        let plane = Matrix3::identity() - touch.normal * touch.normal.transpose();
+        let plane = Matrix3::identity() - contact.normal * contact.normal.transpose();
         let penalty = penalty * TANGENTIAL;
         let slip = plane * (found.mean - self.positions[tool] - from);
-        let trial = touch.traction - penalty * slip;
+        let trial = contact.traction - penalty * slip;
         let size = trial.norm();
         if size <= most {
             forces.traction = trial;
@@ -253,12 +253,12 @@ impl<'a> Contacts<'a> {
         Some(forces)
     }
 
-    /// Where something acts, and what.
+    /// Corners with a pressure or a traction, and these.
     fn acting<'s>(
         &'s self,
         model: &'s FiniteElementModel,
         unknowns: &'s [f64],
-    ) -> impl Iterator<Item = (CornerTouch<'s>, Evaluated, Forces)> {
+    ) -> impl Iterator<Item = (ToolCorner<'s>, Evaluated, Forces)> {
         self.each().filter_map(move |at| {
             let found = self.evaluate(model, unknowns, at);
             let forces = self.forces(model, at, &found)?;
@@ -272,8 +272,8 @@ impl<'a> Contacts<'a> {
             let places = at.corner.places(&model.mesh.nodes, unknowns);
             let (tool, position) = (&self.tools[at.tool], &self.positions[at.tool]);
             let weights = at.corner.points.iter().map(|point| {
-                let beside = tool.signed_distance(&point.position(&places), position);
-                let cosine = -beside.normal.dot(&point.normal(&places));
+                let separation = tool.signed_distance(&point.position(&places), position);
+                let cosine = -separation.normal.dot(&point.normal(&places));
                 let part = ((cosine - FACING[0]) / (FACING[1] - FACING[0])).clamp(0.0, 1.0);
                 point.weight * part * part * (3.0 - 2.0 * part)
             });
@@ -284,14 +284,14 @@ impl<'a> Contacts<'a> {
             } else {
                 weights.clear();
             }
-            Touch {
+            CornerContact {
                 weights,
                 area: part * at.corner.area,
-                ..at.touch.clone()
+                ..at.contact.clone()
             }
         });
-        let touches = each.collect();
-        self.touches = touches;
+        let contacts = each.collect();
+        self.contacts = contacts;
     }
 
     /// Adds the forces on the nodes, `factor` times, to `out` [N].
@@ -317,19 +317,21 @@ impl<'a> Contacts<'a> {
         tangent: &mut [f64],
     ) {
         for (at, found, forces) in self.acting(model, unknowns) {
-            let CornerTouch { corner, touch, .. } = at;
+            let ToolCorner {
+                corner, contact, ..
+            } = at;
             at.add_forces(&found, &forces, -1.0, residual);
             let count = corner.nodes.len();
             let mut blocks = vec![Matrix3::zeros(); count * count];
             for (a, b) in (0..count).flat_map(|a| (0..count).map(move |b| (a, b))) {
-                blocks[a * count + b] = touch.area
+                blocks[a * count + b] = contact.area
                     * (forces.per_gap * found.slopes[a] * found.slopes[b].transpose()
                         + found.shares[a] * found.shares[b] * forces.per_slip);
             }
-            let weighted = corner.points.iter().zip(&touch.weights);
-            for ((point, weight), beside) in weighted.zip(&found.distances) {
-                let pressure = forces.pressure.min(MOST_BENDING * touch.pressure);
-                let bend = -touch.area * pressure * *weight * beside.curvature;
+            let weighted = corner.points.iter().zip(&contact.weights);
+            for ((point, weight), separation) in weighted.zip(&found.distances) {
+                let pressure = forces.pressure.min(MOST_BENDING * contact.pressure);
+                let bend = -contact.area * pressure * *weight * separation.curvature;
                 for (&a, share) in point.nodes.iter().zip(point.shares) {
                     for (&b, other) in point.nodes.iter().zip(point.shares) {
                         blocks[a * count + b] += share * other * bend;
@@ -359,24 +361,24 @@ impl<'a> Contacts<'a> {
         let (mut changes, mut pressures) = (0.0, 0.0);
         let each = self.each().map(|at| {
             let found = self.evaluate(model, unknowns, at);
-            let touch = at.touch;
+            let contact = at.contact;
             let forces = self.forces(model, at, &found);
             let (pressure, mut traction) =
                 forces.map_or((0.0, Vec3::zeros()), |own| (own.pressure, own.traction));
-            let normal = found.normal.try_normalize(0.0).unwrap_or(touch.normal);
-            let change = (pressure - touch.pressure).abs() + (traction - touch.traction).norm();
-            changes += touch.area * change;
-            pressures += touch.area * pressure;
+            let normal = found.normal.try_normalize(0.0).unwrap_or(contact.normal);
+            let change = (pressure - contact.pressure).abs() + (traction - contact.traction).norm();
+            changes += contact.area * change;
+            pressures += contact.area * pressure;
             traction -= traction.dot(&normal) * normal;
-            Touch {
+            CornerContact {
                 pressure,
                 traction,
                 normal,
-                ..touch.clone()
+                ..contact.clone()
             }
         });
-        let touches = each.collect();
-        self.touches = touches;
+        let contacts = each.collect();
+        self.contacts = contacts;
         if changes == 0.0 {
             0.0
         } else {
@@ -391,25 +393,26 @@ impl<'a> Contacts<'a> {
         unknowns: &[f64],
     ) {
         let each = self.each().map(|at| {
-            let CornerTouch {
+            let ToolCorner {
                 tool,
                 corner,
-                touch,
+                contact,
             } = at;
             let found = self.evaluate(model, unknowns, at);
-            // What just touches without a pressure sticks from the beginning.
+            // A corner that just touches without a pressure sticks from the beginning.
             let touches = found.gap <= 1e-9 * corner.area.sqrt();
-            Touch {
-                from: (touch.pressure > 0.0 || touches).then(|| found.mean - self.positions[tool]),
-                normal: found.normal.try_normalize(0.0).unwrap_or(touch.normal),
-                ..touch.clone()
+            CornerContact {
+                from: (contact.pressure > 0.0 || touches)
+                    .then(|| found.mean - self.positions[tool]),
+                normal: found.normal.try_normalize(0.0).unwrap_or(contact.normal),
+                ..contact.clone()
             }
         });
-        let touches = each.collect();
-        self.touches = touches;
+        let contacts = each.collect();
+        self.contacts = contacts;
     }
 
-    /// What each tool feels.
+    /// The load on each tool.
     pub(in super::super) fn loads(
         &self,
         model: &FiniteElementModel,
@@ -421,22 +424,23 @@ impl<'a> Contacts<'a> {
         });
         let mut loads: Vec<ToolLoad> = start.collect();
         for (at, found, forces) in self.acting(model, unknowns) {
-            let CornerTouch {
+            let ToolCorner {
                 tool,
                 corner,
-                touch,
+                contact,
             } = at;
             let places = corner.places(&model.mesh.nodes, unknowns);
             let load = &mut loads[tool];
-            load.area += touch.area;
-            load.normal_force += touch.area * forces.pressure;
+            load.area += contact.area;
+            load.normal_force += contact.area * forces.pressure;
             if forces.slips {
-                load.slipping_area += touch.area;
+                load.slipping_area += contact.area;
             }
-            let weighted = corner.points.iter().zip(&touch.weights);
-            for ((point, weight), beside) in weighted.zip(&found.distances) {
-                let on_tissue = touch.area
-                    * (*weight * forces.pressure * beside.normal + point.weight * forces.traction);
+            let weighted = corner.points.iter().zip(&contact.weights);
+            for ((point, weight), separation) in weighted.zip(&found.distances) {
+                let on_tissue = contact.area
+                    * (*weight * forces.pressure * separation.normal
+                        + point.weight * forces.traction);
                 load.force -= on_tissue;
                 load.moment -= (point.position(&places) - load.position).cross(&on_tissue);
             }
@@ -448,19 +452,19 @@ impl<'a> Contacts<'a> {
     pub(in super::super) fn pressures(&self) -> Vec<f64> {
         let count = self.surface.corners.len();
         let mut pressures = vec![0.0; count];
-        for (touch, place) in self.touches.iter().zip((0..count).cycle()) {
-            pressures[place] += touch.pressure;
+        for (contact, place) in self.contacts.iter().zip((0..count).cycle()) {
+            pressures[place] += contact.pressure;
         }
         pressures
     }
 }
 
-impl CornerTouch<'_> {
+impl ToolCorner<'_> {
     /// Adds the forces on the nodes, `factor` times, to `out` [N].
     fn add_forces(&self, found: &Evaluated, forces: &Forces, factor: f64, out: &mut [f64]) {
         let slopes = found.slopes.iter().zip(&found.shares);
         for (&node, (slope, share)) in self.corner.nodes.iter().zip(slopes) {
-            let size = factor * self.touch.area;
+            let size = factor * self.contact.area;
             let force = size * (forces.pressure * slope + *share * forces.traction);
             for axis in 0..3 {
                 out[3 * node as usize + axis] += force[axis];

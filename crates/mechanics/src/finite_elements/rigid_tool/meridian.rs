@@ -3,7 +3,7 @@
 use super::shape::{RigidDistance, RigidShape};
 use crate::Vec3;
 
-/// Where a point of the half-plane lies relative to a surface of revolution.
+/// Signed distance of a point of the half-plane to a surface of revolution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in super::super) struct MeridianDistance {
     /// Signed distance [m], positive outside.
@@ -15,7 +15,7 @@ pub(in super::super) struct MeridianDistance {
 }
 
 impl RigidShape {
-    /// Where the point at radius `r` and height `z` [m] of its frame lies relative to it, if it is a body of revolution about
+    /// Signed distance of the point at radius `r` and height `z` [m] of its frame, if it is a body of revolution about
     /// the third axis.
     pub(in super::super) fn meridian(&self, r: f64, z: f64) -> Option<MeridianDistance> {
         match *self {

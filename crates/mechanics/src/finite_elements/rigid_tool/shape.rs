@@ -54,13 +54,14 @@ pub struct RigidTool {
     pub shape: RigidShape,
     /// From the axes of its shape to those of the body.
     pub orientation: Rotation3<f64>,
-    /// How tissue sticks to it. Tissue that is bonded does not slip, but is let go where it is pulled.
+    /// Friction with tissue. Bonded tissue does not slip, but is released under tension.
     pub friction: FrictionLaw,
-    /// Where the origin of its shape is at the beginning, and at the end of each part of its path [m].
+    /// Positions of the origin of its shape at the beginning, and at the end of each part of its path
+    /// [m].
     pub path: Vec<Vec3>,
 }
 
-/// Where a point lies relative to a rigid shape.
+/// Signed distance of a point to a rigid shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in super::super) struct RigidDistance {
     /// Signed distance [m], positive outside.
@@ -98,7 +99,7 @@ impl RigidShape {
         }
     }
 
-    /// A length of what touches [m]; none of a plate.
+    /// A length of the touching part [m]; none of a plate.
     pub(in super::super) fn size(&self) -> f64 {
         match *self {
             Self::Sphere { radius }
@@ -109,7 +110,7 @@ impl RigidShape {
         }
     }
 
-    /// Where a point of its frame lies relative to it.
+    /// Signed distance of a point of its frame.
     pub(in super::super) fn signed_distance(&self, point: &Vec3) -> RigidDistance {
         if let Some(meridian) = self.meridian(point.x.hypot(point.y), point.z) {
             return meridian.turned_about_axis(point);
@@ -161,7 +162,8 @@ impl RigidShape {
 }
 
 impl RigidTool {
-    /// Where it is at this place of its path [m]: at its n-th end at n, on a straight line between two of them.
+    /// Its position at this place of its path [m]: at its n-th end at n, on a straight line between two of
+    /// them.
     pub(in super::super) fn position(&self, along: f64) -> Vec3 {
         let last = self.path.len().saturating_sub(1);
         let part = (along.max(0.0) as usize).min(last);
@@ -170,7 +172,7 @@ impl RigidTool {
         self.path[part].lerp(&self.path[next], share)
     }
 
-    /// Where a `point` of the body lies relative to it when it is at `position` [m].
+    /// Signed distance of a `point` of the body to it at `position` [m].
     pub(in super::super) fn signed_distance(&self, point: &Vec3, position: &Vec3) -> RigidDistance {
         let found = self.shape.signed_distance(
             &self

@@ -105,7 +105,7 @@ impl ContactCorner {
         }
     }
 
-    /// Where its nodes are with these displacements [m].
+    /// Positions of its nodes with these displacements [m].
     pub(super) fn places(&self, positions: &[Vec3], unknowns: &[f64]) -> Vec<Vec3> {
         let each = self.nodes.iter().map(|&node| {
             let moved = &unknowns[3 * node as usize..][..3];
@@ -116,7 +116,7 @@ impl ContactCorner {
 }
 
 impl ContactPoint {
-    /// Where it is when the nodes of its corner are at these `places` [m].
+    /// Its position when the nodes of its corner are at these `places` [m].
     pub(super) fn position(&self, places: &[Vec3]) -> Vec3 {
         let each = self.nodes.iter().zip(self.shares);
         each.map(|(&node, share)| share * places[node]).sum()

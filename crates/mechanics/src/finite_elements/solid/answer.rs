@@ -14,17 +14,17 @@ pub struct SolidAnswer {
     pub force: Vec3,
     /// Its component along the displacement [N].
     pub force_along: f64,
-    /// Force on the tissue where it is held [N].
+    /// Force on the tissue at the fixed nodes [N].
     pub reaction: Vec3,
     /// Strain energy [J].
     pub energy: f64,
     /// Root mean square of the displacement over the body [m].
     pub mean_displacement: f64,
-    /// Displacement of each point that was asked for [m].
+    /// Displacement of each requested point [m].
     pub points: Vec<Vec3>,
-    /// What each cavity has become, in the order of the regions.
+    /// The deformed cavities, in the order of the regions.
     pub cavities: Vec<CavityAnswer>,
-    /// What each tool feels at each step on its path.
+    /// Force on each tool at each step on its path.
     pub tools: Vec<ToolIncrement>,
     /// Area of the patch at rest [m²].
     pub patch_area: f64,
@@ -32,7 +32,7 @@ pub struct SolidAnswer {
     pub unknowns: usize,
     /// Numbers in the factors; each has eight bytes.
     pub factor_entries: usize,
-    /// What is to be seen of it.
+    /// Fields for display.
     pub fields: SolidFields,
     /// Warnings.
     pub warnings: Vec<String>,
@@ -51,7 +51,7 @@ pub struct CavityAnswer {
     pub volume: f64,
 }
 
-/// What a grid of quadratic tetrahedra has at its nodes and in its cells.
+/// Fields of a grid of quadratic tetrahedra, at its nodes and in its cells.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SolidFields {
     /// Nodes at rest [m].
@@ -82,22 +82,24 @@ impl SolidAnswer {
         conditions: &Conditions<'_>,
         along: Option<&Vec3>,
     ) -> Self {
-        let Conditions { frame, held, .. } = conditions;
+        let Conditions {
+            frame, prescribed, ..
+        } = conditions;
         let sum = |nodes: &[usize]| -> Vec3 {
             let forces = nodes.iter().map(|&node| workspace.reaction(model, node));
-            frame.back(&forces.sum())
+            frame.in_scene(&forces.sum())
         };
-        let force = sum(&held.moved);
+        let force = sum(&prescribed.moved);
         Self {
             force,
             force_along: along.map_or(0.0, |along| force.dot(&along.normalize())),
-            reaction: sum(&held.anchored),
+            reaction: sum(&prescribed.anchored),
             energy: workspace.energy(),
             mean_displacement: mean_displacement(model, state),
             points: Vec::new(),
             cavities: Vec::new(),
             tools: Vec::new(),
-            patch_area: held.area,
+            patch_area: prescribed.area,
             unknowns: model.size(),
             factor_entries: workspace.factor_entries(),
             fields: SolidFields::new(model, state, frame),
@@ -107,7 +109,7 @@ impl SolidAnswer {
 }
 
 impl SolidAnswer {
-    /// What each tool feels at the end of each part of its path.
+    /// Force on each tool at the end of each part of its path.
     pub fn waypoints(&self) -> Vec<&[ToolLoad]> {
         let ends = self.tools.iter();
         let ends = ends.filter(|step| step.along >= 1.0 && step.along.fract() == 0.0);
@@ -127,9 +129,9 @@ impl SolidAnswer {
 impl SolidFields {
     fn new(model: &FiniteElementModel, state: &FiniteElementState, frame: &Frame) -> Self {
         let nodes = &model.mesh.nodes;
-        let displacement = |node| frame.back(&state.displacement(model, node));
+        let displacement = |node| frame.in_scene(&state.displacement(model, node));
         Self {
-            positions: nodes.iter().map(|x| frame.back(x)).collect(),
+            positions: nodes.iter().map(|x| frame.in_scene(x)).collect(),
             cells: model.mesh.elements.clone(),
             surface: Vec::new(),
             regions: Vec::new(),

@@ -1,4 +1,5 @@
-//! Regions of a solid that are cavities: their tetrahedra are taken out, and what is left has walls around them.
+//! Regions of a solid that are cavities: their tetrahedra are removed, and the other tetrahedra have walls
+//! around them.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +13,7 @@ use super::mesh::{Face, faces, take_walls};
 use super::problem::{RegionContent, SolidProblem};
 use crate::Error;
 
-/// What of a mesh is tissue, and the cavities in it.
+/// The tissue of a mesh, and the cavities in it.
 pub(super) struct SolidMesh {
     pub(super) mesh: TetrahedronMesh,
     /// Its outer boundary.
@@ -29,7 +30,7 @@ pub(super) struct SolidCavity {
 }
 
 impl SolidMesh {
-    /// What of `mesh`, whose regions are those of the `problem` from 1, is no cavity.
+    /// The part of `mesh` that is no cavity; its regions are those of the `problem` from 1.
     pub(super) fn new(problem: &SolidProblem, mesh: TetrahedronMesh) -> Result<Self, Error> {
         let regions = problem.regions.iter().enumerate();
         let contents = regions.filter_map(|(region, own)| match own.content {
@@ -91,7 +92,7 @@ impl SolidMesh {
         })
     }
 
-    /// What each cavity has become.
+    /// The deformed cavities.
     pub(super) fn answers(
         &self,
         model: &FiniteElementModel,

@@ -1,6 +1,6 @@
 use super::super::rigid_tool::RigidShape;
 
-/// What does not fit a solid.
+/// Invalid parts of a solid problem.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SolidError {
     /// Neither a patch, a tool nor a load.
@@ -42,7 +42,7 @@ pub enum SolidError {
     /// An acceleration or a force without a direction.
     #[error("{name} is {found:?}; give three finite numbers that are not all zero")]
     NoDirection {
-        /// What it is.
+        /// Its name.
         name: &'static str,
         /// The value given.
         found: [f64; 3],

@@ -1,4 +1,4 @@
-//! Where a rigid tool meets a solid, and what it will probably touch, from their shapes at rest.
+//! The part of a solid that a rigid tool will probably touch, from their shapes at rest.
 
 use nalgebra::Matrix3;
 use palpate_geometry::closest_on_triangle;
@@ -23,18 +23,19 @@ const MOST_PLACES: usize = 64;
 /// A sphere presses tissue away: it touches half the area of the circle in which it cuts the surface at rest [Hertz 1881].
 const TOUCHED: f64 = 0.5;
 
-/// What a tool meets on its path.
+/// The part of the boundary that a tool meets on its path.
 #[derive(Debug, Clone)]
 pub(super) struct Footprint {
     /// Points of the boundary inside of the tool, somewhere on its path [m].
     pub(super) points: Vec<Vec3>,
     /// About the radius, or half the width, of the contact [m].
     pub(super) size: f64,
-    /// Where the tool is on its path, at a few places [m].
+    /// Positions of the tool on its path, a few [m].
     positions: Vec<Vec3>,
     /// The sharp edge of a flat punch where it comes first.
     edge: Option<SharpEdge>,
-    /// How far from these places tissue may touch the tool that is not under it at rest [m].
+    /// Distance from these places within which tissue that is not under the tool at rest may touch
+    /// it [m].
     reach: f64,
 }
 
@@ -113,7 +114,7 @@ impl Footprint {
         }
     }
 
-    /// How far its points are from these `triangles` on average [m].
+    /// Mean distance of its points from these `triangles` [m].
     pub(super) fn off(&self, triangles: &[[Vec3; 3]]) -> f64 {
         let all = self.points.iter().map(|point| {
             let distances = triangles

@@ -8,17 +8,17 @@ use super::super::pressed_faces::PressedFaces;
 use super::super::rigid_tool::{RigidTool, ToolLoad};
 use super::super::supports::Supports;
 use super::problem::MovedPatch;
-use super::supports::Held;
+use super::supports::PrescribedNodes;
 use crate::{FibreFrame, Vec3};
 
 /// The frame in which a body is solved: that of the scene, or one whose third axis points along the
-/// displacement, so that a patch that slides across it has one held component.
+/// displacement, so that a patch that slides across it has one prescribed component.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Frame {
     /// From the scene into the frame.
     turn: Rotation3<f64>,
-    /// The held components of the patch.
-    held: [bool; 3],
+    /// The prescribed components of the patch.
+    prescribed: [bool; 3],
     displacement: Vec3,
 }
 
@@ -27,14 +27,14 @@ impl Frame {
         let Some(patch) = patch else {
             return Self {
                 turn: Rotation3::identity(),
-                held: [false; 3],
+                prescribed: [false; 3],
                 displacement: Vec3::zeros(),
             };
         };
         let along = patch.displacement;
         let axis = along.iamax();
         let is_axis = (0..3).all(|i| i == axis || along[i] == 0.0);
-        let (turn, held) = match patch.friction {
+        let (turn, prescribed) = match patch.friction {
             Friction::Bonded => (Rotation3::identity(), [true; 3]),
             Friction::Frictionless if is_axis => {
                 (Rotation3::identity(), [0, 1, 2].map(|i| i == axis))
@@ -48,7 +48,7 @@ impl Frame {
         };
         Self {
             turn,
-            held,
+            prescribed,
             displacement: turn * along,
         }
     }
@@ -56,12 +56,12 @@ impl Frame {
     /// The same with a patch that is free.
     pub(super) fn without_patch(&self) -> Self {
         Self {
-            held: [false; 3],
+            prescribed: [false; 3],
             ..*self
         }
     }
 
-    pub(super) fn put(&self, mut mesh: ElementMesh) -> ElementMesh {
+    pub(super) fn mesh_in_frame(&self, mut mesh: ElementMesh) -> ElementMesh {
         for node in &mut mesh.nodes {
             *node = self.turn * *node;
         }
@@ -69,17 +69,17 @@ impl Frame {
     }
 
     /// A vector of the frame in the scene.
-    pub(super) fn back(&self, vector: &Vec3) -> Vec3 {
+    pub(super) fn in_scene(&self, vector: &Vec3) -> Vec3 {
         self.turn.inverse() * vector
     }
 
     /// Directions of the scene in the frame.
-    pub(super) fn turned(&self, fibres: &FibreFrame) -> FibreFrame {
+    pub(super) fn fibres_in_frame(&self, fibres: &FibreFrame) -> FibreFrame {
         fibres.turned(&self.turn)
     }
 
     /// A tool in the frame.
-    pub(super) fn with_tool(&self, tool: &RigidTool) -> RigidTool {
+    pub(super) fn tool_in_frame(&self, tool: &RigidTool) -> RigidTool {
         RigidTool {
             orientation: self.turn * tool.orientation,
             path: tool.path.iter().map(|place| self.turn * place).collect(),
@@ -87,27 +87,27 @@ impl Frame {
         }
     }
 
-    /// What a tool feels in the frame, in the scene.
-    pub(super) fn load_back(&self, load: &ToolLoad) -> ToolLoad {
+    /// The force on a tool, from the frame to the scene.
+    pub(super) fn load_in_scene(&self, load: &ToolLoad) -> ToolLoad {
         ToolLoad {
-            position: self.back(&load.position),
-            force: self.back(&load.force),
-            moment: self.back(&load.moment),
+            position: self.in_scene(&load.position),
+            force: self.in_scene(&load.force),
+            moment: self.in_scene(&load.moment),
             ..*load
         }
     }
 
     /// A vector of the scene in the frame.
-    pub(super) fn forth(&self, vector: &Vec3) -> Vec3 {
+    pub(super) fn in_frame(&self, vector: &Vec3) -> Vec3 {
         self.turn * vector
     }
 }
 
-/// What holds, moves and loads a solid.
+/// Boundary conditions and loads of a solid.
 #[derive(Debug)]
 pub(super) struct Conditions<'a> {
     pub(super) frame: &'a Frame,
-    pub(super) held: &'a Held,
+    pub(super) prescribed: &'a PrescribedNodes,
     /// Whole forces at the unknowns [N], in the frame.
     pub(super) load: &'a [f64],
     /// Whole pressures in cavities [Pa].
@@ -125,7 +125,7 @@ impl Conditions<'_> {
         let has_pressure = !(self.pressures.is_empty() && self.pressed.is_empty());
         has_fluid
             || has_pressure
-            || self.frame.held.contains(&true)
+            || self.frame.prescribed.contains(&true)
             || self.load.iter().any(|force| *force != 0.0)
     }
 
@@ -133,7 +133,7 @@ impl Conditions<'_> {
     pub(super) fn supports(&self, model: &FiniteElementModel, part: f64) -> Supports<'_> {
         let Self {
             frame,
-            held,
+            prescribed,
             load,
             pressures,
             pressed,
@@ -148,10 +148,10 @@ impl Conditions<'_> {
         let pressed = pressed.iter();
         supports.pressed = pressed.map(|(faces, own)| (faces, part * own)).collect();
         for axis in 0..3 {
-            supports = supports.hold(model, held.anchored.iter().copied(), axis, 0.0);
-            if frame.held[axis] {
+            supports = supports.hold(model, prescribed.anchored.iter().copied(), axis, 0.0);
+            if frame.prescribed[axis] {
                 let at = part * frame.displacement[axis];
-                supports = supports.hold(model, held.moved.iter().copied(), axis, at);
+                supports = supports.hold(model, prescribed.moved.iter().copied(), axis, at);
             }
         }
         supports

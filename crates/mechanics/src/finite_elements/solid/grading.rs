@@ -73,17 +73,17 @@ const SPREAD: f64 = 0.5;
 /// Points around a circle from which the edge of the patch is known.
 const AROUND: usize = 96;
 
-/// A centre this far off the boundary is said [radii of the patch].
+/// A centre this far off the boundary gives a warning [radii of the patch].
 const OFF: f64 = 0.01;
 
-/// What all meshes of a problem have in common.
+/// Data that all meshes of a problem share.
 pub(super) struct MeshContext<'a> {
     body: &'a Body,
     filling: TetrahedronMesh,
     /// Edge of the lattice that filled a surface [m].
     lattice: Option<f64>,
     patch: Option<PatchEdge>,
-    /// What each tool meets.
+    /// The footprint of each tool.
     pub(super) footprints: Rc<Vec<Footprint>>,
     /// Points where the anchor ends [m].
     rim: Vec<Vec3>,
@@ -100,7 +100,7 @@ pub(super) struct Graded {
     pub(super) warnings: Vec<String>,
 }
 
-/// Where a patch is on the boundary.
+/// A patch on the boundary.
 #[derive(Debug, Clone)]
 struct PatchEdge {
     /// Its centre, on the boundary [m].
@@ -200,7 +200,7 @@ impl<'a> MeshContext<'a> {
             filling.and_then(|filling| follow_sharp_edges(filling, surface))
         };
         let mut closest = context(coarse, Some(edge));
-        let (mut missed, mut said) = closest.missed(wanted)?;
+        let (mut missed, mut missed_warnings) = closest.missed(wanted)?;
         for halvings in 0..FINER_FILLINGS {
             if missed <= MISSED {
                 return Ok(closest);
@@ -211,15 +211,15 @@ impl<'a> MeshContext<'a> {
             let next = context(tetrahedra, Some(FINER * edge));
             let (less, warnings) = next.missed(wanted)?;
             if less < missed {
-                (closest, missed, said) = (next, less, warnings);
+                (closest, missed, missed_warnings) = (next, less, warnings);
             }
         }
-        closest.warnings.extend(said);
+        closest.warnings.extend(missed_warnings);
         Ok(closest)
     }
 
     /// By how much the first mesh misses the `wanted` area of the patch [m²] and the surface under the tools, as a part of that area
-    /// and of the size of a contact [-]; with warnings of what is missed too much.
+    /// and of the size of a contact [-]; with a warning for each that it misses too much.
     fn missed(&self, wanted: Option<f64>) -> Result<(f64, Vec<String>), Error> {
         let mesh = self.mesh(0)?.mesh;
         let faces = faces(&mesh);
@@ -244,8 +244,8 @@ impl<'a> MeshContext<'a> {
         });
         let all: Vec<_> = patch.chain(tools).collect();
         let worst = all.iter().map(|(part, _)| *part).fold(0.0, f64::max);
-        let said = all.into_iter().filter(|(part, _)| *part > MISSED);
-        Ok((worst, said.map(|(_, warning)| warning).collect()))
+        let warnings = all.into_iter().filter(|(part, _)| *part > MISSED);
+        Ok((worst, warnings.map(|(_, warning)| warning).collect()))
     }
 
     /// A warning where `mesh` lacks a part of the body.

@@ -71,7 +71,7 @@ pub(super) fn check_densities(densities: impl IntoIterator<Item = f64>) -> Resul
     })
 }
 
-/// What loads the boundary of a mesh.
+/// Loads on the boundary of a mesh.
 #[derive(Default)]
 pub(super) struct BoundaryLoads {
     /// Forces at nodes [N].
@@ -298,8 +298,8 @@ fn overlap(region: &Region, triangle: &[Vec3; 3]) -> Overlap {
     // Each of them is convex, and a plane leaves out what all corners are beyond.
     let planes = region.planes.iter();
     let planes = planes.map(|plane| {
-        let held = corners.map(|corner| plane.holds(corner));
-        (held == [true; 3], held != [false; 3])
+        let inside = corners.map(|corner| plane.holds(corner));
+        (inside == [true; 3], inside != [false; 3])
     });
     let boxes = region.boxes.iter().map(|own| {
         let meets = (0..3).all(|axis| {

@@ -1,10 +1,10 @@
-//! A solid of any shape, held in one place, and moved by a tool or loaded in others.
+//! A solid of any shape, fixed in one place, and moved by a tool or loaded in others.
 //!
-//! Its body is filled with quadratic tetrahedra with a pressure field [Taylor and Hood 1973], refined
+//! Quadratic tetrahedra with a pressure field fill the body [Taylor and Hood 1973], refined
 //! towards the edge of the patch that the tool moves and that of the anchor (`grading`). The patch is a set of whole triangles
 //! within a radius of a point; *stick* prescribes all three components of its displacement, *slip* only
 //! the one along the displacement. With K the tangent and r the residual,
-//!   K Δu = −r, u given where the body is held or moved,
+//!   K Δu = −r, u prescribed where the body is fixed or moved,
 //! once at small strain, and in steps at finite strain; the force is Σ r over the nodes of the patch. Weight and forces on
 //! the boundary are dead loads: they keep their direction while the body turns. A pressure stays normal to the boundary.
 //! All grow with the displacement of the patch.

@@ -1,5 +1,5 @@
-//! What lies within a radius of a point of the boundary and hangs together with it: of tetrahedra, and of the
-//! surface that they fill.
+//! The connected part of the boundary within a radius of a point: of tetrahedra, and of the surface that they
+//! fill.
 
 use std::collections::BTreeSet;
 
@@ -50,8 +50,8 @@ pub(super) fn faces_within<'a>(
 }
 
 impl MovedPatch {
-    /// A warning where it keeps the body from turning by more than a face can that is only pressed: where the `moment` about its
-    /// centre [N m] puts its `force` [N] outside of it.
+    /// A warning where the patch resists turning more than a face that is only pressed can: where the `moment` about its centre
+    /// [N m] puts its `force` [N] outside of it.
     pub(super) fn pulls(&self, force: &Vec3, moment: &Vec3) -> Option<String> {
         let lever = moment.norm() / (force.norm() * self.radius);
         (self.friction == Friction::Frictionless && lever > 1.0).then(|| {

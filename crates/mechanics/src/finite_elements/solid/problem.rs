@@ -9,7 +9,7 @@ use crate::material::law::Law;
 use crate::regions::RegionPlace;
 use crate::{FibreField, Vec3};
 
-/// What the solid fills.
+/// The geometry of the solid.
 #[derive(Debug, Clone)]
 pub enum Body {
     /// The inside of a surface.
@@ -18,22 +18,22 @@ pub enum Body {
     Volume(TetrahedronMesh),
 }
 
-/// The part of the boundary that a tool moves: what lies within a radius of a point and hangs together
-/// with it. It does not turn: on a lobe that bends under it this takes a moment that no face in contact has, and the force is too
-/// large, by half in an example (`docs/theory/boundary_elements.md`, thin rims). A [`RigidTool`] lets go instead.
+/// The part of the boundary that a tool moves: the connected part within a radius of a point. It does not turn: on a lobe that
+/// bends under it this takes a moment that no face in contact has, and the force is too large, by half in an example
+/// (`docs/theory/boundary_elements.md`, thin rims). A [`RigidTool`] loses contact instead.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MovedPatch {
     /// Its centre [m]; the nearest point of the boundary is taken.
     pub center: Vec3,
     /// Its radius [m].
     pub radius: f64,
-    /// How far every point of it moves [m].
+    /// Displacement of every point of it [m].
     pub displacement: Vec3,
     /// Whether it moves along with all of the displacement, or only with the component along it.
     pub friction: Friction,
 }
 
-/// What loads a body.
+/// Loads on a body.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Loads {
     /// Its weight, if it has one.
@@ -42,7 +42,7 @@ pub struct Loads {
     pub on_surface: Vec<SurfaceLoad>,
 }
 
-/// What makes a body weigh.
+/// Gravity and density of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Weight {
     /// Acceleration of gravity [m/s²].
@@ -54,15 +54,15 @@ pub struct Weight {
 /// A part of the body that is not of its tissue.
 #[derive(Debug, Clone)]
 pub struct SolidRegion {
-    /// As warnings call it.
+    /// Its name in warnings.
     pub name: String,
-    /// Where it is.
+    /// Its place.
     pub place: SolidPlace,
-    /// What it is full of.
+    /// Its content.
     pub content: RegionContent,
 }
 
-/// What a region of a solid is full of.
+/// The content of a region of a solid.
 #[derive(Debug, Clone)]
 pub enum RegionContent {
     /// A tissue.
@@ -76,7 +76,7 @@ pub enum RegionContent {
     Cavity(CavityContent),
 }
 
-/// Where a region of a solid is.
+/// The place of a region of a solid.
 #[derive(Debug, Clone)]
 pub enum SolidPlace {
     /// A layer, a shape or what a surface encloses; the tetrahedra are made not to cross its border.
@@ -104,7 +104,7 @@ pub enum SurfaceLoad {
     },
 }
 
-/// Where a force acts.
+/// The place where a force acts.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LoadPlace {
     /// Evenly on the part of the boundary, at rest, in a region.
@@ -113,27 +113,27 @@ pub enum LoadPlace {
     Line([Vec3; 2]),
 }
 
-/// A solid that is held in one place, and moved or loaded in others.
+/// A solid that is fixed in one place, and moved or loaded in others.
 #[derive(Debug, Clone)]
 pub struct SolidProblem {
     /// The body.
     pub body: Body,
-    /// Where it is held: in the triangles of its boundary whose centroid lies in one of the regions.
+    /// The fixed triangles of its boundary: those whose centroid lies in one of the regions.
     pub anchor: Region,
-    /// Where it is moved, if it is.
+    /// The part that is moved, if any.
     pub patch: Option<MovedPatch>,
     /// Its law outside of the regions; with [`crate::Strain::Small`] all is linear.
     pub law: Arc<dyn Law>,
     /// Parts of other tissue, and cavities. Shapes and surfaces are above layers, and these above cells.
     pub regions: Vec<SolidRegion>,
-    /// Where its fibres point to, if it has any.
+    /// Directions of its fibres, if it has any.
     pub fibres: Option<FibreField>,
-    /// What loads it besides. Loads and the displacement of the patch grow together from rest.
+    /// Its loads. Loads and the displacement of the patch grow together from rest.
     pub loads: Loads,
     /// Rigid tools that press it, after loads and patch have come to their full size. They move together; one whose path has
-    /// fewer parts waits at its end.
+    /// fewer parts stays at its end.
     pub tools: Vec<RigidTool>,
-    /// Points of the body whose displacement is asked for [m].
+    /// Points of the body whose displacement is computed [m].
     pub points: Vec<Vec3>,
 }
 

@@ -1,4 +1,4 @@
-//! Which region each tetrahedron of a solid belongs to.
+//! The region of each tetrahedron of a solid.
 
 use palpate_geometry::{AabbTree, Fidelity, Level, Surface, TetrahedronError, TetrahedronMesh};
 
@@ -11,7 +11,7 @@ use crate::regions::{Bordered, RegionError, RegionMap, RegionPlace};
 pub(super) struct SolidRegions {
     /// Those with borders.
     pub(super) map: RegionMap,
-    /// What they are called; the first has the number 1.
+    /// Their names; the first has the number 1.
     names: Vec<String>,
     /// Number among the regions of the problem, from 1, of each region of the map from its number 1 on.
     bounded: Vec<usize>,

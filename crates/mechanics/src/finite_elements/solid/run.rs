@@ -17,7 +17,7 @@ use super::loads::{self, BoundaryLoads};
 use super::mesh::{Face, faces};
 use super::problem::{Body, RegionContent, SolidProblem, SolidRegion};
 use super::solve::{ToolIncrement, equilibrium};
-use super::supports::Held;
+use super::supports::PrescribedNodes;
 use crate::contact::FrictionLaw;
 use crate::{Error, FibreError, Law, Vec3};
 
@@ -126,11 +126,11 @@ impl SolidProblem {
                 most: MOST_UNKNOWNS,
             });
         }
-        let held = Held::new(self, tetrahedra, &solid.outer, context.center())?;
+        let prescribed = PrescribedNodes::new(self, tetrahedra, &solid.outer, context.center())?;
         let on_surface = BoundaryLoads::new(&self.loads.on_surface, tetrahedra, &solid.outer)?;
         let places = loads::places(&self.points, tetrahedra, &faces(tetrahedra))?;
         let frame = Frame::new(self.patch.as_ref());
-        let elements = frame.put(ElementMesh::from_tetrahedra(tetrahedra));
+        let elements = frame.mesh_in_frame(ElementMesh::from_tetrahedra(tetrahedra));
         let regions: Vec<u32> = (0..tetrahedra.tetrahedra().len())
             .map(|number| tetrahedra.region(number))
             .collect();
@@ -145,14 +145,15 @@ impl SolidProblem {
         let mut model =
             FiniteElementModel::with_regions(elements, &laws, &regions, Formulation::Mixed)?;
         if let Some(fibres) = &self.fibres {
-            model = model.in_frames(|place| frame.turned(&fibres.at(&frame.back(place))));
+            model =
+                model.in_frames(|place| frame.fibres_in_frame(&fibres.at(&frame.in_scene(place))));
         }
         let fluids: Vec<_> = solid.fluids().collect();
         let is_under_pressure = fluids.iter().any(|(_, pressure)| *pressure != 0.0);
         // The fluids' volumes are found first.
         let begin = if is_under_pressure { 0.5 } else { 0.0 };
         let growths = match is_under_pressure {
-            true => growths(&model, &frame, &held, &fluids, &mut |part| {
+            true => growths(&model, &frame, &prescribed, &fluids, &mut |part| {
                 let part = begin * part;
                 progress(Progress { part, mesh });
             })?,
@@ -161,7 +162,7 @@ impl SolidProblem {
         let tools: Vec<RigidTool> = self
             .tools
             .iter()
-            .map(|tool| frame.with_tool(tool))
+            .map(|tool| frame.tool_in_frame(tool))
             .collect();
         let rest = tetrahedra.vertices();
         let surface = ContactSurface::new(
@@ -178,7 +179,7 @@ impl SolidProblem {
         let mut workspace = FiniteElementWorkspace::new(&model)?;
         let mut load = match &self.loads.weight {
             Some(weight) => {
-                let gravity = frame.forth(&weight.gravity);
+                let gravity = frame.in_frame(&weight.gravity);
                 model.body_load(|element, _| {
                     let number = regions[element] as usize;
                     let region = number.checked_sub(1).and_then(|at| self.regions.get(at));
@@ -191,13 +192,13 @@ impl SolidProblem {
             None => vec![0.0; model.size()],
         };
         for (node, force) in on_surface.forces {
-            for (axis, force) in frame.forth(&force).iter().enumerate() {
+            for (axis, force) in frame.in_frame(&force).iter().enumerate() {
                 load[3 * node + axis] += force;
             }
         }
         let conditions = Conditions {
             frame: &frame,
-            held: &held,
+            prescribed: &prescribed,
             load: &load,
             pressures: &solid.pressures().collect::<Vec<_>>(),
             pressed: &on_surface.pressures,
@@ -227,7 +228,7 @@ impl SolidProblem {
             let increments = solved.increments.into_iter();
             let back = increments.map(|ToolIncrement { along, loads }| ToolIncrement {
                 along,
-                loads: loads.iter().map(|load| frame.load_back(load)).collect(),
+                loads: loads.iter().map(|load| frame.load_in_scene(load)).collect(),
             });
             answer.tools = back.collect();
         }
@@ -236,9 +237,9 @@ impl SolidProblem {
             answer.fields.set_fibres(fibres);
         }
         if let (Some(patch), Some(center)) = (&self.patch, context.center()) {
-            let moments = held.moved.iter().map(|&node| {
-                let arm = frame.back(&model.mesh.nodes[node]) - center;
-                arm.cross(&frame.back(&workspace.reaction(&model, node)))
+            let moments = prescribed.moved.iter().map(|&node| {
+                let arm = frame.in_scene(&model.mesh.nodes[node]) - center;
+                arm.cross(&frame.in_scene(&workspace.reaction(&model, node)))
             });
             let moment: Vec3 = moments.sum();
             answer.warnings.extend(patch.pulls(&answer.force, &moment));
@@ -359,13 +360,13 @@ impl SolidProblem {
 fn growths(
     model: &FiniteElementModel,
     frame: &Frame,
-    held: &Held,
+    prescribed: &PrescribedNodes,
     fluids: &[(&Cavity, f64)],
     at_part: &mut dyn FnMut(f64),
 ) -> Result<Vec<f64>, Error> {
     let conditions = Conditions {
         frame: &frame.without_patch(),
-        held,
+        prescribed,
         load: &vec![0.0; model.size()],
         pressures: fluids,
         pressed: &[],

@@ -49,23 +49,23 @@ const FACED: usize = 1;
 /// A solid in equilibrium.
 pub(super) struct Solved<'a> {
     pub(super) state: FiniteElementState,
-    /// What touches it at the end of the tools' paths.
+    /// Contacts at the end of the tools' paths.
     pub(super) contacts: Option<Contacts<'a>>,
-    /// What each tool feels at each step.
+    /// Force on each tool at each step.
     pub(super) increments: Vec<ToolIncrement>,
 }
 
-/// What tools feel at a place of their paths.
+/// Forces on the tools at a place of their paths.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToolIncrement {
-    /// How many parts of their paths lie behind them [-].
+    /// Parts of their paths done [-].
     pub along: f64,
     /// Of each tool.
     pub loads: Vec<ToolLoad>,
 }
 
-/// Brings a body at rest to where the patch has gone all of its way and all loads act, and then along the paths of tools;
-/// `at_part` hears how far it is.
+/// Brings a body from rest to the full displacement of the patch and the full loads, and then along the paths of tools;
+/// `at_part` receives the part done [-].
 pub(super) fn equilibrium<'a>(
     model: &FiniteElementModel,
     conditions: &Conditions<'_>,
@@ -223,12 +223,12 @@ fn linear(
     newton::assemble(model, supports, &state.unknowns, workspace)?;
     workspace.supported.copy_from_slice(&workspace.tangent);
     workspace.step.fill(0.0);
-    for (step, held) in workspace.step.iter_mut().zip(&supports.held) {
-        *step = held.unwrap_or(0.0);
+    for (step, prescribed) in workspace.step.iter_mut().zip(&supports.held) {
+        *step = prescribed.unwrap_or(0.0);
     }
-    let is_held = newton::held_rows(model, supports);
+    let is_prescribed = newton::prescribed_rows(model, supports);
     let mut right = vec![0.0; model.size()];
-    newton::eliminate(model, &is_held, workspace, &mut right);
+    newton::eliminate(model, &is_prescribed, workspace, &mut right);
     newton::factor(model, workspace)?;
     for solution in 0..MOST_SOLUTIONS {
         workspace.factors.solve(&mut right);
@@ -239,9 +239,9 @@ fn linear(
         let (mut free, mut reactions): (f64, f64) = (0.0, 0.0);
         for (row, right) in right.iter_mut().enumerate() {
             let residual = workspace.residual[row];
-            *right = if is_held[row] { 0.0 } else { -residual };
+            *right = if is_prescribed[row] { 0.0 } else { -residual };
             if row < model.displacements() {
-                let size = if is_held[row] {
+                let size = if is_prescribed[row] {
                     &mut reactions
                 } else {
                     &mut free

@@ -1,4 +1,4 @@
-//! Which nodes are held and which are moved.
+//! The nodes with prescribed displacements: fixed and moved ones.
 
 use std::collections::BTreeSet;
 
@@ -9,18 +9,18 @@ use super::patch::{area_of, faces_within};
 use super::problem::SolidProblem;
 use crate::{Error, Vec3};
 
-/// Nodes with a support, ascending.
+/// Nodes with prescribed displacements, ascending.
 #[derive(Debug)]
-pub(super) struct Held {
-    /// Those that do not move.
+pub(super) struct PrescribedNodes {
+    /// Fixed nodes.
     pub(super) anchored: Vec<usize>,
-    /// Those of the patch.
+    /// Nodes of the patch.
     pub(super) moved: Vec<usize>,
     /// Area of the patch [m²].
     pub(super) area: f64,
 }
 
-impl Held {
+impl PrescribedNodes {
     pub(super) fn new(
         problem: &SolidProblem,
         mesh: &TetrahedronMesh,
@@ -34,7 +34,7 @@ impl Held {
         if anchored.is_empty() {
             return Err(Error::NothingHeld);
         }
-        every_piece_is_held(mesh, &anchored)?;
+        check_every_piece_is_fixed(mesh, &anchored)?;
         let patch = match (&problem.patch, center) {
             (Some(patch), Some(center)) => faces_within(patch.radius, center, mesh, faces),
             _ => Vec::new(),
@@ -62,14 +62,14 @@ impl Held {
     }
 }
 
-fn every_piece_is_held(mesh: &TetrahedronMesh, anchored: &[&Face]) -> Result<(), Error> {
+fn check_every_piece_is_fixed(mesh: &TetrahedronMesh, anchored: &[&Face]) -> Result<(), Error> {
     let pieces = mesh.pieces();
     let count = pieces.iter().max().map_or(0, |&last| last + 1);
-    let mut is_held = vec![false; count];
+    let mut is_fixed = vec![false; count];
     for face in anchored {
-        is_held[pieces[face.tetrahedron]] = true;
+        is_fixed[pieces[face.tetrahedron]] = true;
     }
-    let Some(loose) = is_held.iter().position(|held| !held) else {
+    let Some(loose) = is_fixed.iter().position(|fixed| !fixed) else {
         return Ok(());
     };
     let place = pieces.iter().position(|&piece| piece == loose);

@@ -1,7 +1,7 @@
 //! A flat round punch on the side of a tube, at mid-length and along a radius, after the pressure.
 //!
-//! *Limits*: of the punch only the face is there. Deeper than its radius, tissue beside it may be where
-//! its side is; the answer then carries a warning. The tube is held at its ends only.
+//! *Limits*: the punch has a face but no side. Deeper than its radius, tissue around it may be where
+//! its side would be; the answer then carries a warning. The tube is fixed at its ends only.
 
 use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
 use super::punching::Punching;
@@ -9,7 +9,7 @@ use super::{Ends, TubeProblem, check_pressure, inflate, solid};
 use crate::contact::Friction;
 use crate::{Error, Strain};
 
-/// What is pressed on the tube.
+/// A punch on the tube.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TubePunch {
     /// Radius of its flat face [m].
@@ -27,11 +27,12 @@ pub struct TubePunch {
 pub struct Indented {
     /// Force on the tissue at each depth [N].
     pub forces: Vec<f64>,
-    /// How far the pressure alone moves the outer surface outward where the punch meets it [m].
+    /// Outward displacement of the outer surface by the pressure alone, where the punch meets it
+    /// [m].
     pub outer_displacement: f64,
     /// Number of unknowns of the finest mesh.
     pub unknowns: usize,
-    /// What to be careful about, in sentences.
+    /// Warnings, in sentences.
     pub warnings: Vec<String>,
 }
 
@@ -63,13 +64,13 @@ pub fn indent(
     order.sort_by(|&a, &b| punch.depths[a].total_cmp(&punch.depths[b]));
     let deepest = order.last().map_or(0.0, |&last| punch.depths[last]);
     refine(&MESHES, accuracy, |mesh| {
-        let mut tell = |part: f64| progress(Progress { part, mesh });
+        let mut report = |part: f64| progress(Progress { part, mesh });
         let mut run = Punching::new(problem, punch, PARTS[mesh])?;
         run.pressurise()?;
         let mut forces = vec![0.0; punch.depths.len()];
         for &place in &order {
             let depth = punch.depths[place];
-            forces[place] = run.press_to(depth, |at| tell(at / deepest))?;
+            forces[place] = run.press_to(depth, |at| report(at / deepest))?;
         }
         let answer = Indented {
             outer_displacement: run.rise(problem.tube.outer_radius),

@@ -1,6 +1,6 @@
-//! Inflation. The inner corner of a held end creases under large strain: with elements of a fiftieth of the
-//! wall that crease is resolved, without the contact of its two sides, and ends the path too early (2.7 %
-//! below the limit of 60 mm of the source's tube). Meshes stop before that, and a warning says so.
+//! Inflation. The inner corner of a fixed end creases under large strain: with elements of a fiftieth of
+//! the wall that crease is resolved, without the contact of its two sides, and ends the path too early (2.7
+//! % below the limit of 60 mm of the source's tube). Meshes stop before that, with a warning.
 
 use super::super::cavity::Cavity;
 use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
@@ -16,20 +16,20 @@ use crate::{Error, FibreFrame, Strain, Vec3};
 /// An inflated tube.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inflated {
-    /// How far the inner wall moves outward at mid-length [m], one for each pressure; `None` where the
-    /// pressure is past the limit.
+    /// Outward displacement of the inner wall at mid-length [m], one for each pressure; `None` where
+    /// the pressure is past the limit.
     pub inner_displacements: Vec<Option<f64>>,
     /// The greatest pressure of a stable tube [Pa]; `None` when there is none up to a stretch of
     /// [`WIDEST`], or ten times the pressure at which an endless neo-Hookean tube would burst.
     pub limit_pressure: Option<f64>,
-    /// How far the inner wall has moved at the limit [m].
+    /// Displacement of the inner wall at the limit [m].
     pub limit_displacement: Option<f64>,
     /// From this pressure on [Pa] the tube could wrinkle without a change of pressure, at a length of
     /// waves that the mesh decides; the answers are those of a smooth one.
     pub wrinkles_from: Option<f64>,
     /// Number of unknowns of the finest mesh.
     pub unknowns: usize,
-    /// What to be careful about, in sentences.
+    /// Warnings, in sentences.
     pub warnings: Vec<String>,
 }
 
@@ -49,7 +49,7 @@ const CREASE: &str = "the inner corner of the fixed ends creases near the limit 
                       estimated error does not know that";
 
 /// Power of the element size with which errors fall [-]: all is smooth between guided ends. The corners at
-/// held ones leave less, the more so near the limit, where every small change of them counts.
+/// fixed ones leave less, the more so near the limit, where every small change of them counts.
 fn order(problem: &TubeProblem) -> f64 {
     match (problem.ends, problem.law.volume().strain) {
         (Ends::Guided, _) => 4.0,
@@ -230,17 +230,18 @@ impl Inflation<'_> {
         })
     }
 
-    /// How much of the way is done [-]: all asked for, and far enough to know that there is no limit.
+    /// Part of the path that is done [-]: all requested pressures, and far enough to show that there
+    /// is no limit.
     fn part(&self, point: &PathPoint, highest: f64) -> f64 {
         let inner = self.problem.tube.inner_radius;
         let widened = self.displacement(&point.state) / (inner * (WIDEST - 1.0));
         let pressed = point.factor / 10.0;
-        let asked = if highest > 0.0 {
+        let of_requested = if highest > 0.0 {
             point.factor / highest
         } else {
             1.0
         };
-        widened.max(pressed).min(asked)
+        widened.max(pressed).min(of_requested)
     }
 
     /// Displacements that are not known yet, with their pressures, where `reached`.

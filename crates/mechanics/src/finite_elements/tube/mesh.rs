@@ -5,7 +5,8 @@ use super::super::graded::resampled;
 use super::super::mesh::ElementMesh;
 use super::Tube;
 
-/// Places in the wall [-]: finer at both surfaces, whose corners with a held end concentrate stress.
+/// Places in the wall [-]: finer at both surfaces, whose corners with a fixed end concentrate
+/// stress.
 const WALL: [f64; 5] = [0.0, 0.15, 0.5, 0.85, 1.0];
 
 /// The mesh and its inner wall, with `parts` elements [-] in the place of each along both directions.

@@ -1,9 +1,9 @@
-//! A tube under pressure: how far it widens, where it balloons, and the force of a punch on its side.
+//! A tube under pressure: its widening, its limit pressure, and the force of a punch on its side.
 //!
-//! The pressure follows the inner wall ([`super::Cavity`]); both end faces are held, or guided: then
-//! they may widen but not move along the tube, which is a piece of an endless one. Beyond its limit
-//! pressure a tube of a law that does not stiffen enough has no equilibrium; the limit is a point of
-//! its [`super::Path`], where the pressure has its first maximum.
+//! The pressure follows the inner wall ([`super::Cavity`]); both end faces are fixed, or guided:
+//! then they may widen but not move along the tube, which is a piece of an endless one. Beyond its
+//! limit pressure a tube of a law that does not stiffen enough has no equilibrium; the limit is a
+//! point of its [`super::Path`], where the pressure has its first maximum.
 //!
 //! *How we know*: `tube::…`: Lamé's cylinder, the closed form for incompressible tubes in plane strain
 //! up to and beyond its maximum, refined runs; for the punch the half-space, the axisymmetric tube and
@@ -37,7 +37,7 @@ pub struct Tube {
     pub outer_radius: f64,
 }
 
-/// What the end faces may do.
+/// Boundary condition of the end faces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ends {
     /// Nothing.
@@ -46,7 +46,7 @@ pub enum Ends {
     Guided,
 }
 
-/// A tube of tissue and what holds it.
+/// A tube of tissue and its supports.
 #[derive(Debug, Clone)]
 pub struct TubeProblem {
     /// Its shape.

@@ -1,9 +1,9 @@
-//! One mesh of a tube on its way: pressure first, then the punch, step by step.
+//! The load path of a tube on one mesh: pressure first, then the punch, step by step.
 //!
 //! The face is a plane across the punch's axis that moves inward from the outermost point of the
 //! pressurised tube. A node that began within the punch's radius is activated when the plane passes it; it
 //! then has the plane's x, and where it sticks also the y and z at which it was activated. A sliding node
-//! that would pull is let go. Force on the tissue: four times the reactions' sum.
+//! under tension is released. Force on the tissue: four times the reactions' sum.
 
 use crate::contact::Friction;
 use std::ops::ControlFlow;
@@ -33,13 +33,13 @@ pub(super) struct Punching<'a> {
     punch: &'a TubePunch,
     /// Nodes under the punch, ascending.
     face: Vec<usize>,
-    /// Held by ends and planes of symmetry.
+    /// Prescribed by ends and planes of symmetry.
     rest: Vec<Option<f64>>,
     now: ConvergedIncrement,
     before: Option<ConvergedIncrement>,
     /// Outermost place of the pressurised tube [m].
     top: f64,
-    /// How far it goes next [m].
+    /// Step lengths [m].
     steps: Steps,
 }
 
@@ -48,8 +48,8 @@ pub(super) struct Punching<'a> {
 struct ConvergedIncrement {
     depth: f64,
     state: FiniteElementState,
-    /// Where each node of the face was activated [m], (y, z).
-    caught: Vec<Option<[f64; 2]>>,
+    /// Place at which each node of the face was activated [m], (y, z).
+    activated: Vec<Option<[f64; 2]>>,
 }
 
 impl ConvergedIncrement {
@@ -92,7 +92,7 @@ impl<'a> Punching<'a> {
             now: ConvergedIncrement {
                 depth: 0.0,
                 state: FiniteElementState::at_rest(&model),
-                caught: vec![None; face.len()],
+                activated: vec![None; face.len()],
             },
             before: None,
             top: problem.tube.outer_radius,
@@ -146,7 +146,7 @@ impl<'a> Punching<'a> {
         Ok(())
     }
 
-    /// How far the pressure has moved the outermost point [m].
+    /// Displacement of the outermost point by the pressure [m].
     pub(super) fn rise(&self, outer_radius: f64) -> f64 {
         self.top - outer_radius
     }
@@ -172,14 +172,14 @@ impl<'a> Punching<'a> {
         }
         // The last solution may be that of a step that failed.
         let cavity = self.cavity.clone();
-        let supports = self.supports(&self.now.caught, self.now.depth);
+        let supports = self.supports(&self.now.activated, self.now.depth);
         let supports = supports.press(&cavity, self.punch.pressure);
         let (state, workspace) = (&self.now.state.unknowns, &mut self.workspace);
         let assembled = super::super::newton::assemble(&self.model, &supports, state, workspace);
         debug_assert!(assembled.is_ok(), "an equilibrium was found here");
-        let caught = self.face.iter().zip(&self.now.caught);
-        Ok(caught
-            .filter(|(_, caught)| caught.is_some())
+        let active = self.face.iter().zip(&self.now.activated);
+        Ok(active
+            .filter(|(_, activated)| activated.is_some())
             .map(|(&node, _)| -4.0 * self.workspace.reaction(&self.model, node).x)
             .sum())
     }
@@ -206,10 +206,10 @@ impl<'a> Punching<'a> {
         self.model.mesh().nodes[node] + state.displacement(&self.model, node)
     }
 
-    fn supports(&self, caught: &[Option<[f64; 2]>], depth: f64) -> Supports<'static> {
+    fn supports(&self, activated: &[Option<[f64; 2]>], depth: f64) -> Supports<'static> {
         let mut held = self.rest.clone();
-        for (&node, caught) in self.face.iter().zip(caught) {
-            if let Some([y, z]) = caught {
+        for (&node, activated) in self.face.iter().zip(activated) {
+            if let Some([y, z]) = activated {
                 let rest = self.model.mesh().nodes[node];
                 held[3 * node] = Some(self.top - depth - rest.x);
                 if self.punch.face == Friction::Bonded {
@@ -226,18 +226,18 @@ impl<'a> Punching<'a> {
     }
 
     /// An equilibrium at `depth`, contacts included, and the number of solutions that it took.
-    fn stand_at(&mut self, depth: f64) -> Result<(ConvergedIncrement, usize), Failure> {
+    fn increment_at(&mut self, depth: f64) -> Result<(ConvergedIncrement, usize), Failure> {
         let mut next = ConvergedIncrement {
             depth,
             state: self.predict(depth),
-            caught: self.now.caught.clone(),
+            activated: self.now.activated.clone(),
         };
         // The plane may already be past nodes that nothing has pushed yet.
         let state = self.now.state.clone();
         self.catch(&state, &mut next, false);
         let (mut controls, cavity) = (0, self.cavity.clone());
         for round in 0..ROUNDS {
-            let supports = self.supports(&next.caught, depth);
+            let supports = self.supports(&next.activated, depth);
             let supports = supports.press(&cavity, self.punch.pressure);
             let done = equilibrate(&self.model, &supports, &mut next.state, &mut self.workspace)?;
             controls += done.iterations;
@@ -250,7 +250,7 @@ impl<'a> Punching<'a> {
         Err(Failure::NotConverged)
     }
 
-    /// Where the body would be at `depth` if it went on as before.
+    /// The state extrapolated to `depth`.
     fn predict(&self, depth: f64) -> FiniteElementState {
         let before = self.before.as_ref().map(ConvergedIncrement::reached);
         FiniteElementState {
@@ -266,20 +266,20 @@ impl<'a> Punching<'a> {
         let mut changed = false;
         for (place, &node) in self.face.iter().enumerate() {
             let now = self.place(state, node);
-            let caught = &mut next.caught[place];
-            if caught.is_none() && now.x > face + tiny {
+            let activated = &mut next.activated[place];
+            if activated.is_none() && now.x > face + tiny {
                 let then = self.place(&self.now.state, node);
                 let outside = (self.top - self.now.depth - then.x).max(0.0);
                 let part = outside / (outside + (now.x - face));
                 let [y, z] = [1, 2].map(|i| then[i] + part * (now[i] - then[i]));
-                *caught = Some([y, z]);
+                *activated = Some([y, z]);
                 changed = true;
-            } else if caught.is_some()
+            } else if activated.is_some()
                 && may
                 && self.punch.face == Friction::Frictionless
                 && self.workspace.reaction(&self.model, node).x > 0.0
             {
-                *caught = None;
+                *activated = None;
                 changed = true;
             }
         }
@@ -327,7 +327,7 @@ impl Increments for Punching<'_> {
     }
 
     fn advance(&mut self, goal: f64) -> Result<usize, Failure> {
-        let (next, solutions) = self.stand_at(goal)?;
+        let (next, solutions) = self.increment_at(goal)?;
         self.before = Some(std::mem::replace(&mut self.now, next));
         Ok(solutions)
     }

@@ -1,10 +1,11 @@
-//! The finite spheres without calibration: particles, weights, integration, and where the organ is held.
+//! The finite spheres without calibration: particles, weights, integration, and the fixed boundary of
+//! the organ.
 //!
-//! The tip's radius a is the unit of length. Particles lie in half a ball, which [`region`] maps to the
-//! organ out to where it is held, to infinity on a half-space. Displacement is
-//! u = b Σ φ_J(y) U_J + h Σ φ_J(y) c_J u_p(x): moving least squares times b = 1 − σ², and in each sphere the
-//! field u_p of a flat punch ([`punch`]), whose strain is infinite at the tip's edge, times h, which vanishes
-//! where the organ is held. Galerkin's condition gives K.
+//! The tip's radius a is the unit of length. Particles lie in half a ball, which [`region`] maps to the organ
+//! out to its fixed boundary, to infinity on a half-space. Displacement is u = b Σ φ_J(y) U_J + h Σ φ_J(y)
+//! c_J u_p(x): moving least squares times b = 1 − σ², and in each sphere the field u_p of a flat punch
+//! ([`punch`]), whose strain is infinite at the tip's edge, times h, which vanishes on the fixed boundary.
+//! Galerkin's condition gives K.
 //!
 //! A flat tip that slips presses with p = (p₀ + p₁ r²/a²)/√(1 − r²/a²). The two unknown p make the mean of
 //! u over either part of the load equal to the depth; the force is their sum. Nothing is fitted.
@@ -153,10 +154,10 @@ impl Uncalibrated {
     /// h u_p and its gradient.
     fn enrichment_at(&self, mapped: &Mapped) -> (Vec3, nalgebra::Matrix3<f64>) {
         let (displacement, by_flat) = punch(&mapped.flat, self.law.poissons_ratio());
-        let held = 1.0 - mapped.distance * mapped.inverse_held;
-        let by_place =
-            by_flat * mapped.flat_by_place * held + displacement * mapped.held_slope.transpose();
-        (displacement * held, by_place)
+        let factor = 1.0 - mapped.distance * mapped.inverse_fixed_distance;
+        let by_place = by_flat * mapped.flat_by_place * factor
+            + displacement * mapped.factor_gradient.transpose();
+        (displacement * factor, by_place)
     }
 
     fn write_loads(&self, workspace: &mut UncalibratedWorkspace) {
@@ -175,14 +176,14 @@ impl Uncalibrated {
             };
             functions.evaluate_values(&self.template.particles, &in_half_ball(&place));
             let decay = 1.0 - place.distance.powi(2);
-            let held = region.held_factor(point.radius, point.azimuth, 1.0);
+            let factor = region.vanishing_factor(point.radius, point.azimuth, 1.0);
             let parts = [point.weight, point.weight * point.radius.powi(2)];
             for (&j, &value) in functions.particles.iter().zip(&functions.values) {
                 for (k, part) in parts.into_iter().enumerate() {
                     // Into the organ; the punch's own displacement is one.
                     loads[(3 * j as usize + 2, k)] -= part * decay * value;
                     if self.enriched {
-                        loads[(3 * count + j as usize, k)] += part * held * value;
+                        loads[(3 * count + j as usize, k)] += part * factor * value;
                     }
                 }
             }
@@ -238,7 +239,7 @@ impl Uncalibrated {
         let decay = 1.0 - y.norm_squared();
         let carried = self.enriched.then(|| {
             let (displacement, _) = punch(&region.map(&place).flat, self.law.poissons_ratio());
-            displacement * region.held_factor(radius, azimuth, fraction)
+            displacement * region.vanishing_factor(radius, azimuth, fraction)
         });
         let mut moved = Vec3::zeros();
         let coefficients = &workspace.coefficients;

@@ -1,5 +1,5 @@
 //! The displacement under a flat punch of unit radius without friction on a half-space, which every
-//! finite sphere carries beside its polynomials.
+//! finite sphere carries in addition to its polynomials.
 //!
 //! With V = (2/π) Im ln(R + ζ), ζ = z + i, R² = ρ² + ζ², the potential of the punch [Sneddon], and χ its
 //! integral along the depth z, 2 (1 − ν) u = −(1 − 2ν) ∇ₕχ − z ∇V + 2 (1 − ν) V e_z, ∇ₕ being along the surface.
@@ -61,7 +61,7 @@ pub(super) fn punch(x: &Vec3, poissons_ratio: f64) -> (Vec3, Matrix3<f64>) {
 mod tests {
     use super::*;
 
-    /// Judges: the rigid disc, (2/π) asin(1/ρ) beside it, and central differences.
+    /// Judges: the rigid disc, (2/π) asin(1/ρ) outside it, and central differences.
     #[test]
     fn punch_field_is_the_closed_form() {
         for nu in [0.0, 0.3, 0.49] {
@@ -81,7 +81,7 @@ mod tests {
         }
     }
 
-    /// Judge: the field equations, (1 − 2ν) ∇²u + ∇(∇·u) = 0, and no traction beside the punch.
+    /// Judge: the field equations, (1 − 2ν) ∇²u + ∇(∇·u) = 0, and no traction outside the punch.
     #[test]
     fn punch_field_is_in_equilibrium() {
         for nu in [0.0, 0.3, 0.49] {

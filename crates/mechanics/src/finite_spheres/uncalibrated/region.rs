@@ -2,7 +2,7 @@
 //!
 //! A template place is (σ, φ, f): distance from the contact in the half ball, azimuth, fraction of the
 //! polar angle. The organ's distance r obeys 1/r = (1 − σ²)/(c σ) + 1/b(f, φ): far away r ≈ c/(2 (1 − σ)),
-//! so that a field that falls as 1/r is linear in σ, and σ = 1 is where the organ is held, at the
+//! so that a field that falls as 1/r is linear in σ, and σ = 1 is the fixed boundary of the organ, at the
 //! distance b, infinite on a half-space. The polar angle is f ψ(r, φ), with ψ that of the surface.
 
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -28,7 +28,7 @@ const LEAST: f64 = 0.2;
 pub(super) struct Region {
     /// κ₁₁, κ₁₂, κ₂₂ [1/tip radius].
     pub(super) curvature: Vector3<f64>,
-    /// Distance along the inward normal to where the organ is held [tip radii].
+    /// Distance along the inward normal to the fixed base of the organ [tip radii].
     pub(super) thickness: f64,
 }
 
@@ -40,13 +40,13 @@ pub(super) struct TemplatePlace {
     pub(super) fraction: f64,
 }
 
-/// Where a place of the template lies in the organ, with the derivatives that integration needs.
+/// A place of the template mapped into the organ, with the derivatives that integration needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Mapped {
     /// Distance from the contact [tip radii].
     pub(super) distance: f64,
-    /// Distance at which the organ is held in this direction, inverse [1/tip radius].
-    pub(super) inverse_held: f64,
+    /// 1/b, b being the distance of the fixed boundary in this direction [1/tip radius].
+    pub(super) inverse_fixed_distance: f64,
     /// The place with the surface bent flat [tip radii]: where the punch's field is evaluated.
     pub(super) flat: Vec3,
     /// |det ∂x/∂(σ, φ, f)|.
@@ -55,8 +55,8 @@ pub(super) struct Mapped {
     pub(super) template_by_place: Matrix3<f64>,
     /// ∂(flat)/∂x.
     pub(super) flat_by_place: Matrix3<f64>,
-    /// ∇(1 − r/b), the factor that vanishes where the organ is held.
-    pub(super) held_slope: Vec3,
+    /// ∇(1 − r/b), the factor that vanishes on the fixed boundary.
+    pub(super) factor_gradient: Vec3,
 }
 
 /// y of a place in the half ball.
@@ -82,8 +82,8 @@ impl Region {
         )
     }
 
-    /// 1/b and its derivatives by φ and f; zero where the organ is not held.
-    fn inverse_held(&self, azimuth: f64, fraction: f64) -> [f64; 3] {
+    /// 1/b and its derivatives by φ and f; zero where the organ is not fixed.
+    fn inverse_fixed_distance(&self, azimuth: f64, fraction: f64) -> [f64; 3] {
         if !self.thickness.is_finite() {
             return [0.0; 3];
         }
@@ -95,9 +95,9 @@ impl Region {
         }
         // Smooth at zero. At κ t = 1 the base comes nearer below the contact by 4 · 10⁻⁴.
         let least = LEAST * (up.min(1.0 / self.thickness) / self.thickness).sqrt();
-        let held = (q.powi(4) + least.powi(4)).powf(0.25);
-        let slope = (q / held).powi(3);
-        [held, slope * by_azimuth, slope * by_fraction]
+        let inverse_b = (q.powi(4) + least.powi(4)).powf(0.25);
+        let slope = (q / inverse_b).powi(3);
+        [inverse_b, slope * by_azimuth, slope * by_fraction]
     }
 
     /// One over the distance of the base and its derivatives by φ and f; zero where the base is not met.
@@ -132,22 +132,22 @@ impl Region {
         ]
     }
 
-    /// Distance in the half ball of the place at `radius` [tip radii]; none beyond where the organ is held.
+    /// Distance in the half ball of the place at `radius` [tip radii]; none beyond the fixed boundary.
     pub(super) fn template_distance(
         &self,
         radius: f64,
         azimuth: f64,
         fraction: f64,
     ) -> Option<f64> {
-        let [held, ..] = self.inverse_held(azimuth, fraction);
-        let inverse = 1.0 / radius - held;
+        let [inverse_b, ..] = self.inverse_fixed_distance(azimuth, fraction);
+        let inverse = 1.0 / radius - inverse_b;
         (inverse > 0.0).then(|| half_ball_distance(1.0 / inverse))
     }
 
     /// 1 − r/b at a place.
-    pub(super) fn held_factor(&self, radius: f64, azimuth: f64, fraction: f64) -> f64 {
-        let [held, ..] = self.inverse_held(azimuth, fraction);
-        (1.0 - radius * held).max(0.0)
+    pub(super) fn vanishing_factor(&self, radius: f64, azimuth: f64, fraction: f64) -> f64 {
+        let [inverse_b, ..] = self.inverse_fixed_distance(azimuth, fraction);
+        (1.0 - radius * inverse_b).max(0.0)
     }
 
     /// Distance, azimuth and fraction of a place `x` [tip radii]; above the surface that of the surface.
@@ -166,14 +166,15 @@ impl Region {
             azimuth,
             fraction,
         } = *place;
-        let [held, held_by_azimuth, held_by_fraction] = self.inverse_held(azimuth, fraction);
-        let inverse = (1.0 - sigma * sigma) / (SCALE * sigma) + held;
+        let [inverse_b, inverse_b_by_azimuth, inverse_b_by_fraction] =
+            self.inverse_fixed_distance(azimuth, fraction);
+        let inverse = (1.0 - sigma * sigma) / (SCALE * sigma) + inverse_b;
         let r = 1.0 / inverse;
         let by_inverse = -r * r;
         let radial = Vec3::new(
             -by_inverse * (1.0 + sigma * sigma) / (SCALE * sigma * sigma),
-            by_inverse * held_by_azimuth,
-            by_inverse * held_by_fraction,
+            by_inverse * inverse_b_by_azimuth,
+            by_inverse * inverse_b_by_fraction,
         );
         let (surface, by_radius, by_azimuth) = self.surface_angle(r, azimuth);
         let polar = fraction * surface;
@@ -186,15 +187,16 @@ impl Region {
         let ball = columns(sigma, Vec3::x(), flat_polar, flat_turning, azimuth);
         let inverted = by_template.try_inverse();
         let inverted = inverted.unwrap_or_else(|| Matrix3::repeat(f64::NAN));
-        let held_slope = radial * -held - Vec3::new(0.0, held_by_azimuth, held_by_fraction) * r;
+        let factor_gradient =
+            radial * -inverse_b - Vec3::new(0.0, inverse_b_by_azimuth, inverse_b_by_fraction) * r;
         Mapped {
             distance: r,
-            inverse_held: held,
+            inverse_fixed_distance: inverse_b,
             flat: spherical(r, flat_polar, azimuth),
             volume: by_template.determinant().abs(),
             template_by_place: ball * inverted,
             flat_by_place: flat * inverted,
-            held_slope: inverted.tr_mul(&held_slope),
+            factor_gradient: inverted.tr_mul(&factor_gradient),
         }
     }
 }

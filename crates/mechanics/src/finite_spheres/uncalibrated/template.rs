@@ -12,7 +12,7 @@ use crate::gauss::gauss_points;
 /// Radius of a sphere in mean distances of the six nearest particles.
 const SUPPORT: f64 = 2.5;
 
-/// The outermost particles sit half a spacing inside of where the organ is held.
+/// The outermost particles sit half a spacing inside of the fixed boundary.
 const LAST_SPACING: f64 = 0.5;
 
 /// Points across the tip: Gauss in the angle β of r = a sin β, even around.

@@ -1,5 +1,5 @@
-//! Many right sides at once: rows of them are met together, so that a factor is read once for all, and
-//! what is zero in all of them is passed over.
+//! Many right sides at once: their rows are processed together, so that a factor is read once for all,
+//! and rows that are zero in all of them are skipped.
 
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{
@@ -21,7 +21,7 @@ pub(super) struct Supernode<'a> {
 }
 
 impl Factors {
-    /// Where each unknown stands in the order of elimination.
+    /// Place of each unknown in the order of elimination.
     pub(crate) fn places(&self) -> Vec<usize> {
         let size = self.symbolic.nrows();
         let order = self.symbolic.perm();

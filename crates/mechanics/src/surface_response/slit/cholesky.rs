@@ -4,7 +4,7 @@ use super::traction::MODES;
 
 /// The matrix in factors. The last block's diagonal may change, for it keeps its Schur complement.
 #[derive(Debug)]
-pub(super) struct Grown {
+pub(super) struct GrowingCholesky {
     /// Rows of L, lower triangles one after the other.
     factor: Vec<f64>,
     rows: usize,
@@ -12,7 +12,7 @@ pub(super) struct Grown {
     new: Vec<[f64; MODES]>,
 }
 
-/// What a block's rows are without those before it.
+/// The rows of a block without the blocks before it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Block {
     /// H − L Lᵀ of the columns before it.
@@ -21,15 +21,15 @@ pub(super) struct Block {
     pub(super) alone: [f64; MODES],
 }
 
-/// A row whose pivot is below this part of what its facet alone would have is locked [-]: H does not tell its jump
-/// from those before it, as where a slit is cut again. Of a long straight slit pivots are 0.2 and more.
+/// A row whose pivot is below this part of what its facet alone would have is locked [-]: H does not distinguish
+/// its jump from those before it, as where a slit is cut again. Of a long straight slit pivots are 0.2 and more.
 const LEAST_PIVOT: f64 = 0.1;
 
 fn start(row: usize) -> usize {
     row * (row + 1) / 2
 }
 
-impl Grown {
+impl GrowingCholesky {
     pub(super) fn new(most: usize) -> Self {
         Self {
             factor: vec![0.0; start(most)],
@@ -43,7 +43,7 @@ impl Grown {
         &mut self.new
     }
 
-    /// Eliminates what is before them from new rows.
+    /// Eliminates the earlier rows from new rows.
     pub(super) fn eliminate(&mut self, rows: std::ops::Range<usize>, alone: [f64; MODES]) -> Block {
         let (first, count) = (rows.start, rows.len());
         let (above, below) = self.factor.split_at_mut(start(first));
@@ -134,7 +134,7 @@ impl Grown {
     }
 }
 
-/// Sums of a row of L times each new row; in two halves, so that none waits for the other.
+/// Sums of a row of L times each new row; in two halves, which do not depend on each other.
 fn products(row: &[f64], new: &[[f64; MODES]]) -> [f64; MODES] {
     let mut sums = [[0.0; MODES]; 2];
     let (pairs, news) = (row.chunks_exact(2), new.chunks_exact(2));

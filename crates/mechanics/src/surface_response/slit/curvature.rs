@@ -1,4 +1,4 @@
-//! What the curvature of a tube's wall changes for a slit along it: tables of a shell less a plate.
+//! Effect of the curvature of a tube's wall on a slit along it: tables of a shell less a plate.
 //!
 //! H and T of a shell less those of a plate are smooth: their inverse Fourier integrals are tables over the distance,
 //! for one ν and some radii. Lengths are taken in thicknesses and √(R w), by which tables of neighbouring radii are
@@ -37,7 +37,7 @@ const SIDE: usize = 13;
 const FORCE_POWERS: [f64; 4] = [0.0, 0.5, 1.0, 1.0];
 const POWERS: [f64; 6] = [1.0, 1.0, 1.0, 1.0, 2.0, 1.5];
 
-/// What curvature changes, for one ν.
+/// Effect of curvature, for one ν.
 #[derive(Debug)]
 pub(super) struct Curvature {
     /// In H, over the distance.
@@ -46,12 +46,12 @@ pub(super) struct Curvature {
     forces: Vec<[[[f64; 4]; SIDE]; SIDE]>,
 }
 
-/// What a slit is in.
+/// The medium around a slit.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Medium<'a> {
     /// Poisson's ratio [-].
     pub(super) nu: f64,
-    /// What the curvature of a wall changes.
+    /// Effect of the curvature of a wall.
     pub(super) tube: &'a Curvature,
 }
 
@@ -73,7 +73,8 @@ impl Curvature {
         whole
     }
 
-    /// What curvature adds across and along from a unit force on a face (1 outer, −1 inner) [1/m]: N of a force outward, V of it and of one across.
+    /// Increments by curvature across and along from a unit force on a face (1 outer, −1 inner) [1/m]: N of a force outward, V of it and of one
+    /// across.
     pub(super) fn of_force(
         &self,
         curvature: f64,
@@ -109,8 +110,8 @@ impl Curvature {
         ]
     }
 
-    /// What a unit jump on a unit length changes in the tractions on another, `away` from it along the slit, over E
-    /// [1/m]: rows and columns are the modes of a facet.
+    /// Effect of curvature on the tractions of a unit jump on a unit length at another, `away` from it along the
+    /// slit, over E [1/m]: rows and columns are the modes of a facet.
     pub(super) fn jump_influence(&self, curvature: f64, thickness: f64, away: f64) -> Matrix5<f64> {
         let slim = 1.0 / (curvature.abs() * thickness).max(1e-6);
         let [nn, nh, hh, ss, ww, sw] = self.entries(slim.max(1.0), away.abs() / thickness);

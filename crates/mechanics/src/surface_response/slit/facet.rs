@@ -15,10 +15,10 @@ const THROUGH: f64 = 0.98;
 /// Ends nearer than this part of a length belong together [-].
 const TOGETHER: f64 = 0.35;
 
-/// Where the thickness of a wall is looked for, in edges [-].
+/// Offsets of the rays that measure the thickness of a wall, in edges [-].
 const BESIDE: [[f64; 2]; 4] = [[0.0, 0.0], [0.037, 0.021], [-0.029, 0.041], [0.011, -0.043]];
 
-/// A straight piece of a slit, as it is asked for.
+/// A straight piece of a slit, as requested.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlitFacet {
     /// The middle of its edge on the surface at rest [m].
@@ -40,14 +40,14 @@ pub struct CutBody<'a, T> {
     pub surface: &'a Surface,
     /// Its boxes.
     pub tree: &'a AabbTree,
-    /// How it answers forces, uncut.
+    /// Its response to forces, uncut.
     pub response: &'a SurfaceResponse<T>,
 }
 
-/// What a facet cuts.
+/// The geometry that a facet cuts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum CrackGeometry {
-    /// A solid, to a depth that is small beside it [m].
+    /// A solid, to a depth that is small relative to it [m].
     Solid { depth: f64 },
     /// A wall of a thickness [m], to a part of it [-]; one is through.
     Wall { thickness: f64, part: f64 },
@@ -60,7 +60,7 @@ pub(super) struct Facet {
     pub(super) frame: Matrix3<f64>,
     pub(super) middle: Vec3,
     pub(super) length: f64,
-    pub(super) under: CrackGeometry,
+    pub(super) geometry: CrackGeometry,
     /// Triangles at its middle: on the surface, and on the other side of a wall.
     pub(super) outer: TriangleId,
     pub(super) inner: Option<TriangleId>,
@@ -71,7 +71,7 @@ pub(super) struct Facet {
 }
 
 impl Facet {
-    /// The facet that is asked for, on the surface of a body.
+    /// The requested facet on the surface of a body.
     pub(super) fn new<T: Precision>(
         body: &CutBody<'_, T>,
         asked: &SlitFacet,
@@ -94,12 +94,12 @@ impl Facet {
             return Err(fault("a facet's normal points into the body"));
         }
         let middle = nearest.on.position;
-        let (under, inner) = under(body, &middle, &outward, asked);
+        let (geometry, inner) = crack_geometry(body, &middle, &outward, asked);
         Ok(Self {
             frame: Matrix3::from_columns(&[along.cross(&outward), along, outward]),
             middle,
             length: asked.length,
-            under,
+            geometry,
             outer: nearest.triangle,
             inner,
             curvature: 0.0,
@@ -109,7 +109,7 @@ impl Facet {
 
     /// Learns how the wall bends from its outer surface.
     pub(super) fn bend(&mut self, outer: &Gradient) {
-        if let CrackGeometry::Wall { thickness, .. } = self.under {
+        if let CrackGeometry::Wall { thickness, .. } = self.geometry {
             let rest = (1.0 - 0.5 * thickness * outer.curvature).max(0.5);
             self.curvature = (outer.curvature / rest).clamp(-1.0 / thickness, 1.0 / thickness);
         }
@@ -117,7 +117,7 @@ impl Facet {
 
     /// How many rows it has.
     pub(super) fn modes(&self) -> usize {
-        match self.under {
+        match self.geometry {
             CrackGeometry::Solid { .. } => 3,
             CrackGeometry::Wall { .. } => 5,
         }
@@ -142,7 +142,7 @@ impl Facet {
 
     /// Depth of the slit in a solid, or the thickness of the wall [m].
     pub(super) fn depth(&self) -> f64 {
-        match self.under {
+        match self.geometry {
             CrackGeometry::Solid { depth } => depth,
             CrackGeometry::Wall { thickness, .. } => thickness,
         }
@@ -160,7 +160,7 @@ fn edge(surface: &Surface, triangle: TriangleId) -> f64 {
     (b - a).norm().max((c - b).norm()).max((a - c).norm())
 }
 
-fn under<T: Precision>(
+fn crack_geometry<T: Precision>(
     body: &CutBody<'_, T>,
     middle: &Vec3,
     outward: &Vec3,
@@ -175,7 +175,7 @@ fn under<T: Precision>(
     let along = asked.along.cross(outward);
     let along = unit(&along).unwrap_or_default();
     let across = along.cross(outward);
-    // A ray that meets an edge may pass between its triangles; another one beside it does not.
+    // A ray that meets an edge may pass between its triangles; a shifted one does not.
     let hit = BESIDE.into_iter().find_map(|[p, q]| {
         let from = middle - outward * skip + (along * p + across * q) * size;
         let hit = body.tree.cast(mesh, &from, &-outward, reach);

@@ -9,8 +9,8 @@ use super::facet::{CrackGeometry, Facet};
 use crate::Vec3;
 use crate::boundary_elements::Precision;
 
-/// Radius of the triangles that are taken, in lengths √(2 A) of one; and in a wall, whose faces do not tell how it
-/// bends nearer to a force, in thicknesses, whichever is more [-].
+/// Radius of the triangles that are taken, in lengths √(2 A) of one; and in a wall, whose faces do not resolve its
+/// bending nearer to a force, in thicknesses, whichever is more [-].
 const REACH: f64 = 1.8;
 const IN_WALLS: f64 = 1.5;
 
@@ -19,7 +19,7 @@ const MOST_FOUND: usize = 160;
 /// so many are taken at most.
 pub(super) const MOST: usize = 16;
 
-/// How a triangle's displacement counts in σ_nn and σ_ns over E at a place [1/m].
+/// Weights of a triangle's displacement in σ_nn and σ_ns over E at a place [1/m].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stress {
     touch: TouchId,
@@ -36,7 +36,7 @@ pub(super) struct Gradient {
     pub(super) parts: Vec<Stress>,
     /// Length √(2 A) of its triangles [m].
     pub(super) size: f64,
-    /// How far it reaches [m].
+    /// Its reach [m].
     pub(super) reach: f64,
     /// Curvature of the surface across the facet [1/m].
     pub(super) curvature: f64,
@@ -55,7 +55,7 @@ impl Gradient {
     }
 
     /// For the stress at `place` [m] near the triangle `start`, on planes across a facet; nothing where the
-    /// triangles do not tell.
+    /// triangles do not determine it.
     pub(super) fn prepare<T: Precision>(
         &mut self,
         surface: &Surface,
@@ -75,7 +75,7 @@ impl Gradient {
             (sum + area, n + 1.0)
         });
         self.size = f64::sqrt(2.0 * sum / count);
-        let in_wall = match facet.under {
+        let in_wall = match facet.geometry {
             CrackGeometry::Solid { .. } => 0.0,
             CrackGeometry::Wall { thickness, .. } => IN_WALLS * thickness,
         };

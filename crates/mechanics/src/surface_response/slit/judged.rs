@@ -1,16 +1,17 @@
-//! What of a slit lies outside of what finite elements have judged.
+//! Warnings for slits outside of the range validated with finite elements.
 //!
 //! *How we know*: `slit::the_rim_is_that_of_finite_elements`, `slit_held_out::…`; the numbers stand in
 //! `docs/theory/cutting.md`.
 //!
-//! *Limits*: knows shapes only. Poisson's ratio was judged from 0.3 to 0.45, and walls at least half as thick as the
-//! tip is wide.
+//! *Limits*: checks shapes only. Poisson's ratio was validated from 0.3 to 0.45, and walls at least half as thick as
+//! the tip is wide.
 
 use super::Slit;
 use super::facet::CrackGeometry;
 use crate::boundary_elements::Precision;
 
-/// Least radius of the middle of a wall over its thickness [-]: 2.5 was judged, and triangles tell a radius to a fifth.
+/// Least radius of the middle of a wall over its thickness [-]: 2.5 was validated, and triangles give a radius to a
+/// fifth.
 const LEAST_RADIUS: f64 = 2.0;
 /// Greatest of a tube that is cut through [-]: at 4.5 a rim was met within a quarter, at 5.5 it was 36 % too stiff.
 const GREATEST_RADIUS: f64 = 5.0;
@@ -23,15 +24,15 @@ const LONGEST_THROUGH: f64 = 5.0;
 const LONGEST: f64 = 7.3;
 
 impl<T: Precision> Slit<T> {
-    /// What of the slit lies outside of what finite elements have judged, or was found to be wrong by more than a
-    /// quarter, as sentences.
+    /// Warnings, as sentences, where the slit lies outside of the range validated with finite elements, or an
+    /// error of more than a quarter was found.
     pub fn warnings(&self) -> Vec<String> {
         let (mut roundest, mut slimmest, mut hollow) = (f64::INFINITY, 0.0_f64, false);
         // Lengths over √(R w) and in metres: of the facets that hang together, and the longest that is too long.
         let (mut run, mut longest) = ([0.0; 2], [0.0; 2]);
         for (number, cut) in self.facets.iter().enumerate() {
             let facet = &cut.facet;
-            let CrackGeometry::Wall { thickness, part } = facet.under else {
+            let CrackGeometry::Wall { thickness, part } = facet.geometry else {
                 continue;
             };
             let radius = 1.0 / (facet.curvature.abs() * thickness).max(1e-6);

@@ -1,4 +1,4 @@
-//! H: what a unit jump on one facet pulls another together with, by displacement discontinuities [Crouch and
+//! H: the closing traction on a facet by a unit jump on another, by displacement discontinuities [Crouch and
 //! Starfield 1983].
 
 use std::f64::consts::PI;
@@ -38,7 +38,7 @@ const ALONE: f64 = 1.0;
 const AT_BENT_END: f64 = 1.125;
 const BENT_ALONE: f64 = 22.5;
 
-/// Between layers that do not know one another and a thin plate, where bending is (3 + ν)/(1 + ν) times as
+/// Between layers that do not interact and a thin plate, where bending is (3 + ν)/(1 + ν) times as
 /// stiff [-].
 const OF_BENDING: f64 = 0.5;
 
@@ -67,7 +67,7 @@ pub(super) fn pivots(block: &Matrix5<f64>, modes: usize) -> [f64; 5] {
     })
 }
 
-/// H of a facet with itself over E [m], and what its diagonal is raised by where one end is free, or both.
+/// H of a facet with itself over E [m], and the increments of its diagonal where one end is free, or both.
 pub(super) fn own(medium: Medium<'_>, facet: &Facet) -> (Matrix5<f64>, [[f64; 5]; 2]) {
     let mut matrix = pull(medium, facet, facet);
     let mut ends = [[0.0; 5]; 2];
@@ -80,7 +80,7 @@ pub(super) fn own(medium: Medium<'_>, facet: &Facet) -> (Matrix5<f64>, [[f64; 5]
         ends[0][mode] = one * matrix[(mode, mode)];
         ends[1][mode] = both * matrix[(mode, mode)];
     }
-    if let CrackGeometry::Wall { part, .. } = facet.under
+    if let CrackGeometry::Wall { part, .. } = facet.geometry
         && part < 1.0
     {
         matrix += spring::ligament(medium.nu, part) * facet.length;
@@ -91,7 +91,7 @@ pub(super) fn own(medium: Medium<'_>, facet: &Facet) -> (Matrix5<f64>, [[f64; 5]
 /// Less the work of the traction on the modes of `seen` by unit jumps of `jumping`.
 fn pull(medium: Medium<'_>, seen: &Facet, jumping: &Facet) -> Matrix5<f64> {
     let Medium { nu, tube } = medium;
-    match (seen.under, jumping.under) {
+    match (seen.geometry, jumping.geometry) {
         (CrackGeometry::Solid { depth }, CrackGeometry::Solid { depth: other }) => {
             let block = in_solid(nu, seen, depth, jumping, other);
             let mut matrix = Matrix5::zeros();

@@ -8,14 +8,14 @@ use super::{Cut, Slit};
 use crate::Vec3;
 use crate::boundary_elements::Precision;
 
-/// What a unit force along each axis, however spread, does to a slit: L⁻¹ T w. It is that of the slit as it was
-/// when the load was put on.
+/// The load vector on a slit of a unit force along each axis, however spread: L⁻¹ T w. It belongs to the slit
+/// at the time when the load was applied.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SlitLoad {
     rows: Vec<Vec3>,
     /// φ of each facet, of a spot.
     fades: Vec<f64>,
-    /// What the rim beside a spot yields by itself, times E [1/m].
+    /// Compliance of the rim next to a spot by itself, times E [1/m].
     rim: Matrix3<f64>,
 }
 
@@ -42,8 +42,8 @@ impl<T: Precision> Slit<T> {
         }
     }
 
-    /// Puts a force on the slit that triangles bear in `shares`. A force that is narrower than they are is told
-    /// by its `spot`: near the slit its place counts, and on which side of it.
+    /// Applies a force to the slit that triangles bear in `shares`. The `spot` gives the place of a force
+    /// narrower than they are: near the slit its place and side matter.
     pub fn put(
         &self,
         response: &SurfaceResponse<T>,
@@ -56,7 +56,7 @@ impl<T: Precision> Slit<T> {
         load.rim = Matrix3::zeros();
         load.fades.clear();
         load.fades.resize(self.facets.len(), 0.0);
-        let mut beside = 0.0;
+        let mut covered = 0.0;
         for (cut, fade) in self.facets.iter().zip(&mut load.fades) {
             let Some(spot) = spot else {
                 break;
@@ -74,7 +74,7 @@ impl<T: Precision> Slit<T> {
                 *place += found;
             }
             if let Some((part, rim)) = cut.facet.rim_of(cut.reach, spot) {
-                beside += part;
+                covered += part;
                 load.rim += rim * part;
             }
         }
@@ -108,16 +108,16 @@ impl<T: Precision> Slit<T> {
             }
         }
         // Squared: at its end a slit opens less than half as far.
-        load.rim *= beside.clamp(0.0, 1.0);
+        load.rim *= covered.clamp(0.0, 1.0);
         self.h.forward(&mut load.rows);
     }
 
-    /// What the slit adds to what a load yields to itself, times E [1/m]: symmetric, never negative.
+    /// Compliance that the slit adds to a load, times E [1/m]: symmetric, never negative.
     pub fn further(&self, load: &SlitLoad) -> Matrix3<f64> {
         self.between(load, load) + load.rim
     }
 
-    /// What the slit adds to [`SurfaceResponse::between`] two loads, times E [1/m]: transposed when they are
+    /// The slit's part of [`SurfaceResponse::between`] two loads, times E [1/m]: transposed when they are
     /// exchanged.
     pub fn between(&self, moved: &SlitLoad, loaded: &SlitLoad) -> Matrix3<f64> {
         let pairs = moved.rows.iter().zip(&loaded.rows);
@@ -126,7 +126,7 @@ impl<T: Precision> Slit<T> {
             .sum()
     }
 
-    /// What the slit adds to [`SurfaceResponse::compliance`] of two triangles, times E [1/m]; `scratch` is two
+    /// The slit's part of [`SurfaceResponse::compliance`] of two triangles, times E [1/m]; `scratch` is two
     /// loads.
     pub fn compliance(
         &self,
@@ -161,7 +161,7 @@ impl<T: Precision> Slit<T> {
         self.h.backward(&mut jumps.values);
     }
 
-    /// How far the sides of a facet are apart at the outer surface [m]: the right one's displacement, seen along
+    /// Opening of a facet at the outer surface [m]: the right one's displacement, seen along
     /// the facet with its normal up, less the left one's. None where there is no such facet.
     pub fn opening(&self, facet: usize, jumps: &SlitJumps) -> Option<Vec3> {
         let cut = self.facets.get(facet)?;
@@ -174,8 +174,7 @@ impl<T: Precision> Slit<T> {
         Some(cut.facet.frame * local)
     }
 
-    /// Adds to `field`, three numbers for each triangle, what jumps do to the surface: displacements [m] of jumps
-    /// [m].
+    /// Adds to `field`, three numbers for each triangle, the displacements of the surface [m] by jumps [m].
     pub fn add_field(&self, jumps: &SlitJumps, field: &mut [T]) {
         if jumps.values.len() != self.size() || field.len() != self.width {
             return;

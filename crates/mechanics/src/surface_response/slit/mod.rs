@@ -1,8 +1,8 @@
-//! A slit in an organ whose response was solved beforehand: its faces bear no traction any more.
+//! A slit in an organ whose response was solved beforehand: its faces become free of traction.
 //!
 //! A slit is a row of facets k. In the uncut body a force f makes a traction on facet k; its work on a jump of
-//! the displacement across it is T_k f. By Betti's theorem Tᵀ is what jumps D do to the surface. With −H the
-//! tractions of jumps on all facets, nothing is left on them when
+//! the displacement across it is T_k f. By Betti's theorem Tᵀ D is the displacement of the surface by jumps
+//! D. With −H the tractions of jumps on all facets, the facets are free of traction when
 //!
 //! ```text
 //! D = H⁻¹ T f/E,   u E = Ξ f + Tᵀ H⁻¹ T f
@@ -11,16 +11,17 @@
 //! which adds compliance only. A facet in a solid has three jumps: opening, sliding and tearing, with half an
 //! ellipse over its depth. One in a wall has five: opening and sliding evenly through the wall; opening of the
 //! outer face against the inner, a hinge; and the deflection of one side against the other, by shear and by
-//! bending. T comes from the stresses that the table's displacements are (`gradient`), and near a force from
-//! closed forms (`traction`, `near`, `plate`); H from closed forms (`kernel`), with springs where a wall is cut to a
-//! part of it (`spring`). What a tube's curvature changes in both is a shell's less a plate's (`curvature`, `shell`).
+//! bending. T follows from the stresses of the table's displacements (`gradient`), and near a force from closed forms
+//! (`traction`, `near`, `plate`); H from closed forms (`kernel`), with springs where a wall is cut to a part of it
+//! (`spring`). The effect of a tube's curvature on both is that of a shell less that of a plate
+//! (`curvature`, `shell`).
 //!
 //! *How we know*: `slit::the_rim_is_that_of_finite_elements`, `other_slits_are_those_of_finite_elements`,
 //! `facets_of_any_length_are_one_slit`, `a_slit_may_be_cut_from_either_end`. Derivation, numbers:
 //! `docs/theory/cutting.md`.
 //!
-//! *Limits*: small strain; sides that meet go through one another; facets of a wall and of a solid in one slit do
-//! not know one another; H knows no border, and curvature across a facet as that of a whole tube. Beside finite
+//! *Limits*: small strain; sides that meet pass through one another; facets of a wall and of a solid in one slit do
+//! not interact; H ignores borders, and takes curvature across a facet as that of a whole tube. Compared with finite
 //! elements that no constant was fitted to, a rim cut over uncut is 36 % too stiff through a wall with a radius of 5.5
 //! times its thickness and 33 % along a slit of 6 √(R w) through a tube ([`Slit::warnings`]).
 
@@ -42,7 +43,7 @@ use palpate_geometry::TriangleId;
 use super::response::SurfaceResponse;
 use crate::boundary_elements::Precision;
 use crate::{Error, Vec3};
-use cholesky::{Block, Grown};
+use cholesky::{Block, GrowingCholesky};
 use curvature::{Curvature, Medium};
 use facet::Facet;
 pub use facet::{CutBody, SlitFacet};
@@ -57,7 +58,7 @@ const MOST_NEAR: usize = 320;
 /// Jumps of a facet whose T is smooth far from it: the first.
 const SMOOTH: usize = 3;
 
-/// A slit in an organ, and what it adds to its compliance.
+/// A slit in an organ, and the compliance that it adds.
 #[derive(Debug)]
 pub struct Slit<T = f32> {
     most: usize,
@@ -65,10 +66,11 @@ pub struct Slit<T = f32> {
     width: usize,
     poissons_ratio: f64,
     facets: Vec<Cut>,
-    /// T without what is near, row after row; what deflects a wall is near alone.
+    /// T without the near triangles, row after row; modes that deflect a wall have near triangles
+    /// alone.
     rows: Vec<T>,
     near: Vec<Near>,
-    h: Grown,
+    h: GrowingCholesky,
     curvature: Curvature,
     gradients: [Gradient; 2],
     /// B of the last facet.
@@ -87,7 +89,7 @@ struct Cut {
     near: [usize; 2],
     /// Its rows of H without those before it.
     block: Block,
-    /// What H's diagonal is raised by where one end is free, and where both are.
+    /// Increments of H's diagonal where one end is free, and where both are.
     ends: [[f64; MODES]; 2],
     /// Its ends that meet earlier facets.
     met: [bool; 2],
@@ -104,7 +106,7 @@ impl<T: Precision> Slit<T> {
             facets: Vec::with_capacity(most),
             rows: vec![T::of(0.0); most * SMOOTH * width],
             near: Vec::with_capacity(MOST_NEAR * most),
-            h: Grown::new(most * MODES),
+            h: GrowingCholesky::new(most * MODES),
             curvature: Curvature::new(response.parts().poissons_ratio),
             gradients: [Gradient::new(), Gradient::new()],
             parts: Vec::with_capacity(2 * MOST),
@@ -145,7 +147,7 @@ impl<T: Precision> Slit<T> {
             facet.parts(gradient, face, &mut self.parts);
         }
         let near = self.put_near(body, &facet, reach);
-        // The end of the one before may have become none, which those that follow must know.
+        // The end of the previous one may have become none, which changes those that follow.
         self.factor(Some(&facet));
         let (block, ends) = self.put_matrix(&facet);
         self.facets.push(Cut {

@@ -1,4 +1,4 @@
-//! What a force on a half-space does: Boussinesq's and Cerruti's solutions [Johnson 1985], times E.
+//! Stress of a force on a half-space: Boussinesq's and Cerruti's solutions [Johnson 1985], times E.
 //!
 //! In axes x, y along the surface and z outward, tension positive. `soft` [m²] is added to the square of
 //! distances: a force is spread.
@@ -54,8 +54,8 @@ pub(super) fn displacement(nu: f64, [x, y]: [f64; 2], soft: f64) -> Matrix2x3<f6
 mod tests {
     use super::*;
 
-    /// Judge: balance. By symmetry a plane beside a force bears half of it. Tolerance: the plane ends at 1/100 of
-    /// what it bears, and steps of a twentieth.
+    /// Judge: balance. By symmetry a plane next to a force bears half of it. Tolerance: the plane ends at 1/100
+    /// of what it bears, and steps of a twentieth.
     #[test]
     fn a_plane_bears_half_of_a_force() {
         for nu in [0.2, 0.45] {

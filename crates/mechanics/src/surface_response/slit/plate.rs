@@ -1,4 +1,4 @@
-//! What a force on a face of a plate does, by plane stress and Kirchhoff's theory of bending, times E.
+//! Stress of a force on a face of a plate, by plane stress and Kirchhoff's theory of bending, times E.
 //!
 //! In axes x, y along the plate and z outward; faces at z = ± w/2. The deflection of a unit force along z is
 //! W = r² ln r/(8 π D); a force on a face along it is one in the middle and a couple. `soft` [m²] is added to
@@ -143,7 +143,8 @@ mod tests {
         }
     }
 
-    /// Judge: balance. By symmetry a line beside a force bears half of it. Tolerance: the line's end.
+    /// Judge: balance. By symmetry a line next to a force bears half of it. Tolerance: the line's
+    /// end.
     #[test]
     fn a_line_bears_half_of_a_force() {
         let (mut sum, steps) = ([0.0; 3], 4000);

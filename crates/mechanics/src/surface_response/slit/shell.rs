@@ -1,5 +1,5 @@
-//! Sanders' shell in wave numbers [Sanders 1959]: what jumps along a generator of a cylinder (radius R, thickness w)
-//! pull one another together with, and what forces do there.
+//! Sanders' shell in wave numbers [Sanders 1959]: closing tractions of jumps along a generator of a cylinder (radius
+//! R, thickness w), and tractions of forces there.
 //!
 //! With B the strains of a displacement of wave numbers k and q = n/R, C their stiffness, J the strains that jumps
 //! e^{ikx} are and P a force,
@@ -161,7 +161,7 @@ mod tests {
         }
     }
 
-    /// Judge: a plate, which waves that are short beside √(R w) see.
+    /// Judge: a plate, the limit of waves that are short relative to √(R w).
     #[test]
     fn short_waves_see_a_plate() {
         let found = difference(0.3, [1000.0, 1.0], 0.6);

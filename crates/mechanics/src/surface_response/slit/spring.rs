@@ -1,4 +1,4 @@
-//! What holds a wall together that is cut to a part of its thickness: a row of springs [Rice and Levy 1972],
+//! The ligament of a wall that is cut to a part of its thickness, as a row of springs [Rice and Levy 1972],
 //! from the stress intensity of an edge crack in a strip [Tada, Paris and Irwin 1973].
 
 use std::f64::consts::{FRAC_PI_2, PI};

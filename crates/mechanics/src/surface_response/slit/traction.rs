@@ -1,9 +1,8 @@
 //! T: the work of the traction on a facet, in the uncut body, on its modes.
 //!
-//! The table knows stress where it changes slowly from triangle to triangle. Near a force it does not, and there
-//! the closed form A of a half-space or a plate is put in the place of what the triangles make of it:
-//! T = Bᵀ Ξ + φ (A − Bᵀ Ξ_A), with φ of the force's place from one to zero between one and two reaches of the
-//! facet.
+//! The table resolves stress where it changes slowly from triangle to triangle. Near a force it does not, and
+//! there the closed form A of a half-space or a plate replaces the stress from the triangles: T = Bᵀ Ξ + φ (A −
+//! Bᵀ Ξ_A), with φ of the force's place from one to zero between one and two reaches of the facet.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -27,8 +26,8 @@ const MOST_GRADIENTS: f64 = 1.2;
 /// Beyond two reaches triangles are known as far as the loads of tips there go, in lengths √(2 A) of one [-].
 const OF_LOADS: f64 = 2.2;
 
-/// What a force beside a slit yields more, where the slit is deep, over the reciprocal of its distance: across,
-/// along, outward [-].
+/// Additional compliance of a force next to a deep slit, over the reciprocal of its distance: across, along,
+/// outward [-].
 pub const RIM_COMPLIANCE: [f64; 3] = [0.69, 0.2, 0.28];
 
 /// A spot is as wide as this part of its radius beyond its places [-].
@@ -93,7 +92,7 @@ struct Seen {
 }
 
 impl Facet {
-    /// Where the closed forms are taken whole [m].
+    /// Distance within which the closed forms have full weight [m].
     pub(super) fn reach(&self, gradient: f64) -> f64 {
         let wanted = (IN_GRADIENTS * gradient).max(IN_DEPTHS * self.depth());
         wanted.min(MOST_GRADIENTS * gradient)
@@ -104,11 +103,12 @@ impl Facet {
         let away = self.frame.tr_mul(&(place - self.middle));
         let outward = normal.dot(&self.frame.column(2));
         let face = if outward > 0.0 { 1.0 } else { -1.0 };
-        let height = match self.under {
+        let height = match self.geometry {
             CrackGeometry::Solid { .. } => 0.0,
             CrackGeometry::Wall { thickness, .. } => 0.5 * (face - 1.0) * thickness,
         };
-        if outward.abs() < 0.2 || (face < 0.0 && matches!(self.under, CrackGeometry::Solid { .. }))
+        if outward.abs() < 0.2
+            || (face < 0.0 && matches!(self.geometry, CrackGeometry::Solid { .. }))
         {
             return None;
         }
@@ -135,7 +135,7 @@ impl Facet {
     fn closed(&self, medium: Medium<'_>, [x, y]: [f64; 2], face: f64, soft: f64) -> [Vec3; MODES] {
         let Medium { nu, tube } = medium;
         let mut rows = [Vec3::zeros(); MODES];
-        match self.under {
+        match self.geometry {
             CrackGeometry::Solid { depth } => {
                 let ends = [-0.25, 0.25].map(|part| part * self.length - y);
                 for (m, profile) in PROFILE.iter().enumerate() {
@@ -176,13 +176,13 @@ impl Facet {
         let seen = self.sees(reach, &spot.place, &spot.normal)?;
         let [x, y] = seen.at;
         let soft = (OF_SPOT * spot.radius).powi(2);
-        let beside = (x / spot.radius).abs().min(1.0);
+        let lateral = (x / spot.radius).abs().min(1.0);
         let mut rows = [Vec3::zeros(); MODES];
-        if matches!(self.under, CrackGeometry::Solid { .. }) {
+        if matches!(self.geometry, CrackGeometry::Solid { .. }) {
             if seen.fade == 0.0 {
                 return None;
             }
-            let aside = (self.depth() - x.abs()).max(0.0) * beside * beside;
+            let aside = (self.depth() - x.abs()).max(0.0) * lateral * lateral;
             let x = x + aside.copysign(x);
             for ([p, q], weight) in DISC {
                 let place = [x + p * spot.radius, y + q * spot.radius];
@@ -192,14 +192,14 @@ impl Facet {
                 }
             }
         } else {
-            // The table knows nothing of what shears a wall, so that this goes farther.
+            // The table does not resolve the shear of a wall, so that this reaches farther.
             let far = self.sees(2.0 * reach, &spot.place, &spot.normal)?.fade;
             if far == 0.0 {
                 return None;
             }
             // A force pulls at the side alone that it is on, and in the middle of the slit at none.
             let narrow = x.abs().min(spot.radius);
-            let odd = beside * (2.0 - beside);
+            let odd = lateral * (2.0 - lateral);
             let [across, along, outward] = [0, 1, 2].map(|axis| {
                 let mut parts = Vec3::repeat(1.0);
                 parts[axis] = odd;
@@ -218,25 +218,26 @@ impl Facet {
         Some((seen.fade, rows.map(|row| seen.turn.tr_mul(&row))))
     }
 
-    /// Part of a spot's rim that the facet is [-], and what a deep slit adds there along the axes of space [1/m].
+    /// The facet's part of a spot's rim [-], and the compliance that a deep slit adds there along the axes of
+    /// space [1/m].
     pub(super) fn rim_of(&self, reach: f64, spot: &Spot) -> Option<(f64, Matrix3<f64>)> {
         let seen = self.sees(reach, &spot.place, &spot.normal)?;
-        let through = matches!(self.under, CrackGeometry::Wall { part, .. } if part >= 1.0);
+        let through = matches!(self.geometry, CrackGeometry::Wall { part, .. } if part >= 1.0);
         if seen.face < 0.0 && !through {
             return None;
         }
         let [x, y] = seen.at;
         let x = x.abs();
-        let beside = (x / spot.radius).min(1.0);
-        let beside = beside * (2.0 - beside);
+        let lateral = (x / spot.radius).min(1.0);
+        let lateral = lateral * (2.0 - lateral);
         let near = x.max(0.8 * spot.radius);
-        let more = (1.0 / near - 1.0 / self.depth()).max(0.0) * beside;
+        let more = (1.0 / near - 1.0 / self.depth()).max(0.0) * lateral;
         let ends = [-0.5, 0.5].map(|end| {
             let end = end * self.length - y;
             0.5 * end / (near * near + end * end).sqrt()
         });
         let [across, along, mut outward] = RIM_COMPLIANCE;
-        if matches!(self.under, CrackGeometry::Wall { .. }) {
+        if matches!(self.geometry, CrackGeometry::Wall { .. }) {
             outward = 0.0;
         }
         let own = Matrix3::from_diagonal(&Vec3::new(across, along, outward)) * more;
@@ -255,7 +256,7 @@ impl Facet {
     ) -> Option<[[[f32; 3]; MODES]; 2]> {
         let seen = self.sees(reach, &triangle.place, &triangle.normal)?;
         let area = triangle.area;
-        let spread = match self.under {
+        let spread = match self.geometry {
             CrackGeometry::Solid { .. } => 0.0,
             CrackGeometry::Wall { thickness, .. } => SOFT * thickness * thickness,
         };
@@ -273,8 +274,9 @@ impl Facet {
                 *resolved += moved.tr_mul(work);
             }
         }
-        // Triangles do not tell how a curved wall bears a force outward beside it; the tube does.
-        if matches!(self.under, CrackGeometry::Wall { .. }) {
+        // Triangles do not resolve how a curved wall bears an outward force next to it; the tube
+        // does.
+        if matches!(self.geometry, CrackGeometry::Wall { .. }) {
             resolved[0].z = (seen.turn * known).z;
         }
         let turned = |rows: [Vec3; MODES]| rows.map(|row| seen.turn.tr_mul(&row));
@@ -292,7 +294,7 @@ impl Facet {
         let flat = away[0] * away[0] + away[1] * away[1];
         // The mean of 1/r over a disc of the triangle's area is that at 0.59 of its radius.
         let soft = if flat < 1e-3 * area { 0.11 * area } else { 0.0 };
-        match self.under {
+        match self.geometry {
             CrackGeometry::Solid { .. } => near::displacement(nu, away, soft),
             CrackGeometry::Wall { thickness, .. } => {
                 let plate = Plate { nu, thickness };
@@ -320,11 +322,11 @@ impl Facet {
         }
     }
 
-    /// How the stresses of the outer and of the inner face count in the first three modes [m²], of a wall whose
-    /// middle is so curved [1/m]: over a curved wall stress goes with the reciprocal of the radius, and a moment
-    /// alone makes no mean of the faces' stresses that is zero [Winkler 1858].
+    /// Weights of the stresses of the outer and of the inner face in the first three modes [m²], of a wall whose
+    /// middle has this `curvature` [1/m]: over a curved wall stress goes with the reciprocal of the radius, and
+    /// a moment alone makes no mean of the faces' stresses that is zero [Winkler 1858].
     pub(super) fn of_faces(&self, curvature: f64) -> ([f64; 3], [f64; 3]) {
-        match self.under {
+        match self.geometry {
             CrackGeometry::Solid { depth } => {
                 let area = FULLNESS * depth * self.length;
                 ([area, area, 0.0], [0.0; 3])

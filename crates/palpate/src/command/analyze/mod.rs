@@ -1,4 +1,4 @@
-//! `palpate analyze`: what recordings show, without a model.
+//! `palpate analyze`: analysis of recordings without a material model.
 
 mod report;
 mod table;
@@ -55,7 +55,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let _claims = arguments.overwrite.claim(files)?;
     interrupt::ends_between_files("interrupted; nothing was analyzed");
     let progress = Progress::new(Reader::of_json(arguments.json), None);
-    let recordings = arguments.recordings.asked();
+    let recordings = arguments.recordings.request();
     let analyzed = analyze(&recordings, &progress)?;
     drop(progress);
     let unbroken = Unbroken::begin();

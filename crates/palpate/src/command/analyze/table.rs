@@ -5,7 +5,7 @@ use palpate_files::printable;
 use palpate_jobs::ReadRecording;
 use palpate_jobs::analyze::Analyzed;
 
-/// What was found, for people: forces in millinewtons, depths in millimetres.
+/// The analysis for people: forces in millinewtons, depths in millimetres.
 pub(super) fn of(analyzed: &Analyzed) -> String {
     let mut text = String::new();
     for (read, found) in &analyzed.recordings {

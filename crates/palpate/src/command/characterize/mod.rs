@@ -1,4 +1,4 @@
-//! `palpate characterize`: the tissue behind recordings, with how well it is known.
+//! `palpate characterize`: fits the tissue of recordings, with the uncertainty of every parameter.
 
 mod report;
 mod table;
@@ -136,15 +136,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             folder.display()
         ),
     });
-    let recordings = arguments.recordings.asked();
+    let recordings = arguments.recordings.request();
     let progress = Progress::of_job(Reader::of_json(arguments.json));
     let found = characterize(&recordings, arguments.choice()?, folder.as_ref(), &progress)?;
     let answer = found.answer;
-    let warnings = progress.unsaid(warnings::for_people(&answer));
+    let warnings = progress.unprinted(warnings::for_people(&answer));
     let unbroken = Unbroken::begin();
     arguments.write(found.tissues)?;
     if let Some(path) = &arguments.report {
-        let page = report::html(&answer, &found.portraits, &arguments.said());
+        let page = report::html(&answer, &found.portraits, &arguments.settings());
         write_whole(path, page.as_bytes())?;
     }
     drop(unbroken);
@@ -175,31 +175,31 @@ impl Arguments {
         })
     }
 
-    /// What was asked for, by name and value.
-    fn said(&self) -> Vec<(String, String)> {
-        let mut said = Vec::new();
-        let mut say = |name: &str, value: String| said.push((name.to_owned(), value));
+    /// The options of the command, by name and value.
+    fn settings(&self) -> Vec<(String, String)> {
+        let mut settings = Vec::new();
+        let mut add = |name: &str, value: String| settings.push((name.to_owned(), value));
         if let Some(law) = self.law {
-            say("--law", LawName::from(law).word().to_owned());
+            add("--law", LawName::from(law).word().to_owned());
         }
         if let Some(order) = self.order {
-            say("--order", order.to_string());
+            add("--order", order.to_string());
         }
         if let Some(terms) = self.terms {
-            say("--terms", terms.to_string());
+            add("--terms", terms.to_string());
         }
         if self.in_loop {
-            say("--in-loop", String::new());
+            add("--in-loop", String::new());
         }
         if self.closed_forms {
-            say("--closed-forms", String::new());
+            add("--closed-forms", String::new());
         }
-        say("--draws", self.draws.to_string());
-        said.extend(self.recordings.asked().said());
-        said
+        add("--draws", self.draws.to_string());
+        settings.extend(self.recordings.request().said());
+        settings
     }
 
-    /// What is to be written of a single specimen.
+    /// The files to write for a single specimen.
     fn files(&self) -> impl Iterator<Item = &PathBuf> {
         [&self.out, &self.abaqus, &self.febio].into_iter().flatten()
     }

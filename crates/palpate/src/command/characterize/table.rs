@@ -6,7 +6,7 @@ use palpate_files::quantity::{plain_quantity, without_unit};
 use palpate_files::tissue::LawName;
 use palpate_jobs::characterize::{Answer, Identified, Known, LawAnswer, Named, Specimen};
 
-/// What was found, for people.
+/// The characterization for people.
 pub(super) fn of(answer: &Answer) -> String {
     let mut text = String::new();
     for specimen in &answer.specimens {
@@ -37,7 +37,7 @@ fn write(text: &mut String, specimen: &Specimen) -> std::fmt::Result {
         ("linear elastic", &specimen.lumped.linear_elastic),
         ("adhesion", &specimen.lumped.adhesion),
     ];
-    // Programs of instruments, which state positions, report such a modulus.
+    // Instruments' own programs, which state positions, report such a modulus.
     let is_of_instrument = specimen.position_m.is_some() || specimen.laws.is_empty();
     for (name, found) in contact {
         if let Some(found) = found.as_ref().filter(|_| is_of_instrument) {
@@ -101,7 +101,7 @@ fn of_law(law: &LawAnswer) -> String {
     )
 }
 
-/// A parameter with its error, and why it is not known by itself.
+/// A parameter with its error, and why it is not identified individually.
 fn shown(key: &str, known: &Known) -> String {
     let value = plain_quantity(key, known.value, known.standard_error);
     let remark = match (known.verdict, &known.correlated_with) {

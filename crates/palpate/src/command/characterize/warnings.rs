@@ -3,44 +3,44 @@ use std::collections::BTreeMap;
 use palpate_jobs::Unusable;
 use palpate_jobs::characterize::Answer;
 
-/// Specimens whose warnings are all said.
+/// Up to this many specimens, all warnings are shown.
 const FEW: usize = 4;
 
-/// What several specimens say alike, but for numbers.
-struct Alike<'a> {
+/// A warning that several specimens share, except for numbers.
+struct SharedWarning<'a> {
     title: &'a str,
     warning: &'a str,
     times: usize,
     is_same: bool,
 }
 
-/// The warnings of `answer` as lines on a screen: what is said of several specimens once, in the numbers of the first of
-/// them; of many specimens, how much else there is.
+/// The warnings of `answer` as lines on a screen: a shared warning once, with the numbers of its first specimen; for
+/// many specimens, the number of the remaining warnings.
 pub(super) fn for_people(answer: &Answer) -> Vec<String> {
     let count = answer.specimens.len();
     if count == 1 {
         return answer.warnings.clone();
     }
     // In the order in which they come.
-    let mut said: Vec<Alike<'_>> = Vec::new();
+    let mut grouped: Vec<SharedWarning<'_>> = Vec::new();
     let mut places: BTreeMap<String, usize> = BTreeMap::new();
     for specimen in &answer.specimens {
         for warning in &specimen.warnings {
             let place = *places.entry(without_numbers(warning)).or_insert_with(|| {
-                said.push(Alike {
+                grouped.push(SharedWarning {
                     title: &specimen.title,
                     warning,
                     times: 0,
                     is_same: true,
                 });
-                said.len() - 1
+                grouped.len() - 1
             });
-            let own = &mut said[place];
+            let own = &mut grouped[place];
             own.times += 1;
             own.is_same &= own.warning == warning;
         }
     }
-    let (common, single): (Vec<_>, Vec<_>) = said.iter().partition(|own| own.times > 1);
+    let (common, single): (Vec<_>, Vec<_>) = grouped.iter().partition(|own| own.times > 1);
     let mut lines: Vec<String> = common.into_iter().map(|own| own.sentence(count)).collect();
     if count <= FEW {
         let each = single.iter();
@@ -55,7 +55,7 @@ pub(super) fn for_people(answer: &Answer) -> Vec<String> {
     lines
 }
 
-impl Alike<'_> {
+impl SharedWarning<'_> {
     fn sentence(&self, count: usize) -> String {
         let Self {
             title,
@@ -94,7 +94,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_do_not_tell_warnings_apart() {
+    fn warnings_that_differ_in_numbers_are_the_same() {
         let [a, b] = ["at 0.25 s, -1.5e-6 m", "at 13 s, 2e+10 m"].map(without_numbers);
         assert_eq!(a, b);
         assert_ne!(a, without_numbers("at 0.25 N"));

@@ -40,7 +40,7 @@ pub(super) struct Device {
     self_test: Option<Test>,
 }
 
-/// How a device did.
+/// The result of a device's self-test.
 #[derive(Debug, Serialize)]
 struct Test {
     passed: bool,
@@ -76,7 +76,7 @@ impl Answer {
         self.absent.push(Absent { kind, why });
     }
 
-    /// A failure when there is no device, or one is not well.
+    /// A failure when there is no device, or one has a fault.
     pub(super) fn outcome(&self) -> Result<(), Failure> {
         if self.devices.is_empty() {
             return Err(Failure::failed(
@@ -96,7 +96,7 @@ impl Answer {
     pub(super) fn text(&self) -> String {
         let mut text = String::new();
         for device in &self.devices {
-            // A string takes whatever is written.
+            // Writing to a string does not fail.
             let _ = device.write(&mut text);
         }
         for absent in &self.absent {

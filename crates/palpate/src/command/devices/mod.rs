@@ -87,7 +87,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             Err(why) => answer.absent(kind, why.to_string()),
         }
     }
-    // One that was asked for by name is one sentence, and so is nothing at all.
+    // A missing device that was requested by name is one sentence, and so is an empty list.
     if let (Some(_), [absent]) = (arguments.kind, answer.absent.as_slice()) {
         return Err(Failure::failed(&absent.why));
     }
@@ -98,7 +98,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     answer.outcome()
 }
 
-/// A device with how it did in its self-test, if that is wanted.
+/// A device with the result of its self-test, if requested.
 fn examined(
     arguments: &Arguments,
     kind: Kind,

@@ -64,7 +64,7 @@ pub(crate) struct Arguments {
     print_protocol: bool,
 }
 
-/// Measures and prints what was recorded.
+/// Measures and prints the recordings.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.print_protocol {
         return output::text(DEFAULT);
@@ -91,8 +91,8 @@ fn headless(arguments: &Arguments, plan: Plan) -> Result<(), Failure> {
     };
     let files = files(&measuring, out)?;
     let progress = Progress::new(reader, Some(files.paths.len() as u64));
-    // Asked once, so that Ctrl-C is heard from now on.
-    let _ = interrupt::is_asked();
+    // The first call starts listening for Ctrl-C.
+    let _ = interrupt::is_requested();
     let recorded = measuring.run(&files, &progress)?;
     drop(progress);
     let answer = Answer::new(recorded, &measuring);

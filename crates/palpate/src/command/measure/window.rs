@@ -14,7 +14,7 @@ use crate::command::window::is_absent;
 use crate::failure::Failure;
 use crate::interrupt;
 
-/// Opens a window with what `plan` prepares, whose recordings go into `folder`, and waits until it is closed.
+/// Opens a window with the rigs of `plan`, whose recordings go into `folder`, and returns when it is closed.
 pub(super) fn open(plan: Plan, folder: &Path) -> Result<(), Failure> {
     if folder.extension().is_some_and(|ending| ending == "csv") {
         return Err(Failure::input(format!(
@@ -25,7 +25,7 @@ pub(super) fn open(plan: Plan, folder: &Path) -> Result<(), Failure> {
     check_display().or_else(no_window)?;
     // Before a window; each rig opens it anew.
     plan.open_device()?;
-    // Before anything is measured that could not be kept.
+    // Before any measurement that could not be saved.
     let _claim = claimed(folder, Overwrite::Refused)?;
     let bench = Bench {
         settings: plan.settings,
@@ -37,10 +37,10 @@ pub(super) fn open(plan: Plan, folder: &Path) -> Result<(), Failure> {
         folder: folder.to_owned(),
         warnings: plan.warnings,
         // Ctrl-C withdraws the indenter, as closing the window does.
-        is_ended: interrupt::is_asked,
+        is_ended: interrupt::is_requested,
     };
-    // Asked once, so that Ctrl-C is heard from now on.
-    let _ = interrupt::is_asked();
+    // The first call starts listening for Ctrl-C.
+    let _ = interrupt::is_requested();
     open_rig_window(bench).or_else(no_window)
 }
 

@@ -6,7 +6,7 @@ use clap::Args;
 use palpate_geometry::{LengthUnit, repair};
 use serde::Serialize;
 
-use super::written::{Output, Written, told};
+use super::written::{Output, Written, repair_sentences};
 use crate::command::overwrite::OverwriteOption;
 use crate::failure::Failure;
 use crate::progress::{Progress, Reader};
@@ -67,7 +67,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let answer = Answer {
         palpate: output::VERSION,
         written: out.write(&mesh)?,
-        repaired: told(&repairs),
+        repaired: repair_sentences(&repairs),
         warnings: imported.warnings,
     };
     drop(progress);

@@ -11,7 +11,7 @@ use palpate_geometry::{
 };
 use serde::Serialize;
 
-use super::written::{Output, Written, beside};
+use super::written::{Output, Written, with_stem_suffix};
 use crate::failure::Failure;
 use crate::progress::{Progress, Reader};
 use palpate_jobs::{Watch, label};
@@ -159,7 +159,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     output::text(answer.text())
 }
 
-/// What is going to be written.
+/// The files to write.
 struct Chosen<'l> {
     surfaces: Vec<(&'l Label, PathBuf)>,
     /// Numbers of labels that belong to the first.
@@ -168,7 +168,7 @@ struct Chosen<'l> {
     _claims: Vec<Claim>,
 }
 
-/// The labels that are asked for, each with its file, which are for this program alone.
+/// The requested labels, each with its file, locked by this program.
 fn chosen<'l>(
     labels: &'l [Label],
     wanted: &str,
@@ -204,7 +204,7 @@ fn chosen<'l>(
                 "--inside {wanted} names a label that is asked for already; name each once"
             )));
         }
-        surfaces.push((found, beside(out, &plain_name(found))));
+        surfaces.push((found, with_stem_suffix(out, &plain_name(found))));
     }
     Ok(Chosen {
         inside: surfaces[1..]
@@ -216,7 +216,7 @@ fn chosen<'l>(
     })
 }
 
-/// The map whose labels inside have tissue of the organ around them; warnings where they had none.
+/// The map whose labels inside are surrounded by tissue of the organ; warnings where they were not.
 fn apart(
     map: &LabelMap,
     chosen: &Chosen<'_>,
@@ -277,15 +277,15 @@ fn file_name(label: &Label) -> String {
     }
 }
 
-/// The label's name without what a file's name cannot hold, or its number.
+/// The label's name without characters that file names cannot have, or its number.
 fn plain_name(label: &Label) -> String {
     let name = label.name.as_deref().unwrap_or_default();
-    let kept = name.chars().map(|c| match c.is_alphanumeric() || c == '-' {
+    let plain = name.chars().map(|c| match c.is_alphanumeric() || c == '-' {
         true => c,
         false => '_',
     });
-    let kept: String = kept.collect();
-    match kept.trim_matches('_') {
+    let plain: String = plain.collect();
+    match plain.trim_matches('_') {
         "" => format!("label_{}", label.number),
         name => name.to_owned(),
     }

@@ -28,7 +28,7 @@ pub(super) enum Mesh {
     Wrap(wrap::Arguments),
 }
 
-/// Does what the line says.
+/// Runs the subcommand.
 pub(super) fn run(mesh: &Mesh) -> Result<(), Failure> {
     match mesh {
         Mesh::Info(arguments) => info::run(arguments),
@@ -39,7 +39,7 @@ pub(super) fn run(mesh: &Mesh) -> Result<(), Failure> {
     }
 }
 
-/// Reads a mesh; warnings about it speaks of the option `--unit`.
+/// Reads a mesh; its warnings name the option `--unit`.
 fn read(file: &Path, unit: Option<&str>) -> Result<ImportedMesh, Failure> {
     let unit: Option<LengthUnit> = unit.map(str::parse).transpose()?;
     let mut imported = read_mesh(file, unit).map_err(about_unit)?;
@@ -49,7 +49,7 @@ fn read(file: &Path, unit: Option<&str>) -> Result<ImportedMesh, Failure> {
     Ok(imported)
 }
 
-/// The reader speaks of the scene's key, here it is an option.
+/// The reader names the scene's key; here it is an option.
 fn about_unit(error: ReadError) -> Failure {
     match error.fault {
         ReadFault::UnitNeeded { .. } => {

@@ -9,7 +9,7 @@ use palpate_geometry::{Deviation, LengthUnit, SimplifySettings, repair, simplify
 use palpate_jobs::Watch;
 use serde::Serialize;
 
-use super::written::{Output, Written, told};
+use super::written::{Output, Written, repair_sentences};
 use crate::command::overwrite::OverwriteOption;
 use crate::failure::Failure;
 use crate::progress::{Progress, Reader};
@@ -60,7 +60,7 @@ struct Answer {
     warnings: Vec<String>,
 }
 
-/// Simplifies and tells.
+/// Simplifies and reports.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let out = Output::new(&arguments.out, LengthUnit::Metre)?;
     let _claims = arguments.overwrite.claim([&arguments.out])?;
@@ -70,7 +70,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut imported = super::read(&arguments.file, arguments.unit.as_deref())?;
     let (mesh, repairs) = repair(&imported.mesh)?;
     let warnings = &mut imported.warnings;
-    warnings.extend(told(&repairs));
+    warnings.extend(repair_sentences(&repairs));
     progress.say(format!(
         "{} triangles become {}",
         mesh.triangles().len(),

@@ -1,4 +1,4 @@
-//! `palpate mesh wrap`: a closed surface around triangles that are none.
+//! `palpate mesh wrap`: a closed surface around open or defective triangles.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -9,7 +9,7 @@ use palpate_geometry::{Deviation, Gaps, LengthUnit, WrapSettings};
 use palpate_jobs::envelope::{Envelope, envelope};
 use serde::Serialize;
 
-use super::written::{Output, Written, beside};
+use super::written::{Output, Written, with_stem_suffix};
 use crate::command::overwrite::OverwriteOption;
 use crate::failure::Failure;
 use crate::progress::{Progress, Reader};
@@ -85,12 +85,12 @@ struct Answer {
     warnings: Vec<String>,
 }
 
-/// Wraps and tells.
+/// Wraps and reports.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let path = arguments.out.as_ref().or(arguments.named.as_ref());
     let path = path.ok_or_else(|| Failure::input("name the file to write"))?;
     let out = Output::new(path, LengthUnit::Metre)?;
-    let inner_path = |number: usize| beside(path, &format!("inner-{number}"));
+    let inner_path = |number: usize| with_stem_suffix(path, &format!("inner-{number}"));
     let first = arguments.keep_inner.then(|| inner_path(1));
     let _claims = arguments
         .overwrite

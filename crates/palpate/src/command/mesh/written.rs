@@ -7,14 +7,14 @@ use serde::Serialize;
 use crate::failure::Failure;
 use crate::interrupt::Unbroken;
 
-/// A file that is going to be written.
+/// A file to write.
 pub(super) struct Output {
     path: PathBuf,
     format: WriteFormat,
     unit: LengthUnit,
 }
 
-/// What was written.
+/// A written file.
 #[derive(Debug, Serialize)]
 pub(super) struct Written {
     #[serde(serialize_with = "palpate_jobs::lossy")]
@@ -55,14 +55,14 @@ impl Output {
 }
 
 /// `out` with `name` at the end of its stem.
-pub(super) fn beside(out: &Path, name: &str) -> PathBuf {
+pub(super) fn with_stem_suffix(out: &Path, name: &str) -> PathBuf {
     let stem = out.file_stem().unwrap_or_default().to_string_lossy();
     let extension = out.extension().unwrap_or_default().to_string_lossy();
     out.with_file_name(format!("{stem}-{name}.{extension}"))
 }
 
-/// What a repair did, as sentences.
-pub(super) fn told(repairs: &Repairs) -> Vec<String> {
+/// The repairs, as sentences.
+pub(super) fn repair_sentences(repairs: &Repairs) -> Vec<String> {
     let counts = [
         (
             repairs.welded_vertices,

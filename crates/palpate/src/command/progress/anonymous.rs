@@ -1,11 +1,11 @@
-//! Attempts without what tells who made them.
+//! Attempts without personal data.
 
 use std::path::PathBuf;
 
 use palpate_record::Attempt;
 
-/// Names become numbers in the order of first attempts, times those since the trainee's own first attempt, and
-/// sessions nothing. What is rare in a small cohort can still be told by who knows it.
+/// Replaces names by numbers in the order of first attempts and times by those since the trainee's own first attempt,
+/// and clears sessions. Rare values in a small cohort can still identify a trainee.
 pub(super) fn anonymous(attempts: &mut [Attempt]) {
     let mut names: Vec<(String, i64)> = Vec::new();
     for own in attempts {

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use palpate_record::{CurvePoint, Measure, Spread, Standard};
 use serde::Serialize;
 
-use super::course::{JudgedAttempt, LearningCurve, Learnt, Trainee};
+use super::course::{CurveQuantity, JudgedAttempt, LearningCurve, Trainee};
 use crate::date;
 use crate::output::VERSION;
 
@@ -89,7 +89,7 @@ impl Answer {
 impl TaskAnswer {
     fn new(course: &LearningCurve<'_>) -> Self {
         let trainees = course.trainees.iter();
-        let curve = |of: Learnt| CurveAnswer {
+        let curve = |of: CurveQuantity| CurveAnswer {
             experts: course.of_experts(of),
             trainees: course.curve(of),
         };
@@ -100,9 +100,9 @@ impl TaskAnswer {
             standards: course.standards.each.clone(),
             trainees: trainees.map(|own| trainee(course, own)).collect(),
             learning_curve: CurvesAnswer {
-                time_s: curve(Learnt::Time),
-                errors: curve(Learnt::Errors),
-                proficient_percent: curve(Learnt::ProficientPart),
+                time_s: curve(CurveQuantity::Time),
+                errors: curve(CurveQuantity::Errors),
+                proficient_percent: curve(CurveQuantity::ProficientPart),
             },
         }
     }

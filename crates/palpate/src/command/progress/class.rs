@@ -1,4 +1,4 @@
-//! What the teacher's page of the window shows: the numbers of `palpate progress` and `palpate teacher show`.
+//! Data of the window's teacher page: the numbers of `palpate progress` and `palpate teacher show`.
 
 use std::collections::BTreeSet;
 
@@ -7,7 +7,7 @@ use palpate_viewer::training::{
     AssignedTask, Class, StandingWord, TaskProgress, TraineeProgress, TraineeStanding,
 };
 
-use super::course::{LearningCurve, Learnt};
+use super::course::{CurveQuantity, LearningCurve};
 use crate::command::teacher;
 use crate::date;
 use crate::failure::Failure;
@@ -61,7 +61,7 @@ fn assignments(record: &Record) -> Result<Vec<AssignedTask>, Failure> {
 }
 
 fn task(course: &LearningCurve<'_>) -> TaskProgress {
-    let curve = course.curve(Learnt::Time);
+    let curve = course.curve(CurveQuantity::Time);
     let mean = curve
         .iter()
         .map(|own| [own.attempt as f64, own.spread.mean]);
@@ -82,7 +82,7 @@ fn task(course: &LearningCurve<'_>) -> TaskProgress {
         task: course.task.to_owned(),
         trainees: trainees.collect(),
         mean_times: mean.collect(),
-        expert_time: course.of_experts(Learnt::Time).map(|own| own.mean),
+        expert_time: course.of_experts(CurveQuantity::Time).map(|own| own.mean),
     }
 }
 

@@ -1,4 +1,4 @@
-//! What became of one task, trainee by trainee.
+//! Attempts and learning curves for one task, trainee by trainee.
 
 use crate::training::VARIANT;
 use palpate_record::{
@@ -8,7 +8,7 @@ use palpate_record::{
 /// The measure that is the operation time [s].
 pub(crate) const TIME: &str = "time_s";
 
-/// The measures that count what should not happen.
+/// The measures that count errors.
 pub(crate) const ERRORS: [&str; 5] = [
     "force_limit_errors",
     "perforations",
@@ -29,7 +29,7 @@ pub(super) struct LearningCurve<'r> {
     pub(super) scenes: usize,
 }
 
-/// Somebody, and their attempts at a task in the order of time.
+/// A trainee, and their attempts at a task in the order of time.
 #[derive(Debug)]
 pub(super) struct Trainee<'r> {
     pub(super) name: &'r str,
@@ -38,27 +38,27 @@ pub(super) struct Trainee<'r> {
     pub(super) proficient_since: Option<usize>,
 }
 
-/// An attempt beside the experts' standards.
+/// An attempt compared with the experts' standards.
 #[derive(Debug)]
 pub(super) struct JudgedAttempt<'r> {
     pub(super) attempt: &'r Attempt,
     pub(super) judgement: Judgement,
 }
 
-/// What learning curves are of.
+/// The quantities of learning curves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Learnt {
+pub(super) enum CurveQuantity {
     /// Operation time [s].
     Time,
-    /// What should not have happened, counted.
+    /// Number of errors.
     Errors,
     /// The part of the measures that is proficient [%].
     ProficientPart,
 }
 
 impl<'r> LearningCurve<'r> {
-    /// Of all tasks in alphabetical order, with one trainee alone if `only` names them. A task that nobody of
-    /// these attempted is left out, unless all are wanted and experts did.
+    /// Learning curves of all tasks in alphabetical order, of one trainee alone if `only` names them. With `only`, a
+    /// task without an attempt of that trainee is left out.
     pub(super) fn all(attempts: &'r [Attempt], only: Option<&str>) -> Vec<Self> {
         let tasks = distinct(attempts.iter().map(|own| own.task.as_str()));
         let courses = tasks.into_iter().map(|task| Self::of(task, attempts, only));
@@ -72,7 +72,7 @@ impl<'r> LearningCurve<'r> {
         let experts: Vec<&Attempt> = own().filter(|attempt| attempt.is_expert).collect();
         let standards = Standards::of(&experts);
         let is_wanted = |own: &&Attempt| only.is_none_or(|only| only == own.trainee);
-        // An attempt that others are judged by stays its owner's. Whoever has no other is no trainee.
+        // An expert's attempt also belongs to its trainee. An expert without other attempts is no trainee.
         let trains = |attempt: &&Attempt| {
             !attempt.is_expert
                 || own().any(|other| !other.is_expert && other.trainee == attempt.trainee)
@@ -109,25 +109,29 @@ impl<'r> LearningCurve<'r> {
         }
     }
 
-    /// How many attempts trainees made.
+    /// The number of attempts of trainees.
     pub(super) fn attempts(&self) -> usize {
         self.trainees.iter().map(|own| own.attempts.len()).sum()
     }
 
-    /// A number from attempt to attempt, over trainees.
-    pub(super) fn curve(&self, of: Learnt) -> Vec<CurvePoint> {
+    /// A quantity from attempt to attempt, over trainees.
+    pub(super) fn curve(&self, of: CurveQuantity) -> Vec<CurvePoint> {
         let each = self.trainees.iter();
-        let each = each.map(|own| own.attempts.iter().map(|own| own.learnt(of)).collect());
+        let each = each.map(|own| own.attempts.iter().map(|own| own.quantity(of)).collect());
         learning_curve(&each.collect::<Vec<_>>())
     }
 
-    /// A number over the experts' attempts.
-    pub(super) fn of_experts(&self, of: Learnt) -> Option<Spread> {
+    /// A quantity over the experts' attempts.
+    pub(super) fn of_experts(&self, of: CurveQuantity) -> Option<Spread> {
         let judged = self.experts.iter().map(|attempt| JudgedAttempt {
             judgement: self.standards.judge(attempt),
             attempt,
         });
-        Spread::of(&judged.filter_map(|own| own.learnt(of)).collect::<Vec<_>>())
+        Spread::of(
+            &judged
+                .filter_map(|own| own.quantity(of))
+                .collect::<Vec<_>>(),
+        )
     }
 
     /// Warnings.
@@ -154,14 +158,14 @@ impl<'r> LearningCurve<'r> {
 }
 
 impl JudgedAttempt<'_> {
-    /// A number of a learning curve, if there is such.
-    pub(super) fn learnt(&self, of: Learnt) -> Option<f64> {
+    /// A quantity of a learning curve, if it is known.
+    pub(super) fn quantity(&self, of: CurveQuantity) -> Option<f64> {
         match of {
-            Learnt::Time => self.time(),
-            Learnt::Errors => self.errors(),
-            Learnt::ProficientPart => {
-                let (proficient, told) = self.proficient();
-                (told > 0).then(|| 100.0 * proficient as f64 / told as f64)
+            CurveQuantity::Time => self.time(),
+            CurveQuantity::Errors => self.errors(),
+            CurveQuantity::ProficientPart => {
+                let (proficient, judged) = self.proficient();
+                (judged > 0).then(|| 100.0 * proficient as f64 / judged as f64)
             }
         }
     }
@@ -171,24 +175,24 @@ impl JudgedAttempt<'_> {
         self.attempt.value(TIME)
     }
 
-    /// What should not have happened, counted.
+    /// Number of errors.
     pub(super) fn errors(&self) -> Option<f64> {
         let counts = ERRORS.iter().filter_map(|key| self.attempt.value(key));
         counts.reduce(|sum, count| sum + count)
     }
 
-    /// How many measures are proficient, and of how many that can be told.
+    /// How many measures are proficient, and how many can be judged.
     pub(super) fn proficient(&self) -> (usize, usize) {
-        let told = || {
+        let judged = || {
             self.judgement
                 .measures
                 .iter()
                 .filter_map(|own| own.proficient)
         };
-        (told().filter(|is| *is).count(), told().count())
+        (judged().filter(|is| *is).count(), judged().count())
     }
 
-    /// Whether a measure of it is proficient; none where that cannot be told.
+    /// Whether a measure of it is proficient; none where that cannot be judged.
     pub(super) fn judged(&self, course: &LearningCurve<'_>, key: &str) -> Option<bool> {
         let mut standards = course.standards.each.iter();
         let place = standards.position(|own| own.key == key)?;

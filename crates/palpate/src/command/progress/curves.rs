@@ -2,7 +2,7 @@
 
 use palpate_record::Spread;
 
-use super::course::{LearningCurve, Learnt};
+use super::course::{CurveQuantity, LearningCurve};
 use crate::plot::{Axis, Band, Plot, Series, Style};
 
 /// Trainees that are drawn one by one, at most; all are in the mean.
@@ -13,15 +13,15 @@ const MEAN: usize = 0;
 const EXPERTS: usize = 2;
 const EACH: usize = 5;
 
-/// Operation time, errors, and the measures that are proficient; those that there are.
+/// Operation time, errors, and the proficient measures, where there is data.
 pub(super) fn plots(course: &LearningCurve<'_>) -> Vec<Plot> {
-    let all: [(&str, &str, Learnt); 3] = [
-        ("Operation time", "time [s]", Learnt::Time),
-        ("Errors", "errors in an attempt", Learnt::Errors),
+    let all: [(&str, &str, CurveQuantity); 3] = [
+        ("Operation time", "time [s]", CurveQuantity::Time),
+        ("Errors", "errors in an attempt", CurveQuantity::Errors),
         (
             "Proficient measures",
             "part of the measures [%]",
-            Learnt::ProficientPart,
+            CurveQuantity::ProficientPart,
         ),
     ];
     let plots = all.into_iter().filter_map(|(title, label, of)| {
@@ -36,21 +36,22 @@ pub(super) fn plots(course: &LearningCurve<'_>) -> Vec<Plot> {
     plots.collect()
 }
 
-fn plot(course: &LearningCurve<'_>, of: Learnt) -> Option<Plot> {
+fn plot(course: &LearningCurve<'_>, of: CurveQuantity) -> Option<Plot> {
     let curve = course.curve(of);
     let last = curve.last()?.attempt as f64;
     let mut plot = Plot {
         x_axis: Axis::Counted,
         y_axis: match of {
-            Learnt::Errors => Axis::Counted,
-            Learnt::Time | Learnt::ProficientPart => Axis::Linear,
+            CurveQuantity::Errors => Axis::Counted,
+            CurveQuantity::Time | CurveQuantity::ProficientPart => Axis::Linear,
         },
         ..Plot::default()
     };
     let several = course.trainees.len() > 1;
     for trainee in course.trainees.iter().take(TRAINEES).filter(|_| several) {
         let points = (1..).zip(&trainee.attempts);
-        let points = points.filter_map(|(number, own)| Some((f64::from(number), own.learnt(of)?)));
+        let points =
+            points.filter_map(|(number, own)| Some((f64::from(number), own.quantity(of)?)));
         plot.series
             .push(Series::new("", points.collect(), Style::FineLine, EACH));
     }
@@ -76,7 +77,7 @@ fn plot(course: &LearningCurve<'_>, of: Learnt) -> Option<Plot> {
     plot.series
         .push(Series::new(name, mean.collect(), Style::LineWithDots, MEAN));
     if let Some(experts) = course.of_experts(of) {
-        // A little more on both sides, so that there is a band beside a single attempt.
+        // A margin on both sides, so that a single attempt has a band, too.
         let ends = [0.7, last + 0.3];
         let level = ends.map(|x| (x, experts.mean)).to_vec();
         plot.series

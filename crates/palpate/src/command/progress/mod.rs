@@ -1,4 +1,4 @@
-//! `palpate progress`: how trainees come along, from the training record.
+//! `palpate progress`: trainees' progress, from the training record.
 
 mod anonymous;
 mod answer;
@@ -98,7 +98,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let record = Record::read(&file)?;
     let trainee = known("trainee", &arguments.trainee, &record.trainees()?)?;
     let task = known("task", &arguments.task, &record.tasks()?)?;
-    // Of all trainees, for experts are among them.
+    // Of all trainees, because experts are among them.
     let mut attempts = record.attempts(&Filter {
         trainee: None,
         task,
@@ -123,7 +123,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         write_whole(statements, text.as_bytes())?;
     }
     if let Some(page) = &arguments.report {
-        let html = report::html(&courses, &answer.warnings, &said(arguments, record.path()));
+        let html = report::html(
+            &courses,
+            &answer.warnings,
+            &settings(arguments, record.path()),
+        );
         write_whole(page, html.as_bytes())?;
     }
     if arguments.json {
@@ -138,7 +142,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What makes a trainee proficient, in words.
+/// The criterion for proficiency, in words.
 fn rule() -> String {
     format!(
         "A measure is proficient when it is not worse than the mean of the experts' sessions by more than one \
@@ -147,7 +151,7 @@ fn rule() -> String {
     )
 }
 
-/// The name that was asked for, if the record has it.
+/// The requested name, if the record has it.
 fn known(what: &str, asked: &Option<String>, names: &[String]) -> Result<Option<String>, Failure> {
     let Some(asked) = asked else {
         return Ok(None);
@@ -173,8 +177,8 @@ fn is_same(one: &Path, other: &Path) -> bool {
     one.is_ok_and(|one| other.is_ok_and(|other| one == other))
 }
 
-/// How a page was asked for.
-fn said(arguments: &Arguments, record: &Path) -> Vec<(String, String)> {
+/// The options of the command, for a page.
+fn settings(arguments: &Arguments, record: &Path) -> Vec<(String, String)> {
     let asked = [
         ("--record", Some(record.display().to_string())),
         ("--trainee", arguments.trainee.clone()),

@@ -1,4 +1,4 @@
-//! `--report`: how trainees come along, as a page for people.
+//! `--report`: trainees' progress as a page for people.
 
 use super::course::{JudgedAttempt, LearningCurve, Trainee};
 use super::curves::{self, TRAINEES};
@@ -6,10 +6,10 @@ use super::table::{NONE, proficient, shown, standing, truth, valued};
 use crate::date;
 use crate::report::{Markup, Page, Table, count, figure, provenance, quantity, warning_list};
 
-/// Trainees whose latest attempts stand beside one another in a table, at most.
+/// Trainees whose latest attempts a table compares, at most.
 const COLUMNS: usize = 8;
 
-/// The page on `courses`; `settings` say how it was asked for: names and values.
+/// The page on `courses`; `settings` are the options of the command: names and values.
 pub(super) fn html(
     courses: &[LearningCurve<'_>],
     warnings: &[String],
@@ -37,7 +37,7 @@ pub(super) fn html(
     .html()
 }
 
-/// What holds of all numbers.
+/// Conventions for all numbers.
 const CONVENTIONS: &str = " Deviations are standard deviations of one session. Errors are forces above the limit, \
 perforations, drops, contacts of a shaft and cuts that were taken back. Dates are in universal time.";
 
@@ -51,7 +51,7 @@ fn section(course: &LearningCurve<'_>, several: bool) -> Markup {
         .and(cards(course))
         .and(figures(course))
         .and(attempts(course))
-        .and(beside(course));
+        .and(comparison(course));
     Markup::plain("section", inside)
 }
 
@@ -59,7 +59,7 @@ fn cards(course: &LearningCurve<'_>) -> Markup {
     let trainees = course.trainees.len();
     let proficient = course.trainees.iter();
     let proficient = proficient.filter(|own| own.proficient_since.is_some());
-    let told = match course.experts.len() {
+    let proficient = match course.experts.len() {
         0 | 1 => NONE.to_owned(),
         _ => format!("{} of {trainees}", proficient.count()),
     };
@@ -67,7 +67,7 @@ fn cards(course: &LearningCurve<'_>) -> Markup {
         ("Trainees", trainees.to_string()),
         ("Attempts", course.attempts().to_string()),
         ("Sessions of experts", course.experts.len().to_string()),
-        ("Proficient trainees", told),
+        ("Proficient trainees", proficient),
     ];
     let each = all.into_iter().map(|(name, value)| {
         Markup::plain(
@@ -153,8 +153,8 @@ fn row(trainee: &Trainee<'_>, number: usize, own: &JudgedAttempt<'_>) -> Vec<Mar
     ]
 }
 
-/// The latest attempts beside the experts, measure by measure.
-fn beside(course: &LearningCurve<'_>) -> Markup {
+/// The latest attempts compared with the experts, measure by measure.
+fn comparison(course: &LearningCurve<'_>) -> Markup {
     let trainees = course.trainees.iter().take(COLUMNS);
     let last: Vec<_> = trainees
         .filter_map(|own| Some((own, own.attempts.last()?)))

@@ -5,17 +5,17 @@ use std::path::Path;
 use palpate_files::printable;
 use palpate_files::quantity::number;
 
-use super::course::{JudgedAttempt, LearningCurve, Learnt, Trainee};
+use super::course::{CurveQuantity, JudgedAttempt, LearningCurve, Trainee};
 use crate::date;
 use crate::report::{count, quantity, unit};
 
-/// Where there is nothing to say.
+/// An empty value.
 pub(super) const NONE: &str = "–";
 
-/// All tasks of a record, or those that were `asked` for.
-pub(super) fn of(courses: &[LearningCurve<'_>], record: &Path, asked: bool) -> String {
+/// All tasks of a record, or a selection if `filtered`.
+pub(super) fn of(courses: &[LearningCurve<'_>], record: &Path, filtered: bool) -> String {
     if courses.is_empty() {
-        let such = if asked { "such " } else { "" };
+        let such = if filtered { "such " } else { "" };
         return format!(
             "{} holds no {such}attempt of a trainee yet",
             record.display()
@@ -33,7 +33,7 @@ pub(super) fn of(courses: &[LearningCurve<'_>], record: &Path, asked: bool) -> S
             text += &columns(&means(course));
         }
         if let [only] = course.trainees.as_slice() {
-            text += &beside(course, only);
+            text += &comparison(course, only);
         }
         text += "\n";
     }
@@ -55,7 +55,7 @@ fn heading(course: &LearningCurve<'_>) -> String {
     )
 }
 
-/// How far somebody is.
+/// The progress of a trainee.
 pub(super) fn standing(trainee: &Trainee<'_>) -> String {
     match trainee.proficient_since {
         Some(number) => format!("proficient since attempt {number}"),
@@ -92,15 +92,15 @@ fn attempts(trainee: &Trainee<'_>) -> Vec<Vec<String>> {
 pub(super) fn proficient(made: &JudgedAttempt<'_>) -> String {
     match made.proficient() {
         (_, 0) => NONE.to_owned(),
-        (proficient, told) => format!("{proficient} of {told}"),
+        (proficient, judged) => format!("{proficient} of {judged}"),
     }
 }
 
 fn means(course: &LearningCurve<'_>) -> Vec<Vec<String>> {
     let head = ["attempt", "trainees", "time [s]", "±", "errors", "±"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
-    let errors = course.curve(Learnt::Errors);
-    for point in course.curve(Learnt::Time) {
+    let errors = course.curve(CurveQuantity::Errors);
+    for point in course.curve(CurveQuantity::Time) {
         let errors = errors.iter().find(|own| own.attempt == point.attempt);
         let errors = errors.map(|own| own.spread);
         rows.push(vec![
@@ -115,8 +115,8 @@ fn means(course: &LearningCurve<'_>) -> Vec<Vec<String>> {
     rows
 }
 
-/// The latest attempt beside the experts, measure by measure.
-fn beside(course: &LearningCurve<'_>, trainee: &Trainee<'_>) -> String {
+/// The latest attempt compared with the experts, measure by measure.
+fn comparison(course: &LearningCurve<'_>, trainee: &Trainee<'_>) -> String {
     let Some(last) = trainee.attempts.last() else {
         return String::new();
     };

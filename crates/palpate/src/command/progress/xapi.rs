@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::course::{JudgedAttempt, LearningCurve};
 use crate::date;
 
-/// Before the names of what only this program defines.
+/// Prefix of the names that only this program defines.
 const HOME: &str = "https://palpate.invalid";
 
 /// The statements of all attempts of trainees.

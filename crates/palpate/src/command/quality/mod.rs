@@ -1,4 +1,4 @@
-//! `palpate quality`: how good touch is on this machine.
+//! `palpate quality`: the quality of haptic rendering on this machine.
 
 mod answer;
 
@@ -96,7 +96,7 @@ fn touch(simulation: &Arc<Simulation>, rate: u32, seconds: u32) -> Result<Qualit
         ..ServoSettings::default()
     };
     let mut touching = Interaction::start(simulation.clone(), hands.collect(), settings)?;
-    // Nobody is there whom a force could hurt: what a busy machine takes off is counted and armed again.
+    // Nobody holds a device, so no force can hurt: a fault on a busy machine is counted, and the force armed again.
     for _ in 0..10 * seconds {
         thread::sleep(Duration::from_millis(100));
         touching.arm();

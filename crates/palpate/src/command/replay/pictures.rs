@@ -8,21 +8,21 @@ use palpate_viewer::{Animation, FRAME_SIZE, Studio, png};
 
 use crate::failure::Failure;
 
-/// Width and height of an animation [pixels]: a quarter of a picture's, for every picture of it is kept whole.
+/// Width and height of an animation [pixels]: a quarter of a picture's, because each of its pictures is stored whole.
 const ANIMATION_SIZE: (u32, u32) = (FRAME_SIZE.0 / 2, FRAME_SIZE.1 / 2);
 
-/// What is taken, and when.
+/// The pictures to take, and when.
 pub(super) struct Pictures {
     /// The steps after which a picture is taken, the next one last.
     due: Vec<usize>,
     studio: Studio,
-    kept: Destination,
+    destination: Destination,
     files: Vec<PathBuf>,
     /// Until it is dropped nobody else writes there.
     _claims: Vec<Claim>,
 }
 
-/// Where pictures go.
+/// Destination of the pictures.
 enum Destination {
     InFolder(PathBuf),
     InAnimation(PathBuf, Box<Animation>),
@@ -48,7 +48,7 @@ impl Pictures {
         Ok(Self {
             due: due.rev().map(|step| step as usize).collect(),
             studio: Studio::new(scene, simulation, FRAME_SIZE)?,
-            kept: Destination::InFolder(folder.to_owned()),
+            destination: Destination::InFolder(folder.to_owned()),
             files: Vec::new(),
             _claims: vec![claim],
         })
@@ -77,17 +77,17 @@ impl Pictures {
         Ok(Self {
             due,
             studio: Studio::new(scene, simulation, ANIMATION_SIZE)?,
-            kept: Destination::InAnimation(file.to_owned(), animation),
+            destination: Destination::InAnimation(file.to_owned(), animation),
             files: Vec::new(),
             _claims: claims,
         })
     }
 
-    /// Takes the pictures that are due after the step that was played last.
+    /// Takes the pictures that are due after the last step.
     pub(super) fn see(&mut self, replay: &Replay) -> Result<(), Failure> {
         while self.due.pop_if(|step| *step < replay.played()).is_some() {
             let picture = self.studio.picture(replay.state())?;
-            match &mut self.kept {
+            match &mut self.destination {
                 Destination::InFolder(folder) => {
                     let path = folder.join(name(self.files.len() as u64));
                     palpate_files::write_whole(&path, &png(&picture)?)?;
@@ -101,7 +101,7 @@ impl Pictures {
 
     /// Writes what is not yet written; all files.
     pub(super) fn finish(mut self) -> Result<Vec<PathBuf>, Failure> {
-        if let Destination::InAnimation(path, animation) = self.kept {
+        if let Destination::InAnimation(path, animation) = self.destination {
             palpate_files::write_whole(&path, &animation.finish()?)?;
             self.files.push(path);
         }

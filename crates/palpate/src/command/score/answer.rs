@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::output::VERSION;
 
-/// What `--json` prints.
+/// The answer that `--json` prints.
 #[derive(Debug, Serialize)]
 pub(super) struct Answer {
     palpate: &'static str,

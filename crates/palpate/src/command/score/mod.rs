@@ -1,4 +1,4 @@
-//! `palpate score`: the measures of a session, beside an expert's.
+//! `palpate score`: the measures of a session, compared with an expert's.
 
 mod answer;
 mod table;
@@ -14,7 +14,7 @@ use palpate_simulate::{SessionFolder, read_experts};
 
 use crate::failure::Failure;
 use crate::output;
-use crate::training::{self, Who};
+use crate::training::{self, Author};
 use answer::Answer;
 
 /// Examples at the end of the help.
@@ -94,11 +94,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
                 Record::read(&file)?.check_pin(arguments.pin.as_deref())?;
             }
         }
-        let who = Who {
+        let author = Author {
             trainee,
             is_expert: arguments.as_expert,
         };
-        warnings.extend(training::keep(&file, who, &folder, &task, &score)?);
+        warnings.extend(training::save_score(&file, author, &folder, &task, &score)?);
     }
     let answer = Answer::new(&arguments.session, &task, &score, &compared, warnings);
     if arguments.json {
@@ -116,8 +116,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// The sessions of experts but the one that is judged: it is an error where they were named for it, and left out
-/// where the task names them.
+/// The experts' sessions without the judged one: its presence is an error where `--expert` names them, and a warning
+/// where the task does.
 fn experts(
     path: &Path,
     own: &SessionFolder,
@@ -141,11 +141,11 @@ fn experts(
         ));
     }
     let incomplete = experts.iter().flat_map(SessionFolder::warnings);
-    warnings.extend(incomplete.map(|said| format!("an expert's session, {said}")));
+    warnings.extend(incomplete.map(|warning| format!("an expert's session, {warning}")));
     Ok(experts)
 }
 
-/// What experts reach in this task.
+/// The values of the experts in this task.
 fn standards(
     experts: &[SessionFolder],
     task: &Task,

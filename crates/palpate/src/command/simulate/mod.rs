@@ -25,14 +25,13 @@ use crate::progress::Reader;
 use crate::recorded::{Recording, Report, claimed, record};
 use crate::training;
 
-/// The scene that is played when none is named.
+/// The default scene.
 pub(crate) const ESOPHAGUS: &str = include_str!("../../../../../assets/esophagus/scene.toml");
 
 /// Extensions of meshes.
 const MESHES: [&str; 5] = ["stl", "obj", "ply", "gltf", "glb"];
 
-/// What an organ that comes without a scene is touched by, and made of; its shape takes the place of the
-/// liver's.
+/// The tool and the tissue for an organ without a scene; its shape replaces the liver's.
 const AROUND_A_MESH: &str = "\
 format = 1
 organ = { builtin = \"liver\", builtin_tissue = \"pig-liver\" }
@@ -228,12 +227,12 @@ impl Arguments {
 
     /// What a touch may use, with the server that shows it.
     fn resources(&self) -> Result<Resources, Failure> {
-        let asked = [
+        let servers = [
             (self.openigtlink, Protocol::OpenIgtLink, "--openigtlink"),
             (self.publish, Protocol::Rosbridge, "--publish"),
         ];
-        let asked = asked.into_iter();
-        let opened = asked.filter_map(|(address, protocol, option)| {
+        let servers = servers.into_iter();
+        let opened = servers.filter_map(|(address, protocol, option)| {
             let address = address?;
             let opened = Publisher::open(address, protocol).map_err(|error| {
                 Failure::failed(format!(
@@ -254,7 +253,7 @@ fn is_mesh(path: &Path) -> bool {
     MESHES.iter().any(|mesh| extension == *mesh)
 }
 
-/// Where the envelope of a mesh goes, in the present folder.
+/// The default file of a mesh's envelope, in the working directory.
 fn wrapped_name(path: &Path) -> PathBuf {
     let mut name = path.file_stem().unwrap_or_default().to_owned();
     name.push("-wrapped.ply");
@@ -294,7 +293,7 @@ fn play(arguments: &Arguments, played: &Played<'_>, out: &Path) -> Result<(), Fa
     report.outcome()
 }
 
-/// Rows of a motion that are looked at for where to look from.
+/// Rows of a motion that are considered for the viewpoint, at most.
 const MOST_ROWS: usize = 1000;
 
 /// The place of a tool that is deepest in the organ, or nearest to it, over the rows of `motion` [m].
@@ -318,15 +317,15 @@ fn simulate(arguments: &Arguments, played: &Played<'_>, out: &Path) -> Result<Re
     let reader = Reader::of_json(arguments.json);
     let prepared = || preparation::simulation(&scene, &preparation::resources(), reader);
     let claimed = || claimed(out, Overwrite::of_option(arguments.overwrite));
-    // Everything that can be wrong is read, and the folder looked at, before anything is prepared or written.
-    let (motion, folder, simulation, beside) = match played {
+    // All inputs are read and the folder checked before any preparation or output.
+    let (motion, folder, simulation, comparison) = match played {
         Played::Motion(path) => (Motion::read(path)?, claimed()?, prepared()?, None),
         Played::Indentation(path) => {
             let repeated = Repeated::read(path)?;
             let folder = claimed()?;
             let simulation = prepared()?;
-            let (motion, beside) = repeated.on(&scene, &simulation, arguments.at)?;
-            (motion, folder, simulation, Some(beside))
+            let (motion, comparison) = repeated.on(&scene, &simulation, arguments.at)?;
+            (motion, folder, simulation, Some(comparison))
         }
     };
     let frames = match arguments.frames {
@@ -344,7 +343,7 @@ fn simulate(arguments: &Arguments, played: &Played<'_>, out: &Path) -> Result<Re
         folder,
         surfaces: arguments.fields,
         frames,
-        beside,
+        comparison,
         reader,
     };
     record(&simulation, &motion, recording)

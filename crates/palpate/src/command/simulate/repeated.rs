@@ -1,4 +1,4 @@
-//! An indentation that was recorded, done again on the organ of a scene.
+//! Repeats a recorded indentation on the organ of a scene.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use palpate_jobs::Recordings;
 use palpate_simulate::Simulation;
 
 use crate::failure::Failure;
-use crate::recorded::Beside;
+use crate::recorded::Comparison;
 
 /// A point, from its three coordinates with commas between them [m].
 pub(super) fn point(text: &str) -> Result<[f64; 3], String> {
@@ -55,13 +55,13 @@ impl Repeated {
         })
     }
 
-    /// The motion of the scene's first tool that repeats it near `at` [m], and what is compared.
+    /// The motion of the scene's first tool that repeats it near `at` [m], and the comparison of forces.
     pub(super) fn on(
         self,
         scene: &Scene,
         simulation: &Simulation,
         at: Option<[f64; 3]>,
-    ) -> Result<(Motion, Beside), Failure> {
+    ) -> Result<(Motion, Comparison), Failure> {
         let tool = &simulation.tools()[0];
         let site = simulation.site(tool, at.map(Vec3::from));
         let file = self.file.display().to_string();
@@ -81,10 +81,10 @@ impl Repeated {
         let time: Vec<f64> = time.iter().map(|t| t + handling.contact.time_s).collect();
         let motion = site.indented(tool, &time, &depth)?;
         let recorded = [time, depth, filtered_force];
-        Ok((motion, Beside::new(self.file, recorded, site, warnings)))
+        Ok((motion, Comparison::new(self.file, recorded, site, warnings)))
     }
 
-    /// What is said when the indenter was not the tip.
+    /// A warning when the tip differs from the indenter.
     fn other_tip(&self, tip: &Tip) -> Option<String> {
         let header = &self.recording.header;
         let is_shape = match header.indenter_shape {

@@ -1,4 +1,4 @@
-//! A touch without a window: devices move the tools, and clients of servers see it, until Ctrl-C.
+//! Simulation without a window: devices move the tools, and servers publish it, until Ctrl-C.
 
 use std::sync::Arc;
 use std::thread;
@@ -14,10 +14,10 @@ use crate::failure::Failure;
 use crate::progress::Reader;
 use crate::{interrupt, output, preparation};
 
-/// How often it is looked whether it goes on.
+/// Polling interval for the end.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Touches `scene` until somebody presses Ctrl-C.
+/// Runs `scene` until the user presses Ctrl-C.
 pub(super) fn run(scene: Scene, resources: Resources) -> Result<(), Failure> {
     let moves = |device: DeviceKind| device.is_haptic() || device == DeviceKind::Virtual;
     if !scene.tools.iter().any(|tool| moves(tool.device)) {
@@ -32,30 +32,30 @@ pub(super) fn run(scene: Scene, resources: Resources) -> Result<(), Failure> {
     let devices = SceneDevices::open(&scene, &simulation, &resources.devices)?;
     let environment = Environment {
         publishers: &resources.publishers,
-        is_ended: interrupt::is_asked,
+        is_ended: interrupt::is_requested,
     };
     let prepared = PreparedModel::new(simulation);
     let settings = ServoSettings::default();
-    // Asked once, so that signals are heard from now on.
-    let _ = interrupt::is_asked();
+    // The first call starts listening for signals.
+    let _ = interrupt::is_requested();
     let memory = lock_memory();
     let mut touch = Interaction::start_in(&environment, prepared, devices.devices, settings)?;
     for publisher in environment.publishers {
         output::line(format!("shown at {}, Ctrl-C ends it", publisher.address()))?;
     }
-    // What nobody moves by hand is armed again by nobody either: a fault is told, and stays.
-    let mut told = None;
-    while touch.is_running() && !interrupt::is_asked() {
+    // No user can rearm the devices here: a fault is reported and stays.
+    let mut reported = None;
+    while touch.is_running() && !interrupt::is_requested() {
         let fault = touch
             .quality()
             .loops
             .iter()
             .flatten()
             .find_map(|own| own.fault);
-        if let Some(fault) = fault.filter(|fault| told != Some(*fault)) {
+        if let Some(fault) = fault.filter(|fault| reported != Some(*fault)) {
             output::warnings(&[fault.to_string()]);
         }
-        told = fault;
+        reported = fault;
         thread::sleep(LOOK);
     }
     let ended = touch.is_running();

@@ -1,4 +1,4 @@
-//! `palpate solve`: the finite element reference on a described problem.
+//! `palpate solve`: solves a described problem with the finite element reference.
 
 use std::path::{Path, PathBuf};
 
@@ -109,7 +109,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The files to be written, if there is something to write: said before the work, not after it.
+/// The files to write, if there is data for them: checked before the work, not after it.
 fn claimed(arguments: &Arguments, problem: &Problem) -> Result<Vec<Claim>, Failure> {
     if arguments.vtu.is_some() && !problem.has_field() {
         return Err(Failure::input(
@@ -134,7 +134,7 @@ fn claimed(arguments: &Arguments, problem: &Problem) -> Result<Vec<Claim>, Failu
 
 fn write(arguments: &Arguments, answer: &Answer) -> Result<(), Failure> {
     let solution = &answer.solution;
-    // Ctrl-C waits until the files are whole.
+    // Ctrl-C is delayed until the files are complete.
     let _unbroken = Unbroken::begin();
     if let Some(path) = &arguments.plot {
         solution.plot.write(path)?;

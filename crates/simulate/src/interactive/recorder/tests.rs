@@ -48,7 +48,7 @@ fn writer(folder: &Path) -> SessionFolderWriter {
     SessionFolderWriter::begin(claim, None, &header, &["right".to_owned()]).unwrap()
 }
 
-/// A folder whose disk breaks after the first `lines` lines: its session goes into a pipe whose reader leaves.
+/// A folder whose disk fails after the first `lines` lines: its session goes into a pipe whose reader leaves.
 fn breaking(folder: &Path, lines: usize) -> SessionFolderWriter {
     fs::create_dir(folder).unwrap();
     let pipe = folder.join("session.csv.part");
@@ -59,7 +59,7 @@ fn breaking(folder: &Path, lines: usize) -> SessionFolderWriter {
         assert_eq!(pipe.lines().take(lines).count(), lines);
     });
     let writer = writer(folder);
-    // The header is one flush; from then on nobody reads.
+    // The header is one flush; the reader leaves after it.
     reader.join().unwrap();
     writer
 }
@@ -109,8 +109,7 @@ fn rows_in(folder: &Path) -> Vec<SessionRow> {
     session.rows
 }
 
-/// What cannot be written is known at once, and nothing of it is lost: a session that goes on goes on elsewhere, from
-/// its first row.
+/// A write failure is known at once and loses nothing: a session can continue in another folder, from its first row.
 #[test]
 fn a_session_on_a_broken_disk_goes_on_elsewhere_whole() {
     let folder = tempfile::tempdir().unwrap();
@@ -136,7 +135,7 @@ fn a_session_on_a_broken_disk_goes_on_elsewhere_whole() {
     played.recorder.end().unwrap();
     let expected: Vec<_> = (0..90).map(row).collect();
     assert_eq!(rows_in(&at("other")), expected);
-    // Who shows the rows has all of them, too.
+    // The display gets all rows, too.
     let mut shown = Vec::new();
     until(|| {
         shown.extend(played.rows.drain());
@@ -144,7 +143,7 @@ fn a_session_on_a_broken_disk_goes_on_elsewhere_whole() {
     });
 }
 
-/// Also after the end, which says that nothing was recorded; the next recording begins without a trouble.
+/// Also after the end, which reports that nothing was recorded; the next recording begins normally.
 #[test]
 fn a_session_that_has_ended_is_still_in_memory() {
     let folder = tempfile::tempdir().unwrap();
@@ -155,7 +154,7 @@ fn a_session_that_has_ended_is_still_in_memory() {
         .record(breaking(&at("broken"), header_lines()));
     played.play(0..30);
     assert!(!played.recorder.end().unwrap_err().is_input());
-    // Rows after the end are no part of it.
+    // Rows after the end do not belong to it.
     played.play(30..40);
     assert!(played.recorder.unwritten().is_some());
     played
@@ -170,7 +169,7 @@ fn a_session_that_has_ended_is_still_in_memory() {
     assert_eq!(rows_in(&at("next")).len(), 5);
 }
 
-/// Memory is bounded; what does not fit is said, and the rows that are there are marked as incomplete.
+/// Memory is bounded; an overflow is reported, and the remaining rows are marked as incomplete.
 #[test]
 fn more_rows_than_memory_keeps_are_an_incomplete_session() {
     let folder = tempfile::tempdir().unwrap();

@@ -42,7 +42,7 @@ pub(super) fn wire() -> Vec<[f32; 6]> {
     Solid::skin(&rings).corners()
 }
 
-/// What insulates the wire where it leaves the shaft.
+/// Insulation of the wire where it leaves the shaft.
 pub(super) fn collar(shaft: f64) -> Vec<[f32; 6]> {
     turned(&sharp(&[
         (0.0, BARE),

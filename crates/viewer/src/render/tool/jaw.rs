@@ -14,7 +14,7 @@ const HIGH: f64 = 0.00022;
 const WAY: usize = 168;
 const SECTION: usize = 12;
 
-/// One jaw of a grasper, shut: a frame around a window, with teeth inside; `side` tells which.
+/// One jaw of a grasper, shut: a frame around a window, with teeth inside; `side` selects the jaw.
 pub(super) fn corners(jaws: &JawSize, side: f64) -> Vec<[f32; 6]> {
     let solid = frame(jaws).with(lug(jaws));
     match side > 0.0 {
@@ -91,7 +91,7 @@ fn section(center: Vec3, out: Vec3, wide: f64, high: f64) -> Vec<Vec3> {
     points
 }
 
-/// What joins the frame to the hinge, on one side of which it turns.
+/// Joint of the frame and the hinge, on one side of which it turns.
 fn lug(jaws: &JawSize) -> Solid {
     let hinge = jaws.length * Vec3::z();
     let radius = 0.0018;

@@ -1,4 +1,4 @@
-//! Tools as they are seen: parts that are made once, in the tool's frame, and put in place for every
+//! Pictures of tools: parts that are made once, in the tool's frame, and put in place for every
 //! picture.
 //!
 //! The tip is the origin and the shaft runs along +z. Jaws turn about an axis along y, so that they open
@@ -7,7 +7,7 @@
 //!
 //! *How we know*: `tests::every_part_bounds_a_solid`, `tests::jaws_open_as_far_as_they_say`, `golden::…`.
 //!
-//! *Limits*: the metal mirrors a room that is not there; a jaw does not bend.
+//! *Limits*: the metal mirrors a fictitious room; a jaw does not bend.
 
 mod hinge;
 mod hook;
@@ -53,11 +53,11 @@ pub struct ToolPicture {
     trocar: Option<Vec3>,
     /// The place of the resting surface that it touches [m] and the radius of the mark there [m].
     pub(super) mark: Option<(Vec3, f64)>,
-    /// What it is in a picture of labels.
+    /// Its label in a picture of labels.
     pub(super) label: Label,
 }
 
-/// What a tool looks like.
+/// Look of a tool.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ToolShape {
     kind: ToolKind,
@@ -96,11 +96,11 @@ pub(super) struct JawSize {
 /// Width of blades, of which a scene says nothing [m].
 const BLADES: f64 = 0.004;
 
-/// What a part is made of.
+/// Material of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Material {
     Steel,
-    /// What insulates a shaft.
+    /// Insulation of a shaft.
     Black,
     /// A trocar, and the end of an insulation.
     Pale,

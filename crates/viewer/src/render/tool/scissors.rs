@@ -4,13 +4,13 @@ use super::JawSize;
 use super::hinge::GAP;
 use super::solid::Solid;
 
-/// How far the middle of a blade lies beside its ends [-], in units of its length.
+/// Sideways offset of the middle of a blade from its ends [-], in units of its length.
 const BENT: f64 = 0.085;
 
 /// Stations along a blade.
 const STATIONS: usize = 40;
 
-/// One blade of scissors, shut: its flat side slides along that of the other. `side` tells which.
+/// One blade of scissors, shut: its flat side slides along that of the other. `side` selects the blade.
 pub(super) fn corners(jaws: &JawSize, side: f64) -> Vec<[f32; 6]> {
     // Both are bent to the same side, so that the second is no mirror image of the first.
     let bend = BENT * jaws.length * side;

@@ -1,4 +1,4 @@
-//! What the sticks and buttons of a gamepad want, by the codes of Linux for gamepads (`linux/input-event-codes.h`; which
+//! Commands by the sticks and buttons of a gamepad, by the codes of Linux for gamepads (`linux/input-event-codes.h`; which
 //! code is where: the kernel's `Documentation/input/gamepad.rst`).
 //!
 //! *How we know*: `hands::…`, with events written as the drivers `xpad`, `hid-playstation` and `hid-generic` report them.
@@ -84,7 +84,7 @@ impl Layout {
     }
 }
 
-/// What of a gamepad moves a tool.
+/// The part of a gamepad that moves a tool.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PadPart {
     /// All of it.
@@ -96,7 +96,7 @@ pub enum PadPart {
 }
 
 impl PadPart {
-    /// What of gamepad number `pad` of `pads` moves the tool of a side, left (0) or right (1), of so many `tools`. One
+    /// The part of gamepad number `pad` of `pads` that moves the tool of a side, left (0) or right (1), of so many `tools`. One
     /// gamepad serves both hands by halves, two serve a hand each, and a single tool has all of them.
     pub fn of([pad, pads]: [usize; 2], side: usize, tools: usize) -> Option<Self> {
         match (tools, pads, side) {
@@ -108,7 +108,7 @@ impl PadPart {
     }
 }
 
-/// What a gamepad wants to be done once.
+/// Actions of a gamepad that happen once.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct PadRequests {
     /// To mark the place, to begin, or to end.
@@ -122,7 +122,7 @@ pub struct PadRequests {
 }
 
 impl PadRequests {
-    /// What `self` and `other` want together.
+    /// Combines the actions of `self` and `other`.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self {
@@ -166,7 +166,7 @@ impl Pad {
         }
     }
 
-    /// Takes the state at the start: what is held then was not pressed.
+    /// Takes the initial state: buttons that are down then do not count as pressed.
     pub fn begin(&mut self, event: PadEvent) {
         self.take(event);
         self.pressed = 0;
@@ -198,7 +198,7 @@ impl Pad {
         }
     }
 
-    /// What is pressed since the last look; nothing is any more.
+    /// The state with the buttons that were pressed since the last call, which it clears.
     pub fn look(&mut self) -> Self {
         let seen = *self;
         self.pressed = 0;
@@ -229,7 +229,7 @@ impl Pad {
         pulled.max(pressed)
     }
 
-    /// What a part of it wants of a tool. Halves: the stick moves the tool in the picture, the trigger moves it in and
+    /// Command of a part of it to a tool. Halves: the stick moves the tool in the picture, the trigger moves it in and
     /// the shoulder out; the stick's button closes or opens the jaws; X, Y (left) and B (right) cut. The whole: the left
     /// stick moves it, the right trigger moves it in and the left one out, the right stick rolls it; the right shoulder
     /// or a stick's button closes or opens the jaws, the left shoulder slows down; B, X and Y cut.
@@ -264,7 +264,7 @@ impl Pad {
         }
     }
 
-    /// What it wants to be done once: A marks, the menu button pauses, the view button undoes a cut, the digital pad
+    /// Its actions that happen once: A marks, the menu button pauses, the view button undoes a cut, the digital pad
     /// changes a diameter.
     pub fn requests(&self) -> PadRequests {
         let larger = i32::from(self.is_pressed(PAD_RIGHT)) - i32::from(self.is_pressed(PAD_LEFT));

@@ -1,4 +1,4 @@
-//! Which key does what. The keys of both hands lie around W A S D and I J K L, each hand's mirror image of
+//! Key bindings. The keys of both hands lie around W A S D and I J K L, each hand's mirror image of
 //! the other's; none is used twice.
 
 use eframe::egui::{InputState, Key, PointerButton};
@@ -34,7 +34,7 @@ pub const HANDS: [HandKeys; 2] = [
     },
 ];
 
-/// What a key does once, whichever hand it is.
+/// Action of a key that acts once, for either hand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Action {
     /// The mouse takes the other tool; the window asks for this key itself, which else walks through it.
@@ -49,11 +49,11 @@ pub enum Action {
     Hints,
     /// This place is meant, or it is done.
     Mark,
-    /// What an engineer wants to see is shown during a task, or not.
+    /// Panels for engineers are shown during a task, or not.
     EngineerView,
 }
 
-/// What is done once, and by which key.
+/// Actions that happen once, each with its key.
 pub const ACTIONS: [(Key, Action); 7] = [
     (Key::Enter, Action::Mark),
     (Key::Z, Action::Undo),
@@ -78,7 +78,7 @@ pub const LINES: [[&str; 3]; 5] = [
     ["keys-cut", "X", "M"],
 ];
 
-/// What else is in the list: keys, and the text's key of what they do.
+/// Other lines of the list: keys, and the text's key of their action.
 pub const MORE: [[&str; 2]; 11] = [
     ["Shift", "keys-fine"],
     ["Tab", "keys-other-tool"],
@@ -93,7 +93,7 @@ pub const MORE: [[&str; 2]; 11] = [
     ["? · F1", "keys-list"],
 ];
 
-/// What the keys of `hand` want.
+/// Command of the keys of `hand`.
 pub fn drive(hand: &HandKeys, input: &InputState) -> Drive {
     let down = |key| f64::from(u8::from(input.key_down(key)));
     let [left, right, below, above, out, inward] = hand.ways.map(down);
@@ -107,7 +107,7 @@ pub fn drive(hand: &HandKeys, input: &InputState) -> Drive {
     }
 }
 
-/// What keys and the further buttons of a mouse want of the tool that it moves; without `keys`, the buttons.
+/// Command of keys and of the further buttons of a mouse to the tool that it moves; without `keys`, of the buttons.
 pub fn of_mouse(input: &InputState, keys: bool) -> Drive {
     let pointer = &input.pointer;
     Drive {
@@ -117,7 +117,7 @@ pub fn of_mouse(input: &InputState, keys: bool) -> Drive {
     }
 }
 
-/// What is to be done once.
+/// Actions of the keys that were pressed.
 pub fn actions(input: &InputState) -> impl Iterator<Item = Action> {
     let wanted = ACTIONS.map(|(key, action)| pressed(key, input).then_some(action));
     wanted.into_iter().flatten()

@@ -38,7 +38,7 @@ const FARTHEST: f64 = 2.0;
 /// Way of a pull along the line of sight, per step of the wheel [m].
 const WHEEL: f64 = 0.0005;
 
-/// Before the surface, where a tool with a trocar waits to be taken up [m].
+/// Distance before the surface at which a tool with a trocar is taken up [m].
 const WAITING: f64 = 0.018;
 
 /// How a hand is moved, by keys or sticks, each from -1 to 1 [-].
@@ -52,7 +52,7 @@ pub struct Drive {
     pub fine: bool,
     /// The jaws change from open to shut or back.
     pub jaws: bool,
-    /// What cuts is to cut, as long as this is so.
+    /// Whether a cutting tool cuts.
     pub cuts: bool,
 }
 
@@ -62,7 +62,7 @@ impl Drive {
         self.roll != 0.0 || self.way.iter().any(|part| *part != 0.0)
     }
 
-    /// What `self` and `other` want together.
+    /// Combines the commands of `self` and `other`.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self {
@@ -75,7 +75,7 @@ impl Drive {
     }
 }
 
-/// What a hand moves in.
+/// Surroundings of a hand.
 #[derive(Debug, Clone, Copy)]
 pub struct HandContext<'a> {
     /// From where it is seen.

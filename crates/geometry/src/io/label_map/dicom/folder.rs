@@ -24,11 +24,12 @@ pub struct DicomSeries {
     pub images: usize,
     /// Columns and rows of an image [pixels].
     pub size: [usize; 2],
-    /// From column to column, row to row and image to image [m]; none where an image does not say it, or is the only one.
+    /// From column to column, row to row and image to image [m]; none where an image does not state it, or is the only
+    /// one.
     pub spacing_m: Option<[f64; 3]>,
 }
 
-/// What lies in a folder with DICOM files, and in the folders in it.
+/// Contents of a folder with DICOM files, and of its subfolders.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct DicomFolder {
     /// Its images, by series.
@@ -68,7 +69,7 @@ pub(super) fn read_here(path: &Path) -> Result<DicomFolder, ReadFault> {
     collect(path, DEEPEST, &mut files)?;
     files.sort_unstable();
     let mut found = DicomFolder::default();
-    // By the identifier of the series, which says nothing of a person.
+    // By the identifier of the series, which does not identify a person.
     let mut series: BTreeMap<String, SeriesImages> = BTreeMap::new();
     for file in files {
         let Some(object) = header(&file) else {
@@ -89,7 +90,10 @@ pub(super) fn read_here(path: &Path) -> Result<DicomFolder, ReadFault> {
             found.others += 1;
         }
     }
-    found.series = series.into_values().map(SeriesImages::told).collect();
+    found.series = series
+        .into_values()
+        .map(SeriesImages::into_series)
+        .collect();
     found
         .series
         .sort_by(|one, other| (&one.modality, other.images).cmp(&(&other.modality, one.images)));
@@ -124,7 +128,7 @@ fn collect(folder: &Path, deeper: usize, files: &mut Vec<PathBuf>) -> Result<(),
     Ok(())
 }
 
-/// What a DICOM file has before its pixels; none if it is another or a damaged file.
+/// The elements of a DICOM file before its pixels; none if it is another or a damaged file.
 fn header(file: &Path) -> Option<FileDicomObject<InMemDicomObject>> {
     let mut file = BufReader::new(File::open(file).ok()?);
     let mut bytes = [0; PREAMBLE + MAGIC.len()];
@@ -150,7 +154,7 @@ impl SeriesImages {
         }
     }
 
-    fn told(mut self) -> DicomSeries {
+    fn into_series(mut self) -> DicomSeries {
         self.heights.sort_by(f64::total_cmp);
         let mut gaps: Vec<f64> = self
             .heights

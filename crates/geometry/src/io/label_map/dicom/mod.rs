@@ -1,5 +1,5 @@
-//! DICOM: what images lie in a folder, and segmentation objects as label maps. Nothing that tells who a patient is, or
-//! when, is read from a file.
+//! DICOM: the image series in a folder, and segmentation objects as label maps. No identity of a patient and no date
+//! is read from a file.
 //!
 //! *How we know*: `dicom::…`, on files that another library wrote.
 //!
@@ -26,7 +26,7 @@ use crate::io::text::shortened;
 use crate::io::{MOST_BYTES, read_whole};
 use crate::{LabelMap, ReadFault};
 
-/// What stands after the preamble of a file.
+/// The magic bytes after the preamble of a file.
 const MAGIC: &[u8] = b"DICM";
 
 /// Explicit big-endian, which is retired.
@@ -35,7 +35,7 @@ const BIG_ENDIAN: &str = "1.2.840.10008.1.2.2";
 /// Bytes of the preamble.
 const PREAMBLE: usize = 128;
 
-/// Where the elements before the data set begin [bytes].
+/// Start of the elements before the data set [bytes].
 const META_BEGIN: u64 = (PREAMBLE + MAGIC.len()) as u64;
 
 /// Bytes of the first of these elements, whose last four are the length of the others.
@@ -95,7 +95,7 @@ fn read_object(
     object.map_err(invalid)
 }
 
-/// Where the elements before the data set end, as the first of them says; where they begin if the file is too short.
+/// End of the elements before the data set, from the first of them; where they begin if the file is too short.
 fn meta_end(file: &mut (impl Read + Seek)) -> io::Result<u64> {
     let mut first = [0; META_LENGTH_SIZE];
     file.seek(SeekFrom::Start(META_BEGIN))?;

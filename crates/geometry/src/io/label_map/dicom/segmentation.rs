@@ -10,7 +10,7 @@ use crate::io::label_map::placed;
 use crate::io::label_map::voxels::size;
 use crate::{LabelMap, ReadFault};
 
-/// How the pixels of a frame tell a label.
+/// How the pixels of a frame encode a label.
 #[derive(Clone, Copy)]
 enum Pixels {
     /// A bit for each, that of the frame's segment; the first pixel in the lowest bit.

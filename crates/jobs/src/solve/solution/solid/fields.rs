@@ -1,4 +1,4 @@
-//! What is to be seen of a solid: the body for ParaView, and how its surface moves.
+//! Output fields of a solid: the body for ParaView, and the displacement of its surface.
 
 use palpate_geometry::vtk::{CellKind, Cells, FieldValues, PointField, unstructured_grid};
 use palpate_mechanics::finite_elements::solid::SolidFields;
@@ -7,7 +7,7 @@ use super::super::super::problem::Solid;
 use super::super::plots;
 use crate::plot::{Plot, Series, Style};
 
-/// Points of the plot; more are not seen.
+/// Points of the plot; more are not visible.
 const POINTS: usize = 3000;
 
 /// The body at rest with its displacement, for ParaView's `Warp By Vector`.
@@ -51,7 +51,7 @@ pub(super) fn grid(fields: &SolidFields) -> Vec<u8> {
     unstructured_grid(&fields.positions, &cells, &at_nodes, &in_cells)
 }
 
-/// How far the surface moves: by its distance from the patch, or along the longest axis where there is none.
+/// Displacement of the surface: over its distance from the patch, or along the longest axis where there is none.
 pub(super) fn around_patch(case: &Solid, fields: &SolidFields) -> Plot {
     let surface = &fields.surface;
     let step = surface.len() / POINTS + 1;

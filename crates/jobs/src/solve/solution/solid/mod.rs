@@ -24,24 +24,25 @@ use super::figures::{
 };
 use super::{Solution, Wanted, plots, warnings};
 use crate::Error;
-use crate::solve::telling::Telling;
+use crate::solve::telling::ProgressReporter;
 
-/// Parts of its length by which a body moves before a linear law deserves a warning [-].
+/// Displacement over the length of a body above which a linear law gets a warning [-].
 const LARGE_WAY: f64 = 0.05;
 
-/// Files that hold tetrahedra.
+/// File extensions of tetrahedral meshes.
 const VOLUMES: [&str; 3] = ["msh", "vtk", "vtu"];
 
-/// The stiffness is fitted until it changes by no more than this part of the accuracy [-], in so many solutions at most.
+/// The fit of the stiffness stops when it changes by no more than this part of the accuracy [-], or after this many
+/// solutions.
 const FITTED_TO: f64 = 0.1;
 const MOST_FITS: usize = 8;
 
-/// A body that is moved or loaded, of a tissue that is fitted where that is asked for.
+/// Solves a body that is moved or loaded, and fits its tissue where that is requested.
 pub(crate) fn solution(
     problem: &Problem,
     case: &Solid,
     wanted: Wanted,
-    telling: &Telling<'_>,
+    reporter: &ProgressReporter<'_>,
 ) -> Result<Solution, Error> {
     let BodyOfFile {
         body,
@@ -78,7 +79,7 @@ pub(crate) fn solution(
     };
     let solved = |mechanical: &SolidProblem| {
         solve(mechanical, problem.accuracy, &mut |progress| {
-            telling.at(progress);
+            reporter.at(progress);
         })
         .map_err(|error| refused(problem, case, error))
     };
@@ -89,7 +90,7 @@ pub(crate) fn solution(
         if !case.fits {
             break;
         }
-        // Displacements are nearly as the reciprocal of the stiffness.
+        // Displacements are nearly proportional to the reciprocal of the stiffness.
         let change = stiffness_ratio(case, &found.answer.points).ok_or_else(|| against(case))?;
         if (change - 1.0).abs() <= FITTED_TO * problem.accuracy {
             break;
@@ -263,7 +264,7 @@ fn moved(patch: &Patch) -> MovedPatch {
     }
 }
 
-/// By what the stiffness is multiplied so that the points move as measured, by least squares; none where they do not.
+/// Least-squares factor on the stiffness, so that the points move as measured; none where they do not move.
 fn stiffness_ratio(case: &Solid, moved: &[Vec3]) -> Option<f64> {
     let (mut both, mut squares) = (0.0, 0.0);
     for (point, moved) in case.points.iter().zip(moved) {
@@ -277,7 +278,7 @@ fn stiffness_ratio(case: &Solid, moved: &[Vec3]) -> Option<f64> {
     (ratio > 0.0 && ratio.is_finite()).then_some(ratio)
 }
 
-/// The error where the points move the other way.
+/// The error when the points move in the opposite direction.
 fn against(case: &Solid) -> Error {
     let measured = case.points.iter().find(|point| point.measured.is_some());
     let way = measured.and_then(|point| point.measured);
@@ -294,7 +295,7 @@ fn against(case: &Solid) -> Error {
     error.into()
 }
 
-/// What the solver says, with the line and the key where it is about a load or a point.
+/// The error of the solver, with the line and the key where it concerns a load or a point.
 fn refused(problem: &Problem, case: &Solid, error: palpate_mechanics::Error) -> Error {
     let load = |number: usize| case.loads.get(number);
     match &error {
@@ -347,7 +348,7 @@ fn refused(problem: &Problem, case: &Solid, error: palpate_mechanics::Error) -> 
     .unwrap_or_else(|| problem.refused(error))
 }
 
-/// What is to be filled, or is filled already.
+/// A surface to be meshed, or a tetrahedral mesh.
 struct BodyOfFile {
     body: Body,
     /// Regions of the cells, where a file of tetrahedra has any.

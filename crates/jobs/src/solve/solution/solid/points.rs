@@ -1,4 +1,4 @@
-//! Points of a solid whose displacement is asked for.
+//! Points of a solid whose displacement is requested.
 
 use palpate_files::quantity::rounded;
 use palpate_geometry::{AabbTree, Surface};
@@ -9,18 +9,18 @@ use super::super::super::problem::{Point, Solid};
 use super::super::figures::PointFigures;
 use crate::solve::table::Table;
 
-/// A point this far outside of the body deserves a warning [parts of its longest extent]; what is nearer is as good as on
-/// its surface.
+/// A point farther outside of the body than this gets a warning [parts of its longest extent]; a nearer one is as
+/// good as on its surface.
 const OFF: f64 = 0.01;
 
-/// Where the points are in the body [m], and warnings.
+/// Positions of the points in the body [m], and warnings.
 pub(super) fn places(case: &Solid, body: &Body) -> (Vec<Vec3>, Vec<String>) {
     let mut warnings = Vec::new();
     let filled;
     let surface = match body {
         Body::Surface(surface) => Some(surface),
         Body::Volume(mesh) if case.points.iter().any(|point| point.is_nearest) => {
-            // Of a body whose boundary is no surface, the solver refuses what is far outside.
+            // Where the boundary of a body is no surface, the solver rejects points far outside.
             filled = mesh.boundary_surface().ok();
             filled.as_ref()
         }
@@ -50,7 +50,7 @@ pub(super) fn places(case: &Solid, body: &Body) -> (Vec<Vec3>, Vec<String>) {
     (places, warnings)
 }
 
-/// What the points at these places [m] do.
+/// Displacements of the points at these positions [m].
 pub(super) fn figures(case: &Solid, at: &[Vec3], moved: &[Vec3]) -> Vec<PointFigures> {
     let each = case.points.iter().zip(at).zip(moved);
     each.map(|((point, at), moved)| figures_of(point, at, moved))

@@ -1,4 +1,4 @@
-//! The parts of a solid: as the solver takes them, and as people read of them.
+//! The parts of a solid: for the solver, and in the answer.
 
 use palpate_files::quantity::rounded;
 use palpate_files::scene::PartPlace;
@@ -14,7 +14,7 @@ use super::super::figures::{CavityFigures, RegionFigures};
 use super::bad;
 use crate::Error;
 
-/// The parts of the body as the solver takes them, and warnings.
+/// The parts of the body in the solver's form, and warnings.
 pub(super) fn solved(
     parts: &[SolidPart],
     of_file: &[VolumeRegion],
@@ -107,7 +107,7 @@ fn in_a_list(regions: &[VolumeRegion]) -> String {
     format!("the {noun} {}{more}", each.join(", "))
 }
 
-/// What each part of the body is; none where it has no parts.
+/// The answer for each part of the body; none where it has no parts.
 pub(super) fn figures(problem: &Problem, case: &Solid, fields: &SolidFields) -> Vec<RegionFigures> {
     if case.parts.is_empty() {
         return Vec::new();
@@ -133,7 +133,7 @@ pub(super) fn figures(problem: &Problem, case: &Solid, fields: &SolidFields) -> 
     each.filter(|region| region.volume_m3 > 0.0).collect()
 }
 
-/// What each cavity has become.
+/// The answer for each cavity.
 pub(super) fn cavities(case: &Solid, answers: &[CavityAnswer]) -> Vec<CavityFigures> {
     let each = answers.iter().map(|answer| CavityFigures {
         name: case.parts[answer.region].name.clone(),
@@ -144,7 +144,7 @@ pub(super) fn cavities(case: &Solid, answers: &[CavityAnswer]) -> Vec<CavityFigu
     each.collect()
 }
 
-/// What the solver says of a part of the body.
+/// The error of the solver for a part of the body.
 pub(super) fn refused(case: &Solid, error: &RegionError) -> Option<Error> {
     let part = |number: usize| case.parts.get(number);
     match error {

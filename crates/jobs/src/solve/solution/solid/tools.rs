@@ -1,4 +1,4 @@
-//! What rigid tools feel.
+//! Forces on rigid tools.
 
 use palpate_mechanics::finite_elements::rigid_tool::ToolLoad;
 use palpate_mechanics::finite_elements::solid::SolidAnswer;
@@ -9,7 +9,7 @@ use super::super::figures::ToolFigures;
 use super::super::{millinewtons, plots};
 use crate::plot::{Plot, Series, Style};
 
-/// Of each tool, or of each of its jaws, at the places of its path.
+/// The figures of each tool, or of each of its jaws, at the positions of its path.
 pub(super) fn figures(case: &Solid, answer: &SolidAnswer) -> Vec<ToolFigures> {
     let waypoints = answer.waypoints();
     let names = case.tools.iter().flat_map(|tool| tool.names());
@@ -30,7 +30,7 @@ pub(super) fn figures(case: &Solid, answer: &SolidAnswer) -> Vec<ToolFigures> {
     each.collect()
 }
 
-/// Of tools that meet nothing.
+/// The figures of tools without contact.
 pub(super) fn warnings(tools: &[ToolFigures]) -> impl Iterator<Item = String> + '_ {
     let idle = tools.iter();
     let idle = idle.filter(|tool| tool.contact_area_m2.iter().all(|area| *area == 0.0));
@@ -42,7 +42,7 @@ pub(super) fn warnings(tools: &[ToolFigures]) -> impl Iterator<Item = String> + 
     })
 }
 
-/// One row for each place of each path.
+/// One row for each position of each path.
 pub(super) fn table(tools: &[ToolFigures]) -> Table {
     let rows = || {
         let each = tools.iter();
@@ -52,7 +52,7 @@ pub(super) fn table(tools: &[ToolFigures]) -> Table {
         let forces: Vec<f64> = rows()
             .map(|(tool, place)| {
                 let [force, size] = [tool.force_n[place][axis], tool.normal_force_n[place]];
-                // What rounding leaves is no force.
+                // Rounding errors are no force.
                 if force.abs() > 1e-9 * size {
                     force
                 } else {

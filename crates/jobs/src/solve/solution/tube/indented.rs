@@ -6,16 +6,16 @@ use super::super::figures::Figures;
 use super::super::{Solution, millimetres, millinewtons, plots, warnings};
 use crate::Error;
 use crate::plot::Plot;
-use crate::solve::telling::Telling;
+use crate::solve::telling::ProgressReporter;
 
-/// The solution for the inflated tube, with the forces of a punch on its side under the last pressure.
+/// Adds to the solution of the inflated tube the forces of a punch on its side under the last pressure.
 pub(crate) fn with_forces(
     inflated: Solution,
     problem: &Problem,
     mechanical: &TubeProblem,
     tube: &Tube,
     punch: &TubeIndent,
-    telling: &Telling<'_>,
+    reporter: &ProgressReporter<'_>,
 ) -> Result<Solution, Error> {
     let Figures::Tube(mut figures) = inflated.figures else {
         return Ok(inflated);
@@ -35,14 +35,14 @@ pub(crate) fn with_forces(
             ..inflated
         });
     };
-    let asked = TubePunch {
+    let request = TubePunch {
         radius: punch.radius,
         face: punch.contact,
         pressure,
         depths: depths.clone(),
     };
-    let found = indent(mechanical, &asked, problem.accuracy, &mut |progress| {
-        telling.at(progress);
+    let found = indent(mechanical, &request, problem.accuracy, &mut |progress| {
+        reporter.at(progress);
     })
     .map_err(|error| problem.refused(error))?;
     let forces = found.answer.forces;
@@ -56,7 +56,7 @@ pub(crate) fn with_forces(
     warnings.extend(warnings::of_depths(problem, punch.radius, depths));
     warnings.extend(found.warnings);
     warnings.extend(found.answer.warnings);
-    // Of the one that errs more.
+    // The error estimate of the less accurate of the two.
     let (estimated_error, observed_order) = if found.error > inflated.estimated_error {
         (found.error, found.observed_order)
     } else {

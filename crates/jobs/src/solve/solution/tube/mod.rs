@@ -11,14 +11,14 @@ use super::super::table::Table;
 use super::figures::TubeFigures;
 use super::{Figures, Solution, Wanted, plots};
 use crate::Error;
-use crate::solve::telling::Telling;
+use crate::solve::telling::ProgressReporter;
 
-/// How far the tube widens under each pressure.
+/// Widening of the tube under each pressure.
 pub(crate) fn solution(
     problem: &Problem,
     case: &Tube,
     wanted: Wanted,
-    telling: &Telling<'_>,
+    reporter: &ProgressReporter<'_>,
 ) -> Result<Solution, Error> {
     let mechanical = TubeProblem {
         tube: Shape {
@@ -31,7 +31,7 @@ pub(crate) fn solution(
     };
     let under = |pressures: &[f64], accuracy: f64| {
         inflate(&mechanical, pressures, accuracy, &mut |progress| {
-            telling.at(progress);
+            reporter.at(progress);
         })
         .map_err(|error| problem.refused(error))
     };
@@ -73,7 +73,7 @@ pub(crate) fn solution(
     };
     match &case.indent {
         Some(indent) => {
-            indented::with_forces(solution, problem, &mechanical, case, indent, telling)
+            indented::with_forces(solution, problem, &mechanical, case, indent, reporter)
         }
         None => Ok(solution),
     }
@@ -97,8 +97,8 @@ fn heading(case: &Tube, inflated: &Inflated) -> String {
 
 fn warnings_of_tube(problem: &Problem, case: &Tube, inflated: &Inflated) -> Vec<String> {
     let mut warnings = Vec::new();
-    let asked = case.pressures.iter().zip(&inflated.inner_displacements);
-    let past: Vec<String> = asked
+    let requested = case.pressures.iter().zip(&inflated.inner_displacements);
+    let past: Vec<String> = requested
         .clone()
         .filter(|(_, moved)| moved.is_none())
         .map(|(pressure, _)| format!("{pressure} Pa"))
@@ -113,7 +113,9 @@ fn warnings_of_tube(problem: &Problem, case: &Tube, inflated: &Inflated) -> Vec<
             past.join(", ")
         ));
     }
-    let widest = asked.filter_map(|(_, moved)| *moved).fold(0.0, f64::max);
+    let widest = requested
+        .filter_map(|(_, moved)| *moved)
+        .fold(0.0, f64::max);
     if problem.is_small_strain() && widest > 0.1 * case.inner_radius {
         warnings.push(format!(
             "the linear law is for small strain, but the inner wall moves by {:.2} of its radius; \

@@ -11,25 +11,25 @@ use crate::plot::{Plot, Series, Style};
 /// Points of the curve that is drawn.
 const POINTS: usize = 30;
 
-/// Relative error that is not seen in a picture [-].
+/// Relative error that is not visible in a plot [-].
 const UNSEEN: f64 = 0.2;
 
 /// Displacement [m] and pressure [Pa] up to the largest pressure that has an answer.
 pub(crate) fn curve(
-    asked: &[f64],
+    requested: &[f64],
     inflated: &Inflated,
     under: impl Fn(&[f64], f64) -> Result<Estimated<Inflated>, Error>,
 ) -> Result<Vec<(f64, f64)>, Error> {
-    let most = asked.iter().copied().fold(0.0, f64::max);
+    let most = requested.iter().copied().fold(0.0, f64::max);
     let most = inflated
         .limit_pressure
         .map_or(most, |limit| most.min(limit));
     let part = |k: usize| {
         let even = k as f64 / POINTS as f64;
         match inflated.limit_pressure {
-            // Denser towards the limit, where a little pressure moves the wall far.
+            // Denser towards the limit, where a small pressure moves the wall far.
             Some(_) => 1.0 - (1.0 - even).powi(3),
-            // Else at both ends: fibres make the wall stiffer the more it widens.
+            // Otherwise denser at both ends: fibres stiffen the wall as it widens.
             None => 0.5 - 0.5 * (std::f64::consts::PI * even).cos(),
         }
     };
@@ -43,15 +43,15 @@ pub(crate) fn curve(
         .collect())
 }
 
-/// Pressure against displacement, beside the closed form of a tube without ends.
+/// Pressure against displacement, compared with the closed form of a tube without ends.
 pub(crate) fn over_displacement(
     problem: &Problem,
     case: &Tube,
     inflated: &Inflated,
     drawn: Vec<(f64, f64)>,
 ) -> Plot {
-    let asked = inflated.inner_displacements.iter().zip(&case.pressures);
-    let asked = asked.filter_map(|(moved, pressure)| Some((1e3 * (*moved)?, *pressure)));
+    let requested = inflated.inner_displacements.iter().zip(&case.pressures);
+    let requested = requested.filter_map(|(moved, pressure)| Some((1e3 * (*moved)?, *pressure)));
     let limit = inflated.limit_displacement.zip(inflated.limit_pressure);
     let ends = drawn.iter().copied().chain(limit);
     let widest = ends.map(|(moved, _)| moved).fold(0.0, f64::max);
@@ -62,7 +62,7 @@ pub(crate) fn over_displacement(
         plots::line("finite elements, ends fixed", curve),
         Series {
             style: Style::Dots,
-            ..plots::line("asked for", asked)
+            ..plots::line("asked for", requested)
         },
     ];
     if let Some((moved, pressure)) = limit {

@@ -1,4 +1,4 @@
-//! Which nodes touch the indenter at an equilibrium, and where that is known.
+//! Contact status of the nodes at an equilibrium, and the domain of validity.
 
 use super::super::contact::{ContactStatus, Part, Place, Tolerances};
 use super::super::indenter::{IndenterShape, Side};
@@ -9,23 +9,23 @@ use crate::contact::FrictionLaw;
 
 /// A node that is deeper than this inside after a step has come in too fast [-].
 const DEEPEST_CATCH: f64 = 0.1;
-/// How far a node that pulled on a sphere or a cone may be inside without being activated again at the same depth, in
+/// Depth inside a sphere or a cone up to which a released node is not activated again at the same depth, in
 /// radii of the contact [-]: a hundredth of the smallest elements.
-const HAIR: f64 = 1e-3;
-/// How far a tangential force may be beyond the cone of friction, in parts of the largest normal force on a node [-]: ten
+const REACTIVATION_DEPTH: f64 = 1e-3;
+/// Tolerance of a tangential force beyond the cone of friction, in parts of the largest normal force on a node [-]: ten
 /// times the relative residual that an equilibrium has.
 const CONE: f64 = 1e-6;
 /// Slip along the force of friction that is rounding, in radii of the contact [-].
 const NO_SLIP: f64 = 1e-9;
 
 impl IndentationRun {
-    /// Catches nodes that have entered the indenter, lets go those that pull, and lets nodes stick or slip; answers whether
-    /// there was one. Fails when tissue went in too deep to know where it entered.
+    /// Activates nodes that have entered the indenter, releases those that pull, and lets nodes stick or slip; returns
+    /// whether any status changed. Fails when tissue went in too deep to know where it entered.
     pub(super) fn update_statuses(
         &self,
         depth: f64,
         state: &FiniteElementState,
-        touch: &mut [ContactStatus],
+        statuses: &mut [ContactStatus],
         released: &mut [bool],
         mut slopes: Option<&mut Sensitivities>,
     ) -> Result<bool, Failure> {
@@ -35,19 +35,19 @@ impl IndentationRun {
         let mut changed = false;
         let tolerances = Tolerances {
             force: match self.has_friction {
-                true => CONE * self.largest_normal_force(touch, depth, state),
+                true => CONE * self.largest_normal_force(statuses, depth, state),
                 false => 0.0,
             },
             slip: NO_SLIP * self.scale,
         };
-        let statuses = touch.iter_mut().zip(released);
-        for (&node, (touch, released)) in self.top.iter().zip(statuses) {
+        let statuses = statuses.iter_mut().zip(released);
+        for (&node, (status, released)) in self.top.iter().zip(statuses) {
             let now = self.place(state, node, depth);
             let force = self.force_on(node);
-            if *touch == ContactStatus::Free {
+            if *status == ContactStatus::Free {
                 let inside = self.indenter.inside(now) / self.scale;
                 // Rounding is no contact, and a node that pulled does not come back for a hair.
-                let least = if *released { HAIR } else { 1e-9 };
+                let least = if *released { REACTIVATION_DEPTH } else { 1e-9 };
                 if inside > least && self.has_side() && !self.is_linear() {
                     if inside > DEEPEST_CATCH {
                         return Err(Failure::NotConverged);
@@ -63,17 +63,17 @@ impl IndentationRun {
                         };
                         slopes.activate(&entry, old);
                     }
-                    *touch = activated;
+                    *status = activated;
                     changed = true;
                 }
-            } else if !self.is_linear() && self.indenter.lets_go(*touch, now, force) {
-                *released = touch.part() == Some(Part::Round);
-                *touch = ContactStatus::Free;
+            } else if !self.is_linear() && self.indenter.is_released(*status, now, force) {
+                *released = status.part() == Some(Part::Round);
+                *status = ContactStatus::Free;
                 changed = true;
             } else if now.radius > 0.0
-                && let Some(next) = self.indenter.stick_or_slip(*touch, now, force, tolerances)
+                && let Some(next) = self.indenter.stick_or_slip(*status, now, force, tolerances)
             {
-                *touch = next;
+                *status = next;
                 changed = true;
             }
         }
@@ -87,23 +87,23 @@ impl IndentationRun {
 
     fn largest_normal_force(
         &self,
-        touch: &[ContactStatus],
+        statuses: &[ContactStatus],
         depth: f64,
         state: &FiniteElementState,
     ) -> f64 {
-        let each = self.top.iter().zip(touch);
-        each.filter_map(|(&node, touch)| {
+        let each = self.top.iter().zip(statuses);
+        each.filter_map(|(&node, status)| {
             let place = self.place(state, node, depth);
             let [normal, _] = self
                 .indenter
-                .signed_distance(touch.part()?, place)
+                .signed_distance(status.part()?, place)
                 .components(self.force_on(node));
             Some(normal)
         })
         .fold(0.0, f64::max)
     }
 
-    /// Whether nodes come and go that touch without friction.
+    /// Whether nodes without friction are activated and released.
     pub(super) fn slides(&self) -> bool {
         match self.indenter.shape {
             IndenterShape::Flat { side } => side == Side::Touches(FrictionLaw::Frictionless),
@@ -117,25 +117,26 @@ impl IndentationRun {
         self.indenter.shape != IndenterShape::Flat { side: Side::Absent }
     }
 
-    /// An indenter without a side is right until tissue would be where the side is, and a face without
-    /// friction until the tissue under it goes over itself or out beyond it.
+    /// Checks the domain of validity: an indenter without a side is valid until tissue would be where
+    /// the side is, and a face without friction until the tissue under it folds over itself or moves
+    /// out beyond it.
     pub(super) fn check_domain(&self) -> Result<(), Error> {
         if self.is_linear() {
             return Ok(());
         }
         let (depth, radius) = (self.now.depth, self.indenter.radius);
         let place = |node: usize| self.place(&self.now.state, node, depth);
-        let mut each = self.top.iter().zip(&self.now.touch);
-        let entered = |(&node, touch): (&usize, &ContactStatus)| {
-            *touch == ContactStatus::Free && self.indenter.inside(place(node)) > 1e-9 * radius
+        let mut each = self.top.iter().zip(&self.now.statuses);
+        let entered = |(&node, status): (&usize, &ContactStatus)| {
+            *status == ContactStatus::Free && self.indenter.inside(place(node)) > 1e-9 * radius
         };
         if !self.has_side() && each.any(entered) {
             return Err(Error::TissueEntersPunch { depth });
         }
         // Corners of elements: every second node.
-        let corners = self.top.iter().zip(&self.now.touch).step_by(2);
+        let corners = self.top.iter().zip(&self.now.statuses).step_by(2);
         let under: Vec<f64> = corners
-            .filter(|(_, touch)| touch.part() == Some(Part::Face))
+            .filter(|(_, status)| status.part() == Some(Part::Face))
             .map(|(&node, _)| place(node).radius)
             .collect();
         let outside = under.last().is_some_and(|&r| r > 1.05 * radius);

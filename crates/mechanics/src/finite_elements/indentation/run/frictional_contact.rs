@@ -1,4 +1,4 @@
-//! Where an indenter with Coulomb friction sticks and slips, and with which forces.
+//! Stick, slip and contact forces of an indenter with Coulomb friction.
 
 use super::super::contact::ContactStatus;
 use super::super::indenter::IndenterShape;
@@ -43,8 +43,8 @@ impl IndentationRun {
         let radius = |place: usize| nodes.get(place).map_or(0.0, |node| node.radius);
         let last = radius(nodes.len().saturating_sub(1));
         let slip = nodes.iter().position(|node| !node.sticks);
-        let next = self.top.iter().zip(&self.now.touch).rev();
-        let next = next.take_while(|(_, touch)| **touch == ContactStatus::Free);
+        let next = self.top.iter().zip(&self.now.statuses).rev();
+        let next = next.take_while(|(_, status)| **status == ContactStatus::Free);
         let next = next.last().map(|(&node, _)| self.radius_of(node));
         let contact_radius = match (self.indenter.shape, next) {
             (shape, Some(next))
@@ -70,9 +70,9 @@ impl IndentationRun {
     /// The nodes that touch the indenter, from the axis outward, with the forces of the last assembly.
     pub fn contact_nodes(&self) -> Vec<ContactNode> {
         let depth = self.now.depth;
-        let each = self.top.iter().zip(&self.now.touch);
-        each.filter_map(|(&node, touch)| {
-            let part = touch.part()?;
+        let each = self.top.iter().zip(&self.now.statuses);
+        each.filter_map(|(&node, status)| {
+            let part = status.part()?;
             let place = self.place(&self.now.state, node, depth);
             let surface = self.indenter.signed_distance(part, place);
             let [normal_force, tangential_force] = surface.components(self.force_on(node));
@@ -85,8 +85,8 @@ impl IndentationRun {
                 } else {
                     0.0
                 },
-                coefficient: self.indenter.coefficient_of(*touch),
-                sticks: matches!(touch, ContactStatus::Stuck { .. }),
+                coefficient: self.indenter.coefficient_of(*status),
+                sticks: matches!(status, ContactStatus::Stuck { .. }),
             })
         })
         .collect()
@@ -103,12 +103,12 @@ impl IndentationRun {
     /// Notes where nodes that slide are at an equilibrium: from there they slip next.
     pub(super) fn note_places(
         &self,
-        touch: &mut [ContactStatus],
+        statuses: &mut [ContactStatus],
         depth: f64,
         state: &FiniteElementState,
     ) {
-        for (&node, touch) in self.top.iter().zip(touch) {
-            if let ContactStatus::Sliding { slip, .. } = touch {
+        for (&node, status) in self.top.iter().zip(statuses) {
+            if let ContactStatus::Sliding { slip, .. } = status {
                 slip.from = self.place(state, node, depth);
             }
         }

@@ -1,4 +1,4 @@
-//! Pressing deeper, or lifting, in as many steps as it takes.
+//! Pressing deeper, or lifting, in adaptive steps.
 
 use std::ops::ControlFlow;
 
@@ -17,18 +17,17 @@ pub(super) enum SearchMethod {
     Downhill,
 }
 
-/// A run on its way from one depth to another, in metres of the way.
+/// A run from one depth to another, in metres of travel.
 struct Pressing<'r> {
     run: &'r mut IndentationRun,
     /// Times [s] and depths [m] of both ends.
     times: [f64; 2],
     depths: [f64; 2],
-    gone: f64,
+    travelled: f64,
 }
 
 impl IndentationRun {
-    /// Goes on to `depth` [m] at `time` [s], linearly and in as many steps as it takes; `at_step` hears
-    /// of each.
+    /// Continues to `depth` [m] at `time` [s], linearly and in adaptive steps; `at_step` receives each.
     ///
     /// # Errors
     /// When no equilibrium is found on the way, or tissue enters an indenter without a side.
@@ -47,12 +46,12 @@ impl IndentationRun {
         let mut pressing = Pressing {
             times: [self.now.time, time],
             depths: [from, depth],
-            gone: 0.0,
+            travelled: 0.0,
             run: self,
         };
         let length = (depth - from).abs();
         let mut found = Ok(None);
-        let mut hear = |pressing: &mut Pressing<'_>| {
+        let mut report = |pressing: &mut Pressing<'_>| {
             found = pressing.run.check_domain().map(|()| {
                 let point = pressing.run.point();
                 at_step(&point);
@@ -64,11 +63,11 @@ impl IndentationRun {
             }
         };
         let went = if length > 0.0 {
-            continue_to(&mut pressing, &mut steps, length, hear)
+            continue_to(&mut pressing, &mut steps, length, report)
         } else {
             // Time alone passes.
             pressing.advance(0.0).map(|_| {
-                let _ = hear(&mut pressing);
+                let _ = report(&mut pressing);
             })
         };
         steps.next = steps.next.min(steps.longest);
@@ -83,7 +82,7 @@ impl IndentationRun {
 
 impl Increments for Pressing<'_> {
     fn reached(&self) -> f64 {
-        self.gone
+        self.travelled
     }
 
     fn advance(&mut self, goal: f64) -> Result<usize, Failure> {
@@ -95,13 +94,13 @@ impl Increments for Pressing<'_> {
         };
         let run = &mut *self.run;
         // Friction has no energy to follow downhill.
-        let way = match goal - self.gone > DOWNHILL_STEP * run.scale || run.has_friction {
+        let way = match goal - self.travelled > DOWNHILL_STEP * run.scale || run.has_friction {
             true => SearchMethod::Straight,
             false => SearchMethod::Downhill,
         };
-        let (standing, solutions) = run.stand_at(at(self.times), at(self.depths), way)?;
-        run.before = Some(std::mem::replace(&mut run.now, standing));
-        self.gone = goal;
+        let (increment, solutions) = run.increment_at(at(self.times), at(self.depths), way)?;
+        run.before = Some(std::mem::replace(&mut run.now, increment));
+        self.travelled = goal;
         Ok(solutions)
     }
 }

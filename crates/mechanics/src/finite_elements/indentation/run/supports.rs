@@ -1,4 +1,4 @@
-//! What holds the body while the indenter is at a depth.
+//! Supports of the body while the indenter is at a depth.
 
 use super::super::super::relaxation::RelaxationStep;
 use super::super::super::supports::{Sliding, Supports};
@@ -8,7 +8,7 @@ use super::IndentationRun;
 impl IndentationRun {
     pub(super) fn supports<'a>(
         &self,
-        touch: &[ContactStatus],
+        statuses: &[ContactStatus],
         depth: f64,
         relaxing: Option<&'a RelaxationStep>,
     ) -> Supports<'a> {
@@ -23,20 +23,20 @@ impl IndentationRun {
             relaxing,
             stray: None,
         };
-        for (&node, touch) in self.top.iter().zip(touch) {
+        for (&node, status) in self.top.iter().zip(statuses) {
             let (at, rest) = (
                 self.model.mesh().nodes[node].x,
                 self.model.mesh().nodes[node].y,
             );
-            let held = &mut supports.held[2 * node..2 * node + 2];
-            match *touch {
+            let prescribed = &mut supports.held[2 * node..2 * node + 2];
+            match *status {
                 ContactStatus::Free => {}
                 ContactStatus::Stuck { at: place, .. } => {
-                    held[0] = Some(place.radius - at);
-                    held[1] = Some((place.above - rest) - depth);
+                    prescribed[0] = Some(place.radius - at);
+                    prescribed[1] = Some((place.above - rest) - depth);
                 }
                 // On the axis the lowest point is met.
-                ContactStatus::Sliding { .. } if at == 0.0 => held[1] = Some(-depth),
+                ContactStatus::Sliding { .. } if at == 0.0 => prescribed[1] = Some(-depth),
                 ContactStatus::Sliding { part, slip } => {
                     // A face lies on the surface as it is at rest.
                     let lowest = if part == Part::Face { rest } else { 0.0 };

@@ -1,4 +1,4 @@
-//! What a linear tissue under a sphere pushes back as a part of Hertz's force, made by [`super::press`] on blocks of
+//! Force of a linear tissue under a sphere over Hertz's force, made by [`super::press`] on blocks of
 //! 200 radii; the test `stiffening::the_stored_spheres_are_those_of_finite_elements` makes it again.
 //!
 //! Hertz's surface is a paraboloid, and his tissue moves straight down. A sphere is steeper and so touches less; that

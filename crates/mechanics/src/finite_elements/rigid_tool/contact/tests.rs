@@ -42,8 +42,8 @@ fn the_tangent_is_the_derivative_of_the_forces() {
     contacts = contacts.moved(1.0);
     contacts.augment(&model, &start);
     contacts.close_increment(&model, &start);
-    for touch in contacts.touches.iter_mut().step_by(2) {
-        touch.pressure *= 0.01;
+    for contact in contacts.contacts.iter_mut().step_by(2) {
+        contact.pressure *= 0.01;
     }
     let unknowns = moved(0.004, 0.3);
     contacts.augment(&model, &unknowns);

@@ -1,4 +1,4 @@
-//! `--report`: what recordings show, as a page for people.
+//! `--report`: the analysis as a page for people.
 
 mod pressed;
 mod relaxation;
@@ -15,7 +15,7 @@ use palpate_jobs::{ReadRecording, Unusable};
 /// Curves that are drawn in one plot, at most.
 const CURVES: usize = 12;
 
-/// The page on `analyzed`; `settings` say how it was asked for: names and values.
+/// The page on `analyzed`; `settings` are the options of the command: names and values.
 pub(super) fn html(analyzed: &Analyzed, settings: &[(String, String)]) -> String {
     let several = analyzed.responses.len() > 1;
     let title = match analyzed.responses.as_slice() {
@@ -42,7 +42,7 @@ pub(super) fn html(analyzed: &Analyzed, settings: &[(String, String)]) -> String
     .html()
 }
 
-/// What holds of all numbers.
+/// Conventions for all numbers.
 const CONVENTIONS: &str = "Steady force is the mean of the last tenth of a hold. A phase is positive when force leads depth, a hysteresis when \
 energy is lost. Within: standard deviation from press to press of one subject; between: of the subjects' means.";
 
@@ -95,10 +95,10 @@ fn section(analyzed: &Analyzed, response: &OrganResponse, several: bool) -> Mark
 fn warned(analyzed: &Analyzed) -> Markup {
     let mut table = Table::new(["recording", "warning"]).of_class("text");
     for (read, analysis) in &analyzed.recordings {
-        let said: Vec<&str> = warnings_of(read, analysis).map(String::as_str).collect();
-        if !said.is_empty() {
+        let warnings: Vec<&str> = warnings_of(read, analysis).map(String::as_str).collect();
+        if !warnings.is_empty() {
             let file = Markup::plain("code", read.path.display().to_string());
-            table.row(vec![file, said.join("; ").into()]);
+            table.row(vec![file, warnings.join("; ").into()]);
         }
     }
     match table.is_empty() {
@@ -123,7 +123,7 @@ fn source(read: &ReadRecording) -> Provenance {
     }
 }
 
-/// What a recording is called beside others: its subject and repeat where it has them, else its file.
+/// The title of a recording among others: its subject and repeat where it has them, else its file.
 fn title(read: &ReadRecording) -> String {
     let header = &read.clean.header;
     let file = read
@@ -137,7 +137,7 @@ fn title(read: &ReadRecording) -> String {
     }
 }
 
-/// Says that not all curves are drawn, if so.
+/// The note that not all curves are drawn, if so.
 fn some_of(curves: usize) -> String {
     match curves > CURVES {
         true => format!(" Of {curves} the first {CURVES} are drawn."),

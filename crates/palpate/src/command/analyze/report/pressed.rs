@@ -5,7 +5,7 @@ use crate::plot::{Plot, Series, Style, kept};
 use crate::report::{Markup, figure, unit};
 use palpate_jobs::ReadRecording;
 
-/// Force over depth of the recordings that do not swing.
+/// Force over depth of the recordings without oscillation.
 pub(super) fn figure_of(own: &[&(ReadRecording, Analysis)]) -> Markup {
     let pressed: Vec<&ReadRecording> = own
         .iter()

@@ -6,18 +6,18 @@ use crate::plot::{Axis, Plot, Series, Style, kept};
 use crate::report::{Markup, Table, figure, quantity};
 use palpate_jobs::ReadRecording;
 
-/// The shortest hold that is told of beside the longest [-].
+/// The shortest hold to report, relative to the longest [-].
 const SHORTEST: f64 = 0.5;
 
 type Own = (ReadRecording, Analysis);
 
 /// Forces of the longest holds over their peaks.
 pub(super) fn figure_of(own: &[&Own]) -> Markup {
-    let held: Vec<_> = relaxing(own).collect();
-    if held.is_empty() {
+    let holds: Vec<_> = relaxing(own).collect();
+    if holds.is_empty() {
         return Markup::default();
     }
-    let drawn = held.iter().take(CURVES).enumerate();
+    let drawn = holds.iter().take(CURVES).enumerate();
     let series = drawn.map(|(color, (read, relaxation))| {
         let clean = &read.clean;
         let until = relaxation.hold_start_s + relaxation.hold_s;
@@ -42,12 +42,13 @@ pub(super) fn figure_of(own: &[&Own]) -> Markup {
     };
     let caption = format!(
         "The longest hold of each recording, after the filter.{}",
-        some_of(held.len())
+        some_of(holds.len())
     );
     figure(&plot, caption)
 }
 
-/// Recordings with a hold that is not much shorter than the longest: one before a swing only settles.
+/// Recordings with a hold that is not much shorter than the longest: one before an oscillation only lets the tissue
+/// settle.
 fn relaxing<'a>(own: &'a [&'a Own]) -> impl Iterator<Item = (&'a ReadRecording, &'a Relaxation)> {
     let each = own
         .iter()

@@ -3,7 +3,7 @@ use palpate_jobs::ReadRecording;
 
 use crate::report::{Markup, Table, quantity};
 
-/// What the other axes of the sensor show.
+/// Lateral forces and torques of the sensor.
 pub(super) fn table(own: &[&(ReadRecording, Analysis)]) -> Markup {
     let mut table = Table::new([
         "recording",

@@ -94,8 +94,8 @@ fn state(group: &StaticGroup) -> Option<String> {
     let hours = group
         .post_mortem_h
         .map(|hours| format!("{hours} h after death"));
-    let said: Vec<String> = condition.into_iter().chain(hours).collect();
-    (!said.is_empty()).then(|| said.join(", "))
+    let parts: Vec<String> = condition.into_iter().chain(hours).collect();
+    (!parts.is_empty()).then(|| parts.join(", "))
 }
 
 /// The same in numbers.

@@ -8,7 +8,7 @@ use palpate_jobs::ReadRecording;
 
 type Own = (ReadRecording, Analysis);
 
-/// Loops, and stiffness, phase and coherence over frequency; each where there is something to draw.
+/// Loops, and stiffness, phase and coherence over frequency; each where there is data.
 pub(super) fn figures(own: &[&Own]) -> Markup {
     let answers: [(&str, &str, Of); 2] = [
         (
@@ -36,7 +36,7 @@ pub(super) fn figures(own: &[&Own]) -> Markup {
         .and(coherence(own))
 }
 
-/// A number of the answer to a sine, and of that to a chirp.
+/// A number of the response to a sine, and of that to a chirp.
 struct Of {
     sine: fn(&Sinusoid) -> f64,
     chirp: fn(&SweepPoint) -> f64,
@@ -174,7 +174,7 @@ fn of_frequency(title: &str, label: &str, series: Vec<Series>) -> Plot {
     }
 }
 
-/// The answers to sines in numbers.
+/// The responses to sines as numbers.
 pub(super) fn table(own: &[&Own]) -> Markup {
     let head = [
         "recording",

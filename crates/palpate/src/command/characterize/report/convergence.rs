@@ -8,13 +8,13 @@ use crate::report::{Markup, Table, figure, quantity, symbol};
 use palpate_jobs::characterize::Specimen;
 use palpate_jobs::characterize::{DrawnLaw, Portrait};
 
-/// How the fits went.
+/// Convergence of the fits.
 pub(super) fn figures(portrait: &Portrait) -> Markup {
     let moved = portrait.laws.iter().filter(|law| law.iterations.len() > 1);
-    moved.map(|law| figure(&way(law), said(law))).collect()
+    moved.map(|law| figure(&way(law), caption(law))).collect()
 }
 
-/// How the errors of the preferred law go together.
+/// Correlations between the errors of the preferred law.
 pub(super) fn correlations(own: &Specimen) -> Markup {
     let preferred = own.preferred.as_deref();
     let fit = preferred.and_then(|law| Some((law, own.fits.get(law)?)));
@@ -22,7 +22,7 @@ pub(super) fn correlations(own: &Specimen) -> Markup {
     heat.unwrap_or_default()
 }
 
-/// Parameters relative to where they ended, step by step.
+/// Parameters relative to their final values, step by step.
 fn way(law: &DrawnLaw) -> Plot {
     let last = law.iterations.last().map_or(&[][..], Vec::as_slice);
     let series = law
@@ -62,7 +62,7 @@ fn way(law: &DrawnLaw) -> Plot {
     }
 }
 
-fn said(law: &DrawnLaw) -> String {
+fn caption(law: &DrawnLaw) -> String {
     let ends = law
         .names
         .iter()
@@ -94,7 +94,7 @@ fn heat(law: &str, correlations: &Correlations) -> Markup {
     let mut table = Table::new([Markup::default()].into_iter().chain(head)).of_class("heat");
     for (name, row) in names.iter().zip(matrix.row_iter()) {
         let cells = row.iter().map(|value| {
-            // Blue for together, orange for against.
+            // Blue for positive, orange for negative correlations.
             let color = if *value < 0.0 { 1 } else { 0 };
             let part = (100.0 * value.abs()).round() * 0.55;
             let style = format!(

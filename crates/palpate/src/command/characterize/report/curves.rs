@@ -8,7 +8,7 @@ use palpate_jobs::characterize::{DrawnCurve, DrawnFit, Portrait};
 /// Recordings that are drawn in one plot, at most.
 const RECORDINGS: usize = 6;
 
-/// Recordings, models over time and depth, and what the models leave.
+/// Recordings, models over time and depth, and residuals of the models.
 pub(super) fn figures(own: &Specimen, portrait: &Portrait) -> Markup {
     let recordings = portrait.recordings.iter();
     let recorded: Markup = recordings
@@ -26,7 +26,7 @@ pub(super) fn figures(own: &Specimen, portrait: &Portrait) -> Markup {
     recorded.and(models)
 }
 
-/// The curves of laws beside what was measured.
+/// The curves of laws, compared with the measured ones.
 struct Shown<'a> {
     fitted: &'a [&'a DrawnFit],
     preferred: &'a str,
@@ -77,7 +77,7 @@ impl<'a> Shown<'a> {
         both.and(self.residuals())
     }
 
-    /// What depths or stretches are multiplied with to be drawn, and the name of their axis.
+    /// Factor on depths or stretches to draw them, and the name of their axis.
     fn course(&self) -> (f64, String) {
         if self.is_piece {
             let is_shear = |fit: &&&DrawnFit| fit.test == Some(PieceTest::SimpleShear);
@@ -103,7 +103,7 @@ impl<'a> Shown<'a> {
                 None => Self::named("measured", place),
             };
             let points = scaled(&x, &fit.measured, self.scale.factor);
-            // The angles of several pieces are told apart by their colors.
+            // Colors distinguish the angles of several pieces.
             series.push(match fit.fibre_axis_angle_deg {
                 Some(_) => Series {
                     color: place,
@@ -138,7 +138,7 @@ impl<'a> Shown<'a> {
         }
     }
 
-    /// The band of a curve, cut off where it leaves what else is drawn by far.
+    /// The band of a curve, clipped where it far exceeds the other curves.
     fn edges(&self, curve: &DrawnCurve) -> impl Iterator<Item = [f64; 2]> {
         let measured = self.fitted.iter().flat_map(|fit| &fit.measured);
         let ends = measured.fold([0.0_f64; 2], |[low, high], value| {
@@ -152,7 +152,7 @@ impl<'a> Shown<'a> {
         })
     }
 
-    /// The laws that are drawn, the preferred one first.
+    /// The drawn laws, the preferred one first.
     fn laws(&self) -> Vec<&String> {
         let mut laws: Vec<&String> = Vec::new();
         for curve in self.fitted.iter().flat_map(|fit| &fit.laws) {
@@ -172,7 +172,7 @@ impl<'a> Shown<'a> {
         }
     }
 
-    /// What the preferred law leaves.
+    /// Residuals of the preferred law.
     fn residuals(&self) -> Markup {
         let several = self.fitted.len() > 1;
         let left = self
@@ -217,7 +217,7 @@ impl<'a> Shown<'a> {
     }
 }
 
-/// What was measured of a piece, by how it was deformed at an angle [degrees] to its fibres.
+/// Measured curves of a piece, by the deformation at an angle [degrees] to its fibres.
 fn of_piece(test: Option<PieceTest>, angle: f64) -> String {
     let test = match test.unwrap_or_default() {
         PieceTest::Uniaxial => "measured",
@@ -239,7 +239,7 @@ pub(super) fn line(name: String, points: Vec<(f64, f64)>, style: Style, color: u
     }
 }
 
-/// Few samples are dots; many a broad line, on which models are seen.
+/// Few samples are dots; many a broad line, under the models.
 pub(super) fn measured(name: String, points: Vec<(f64, f64)>) -> Series {
     const FEW: usize = 80;
     let style = if points.len() <= FEW {
@@ -250,7 +250,7 @@ pub(super) fn measured(name: String, points: Vec<(f64, f64)>) -> Series {
     line(name, points, style, MEASURED)
 }
 
-/// The color of what was measured.
+/// The color of measured data.
 pub(super) const MEASURED: usize = 5;
 
 /// Points of two columns, the second times `factor`.

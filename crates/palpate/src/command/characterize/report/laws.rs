@@ -4,7 +4,7 @@ use super::words;
 use crate::report::{Markup, Table, quantity, rounded, symbol, unit};
 use palpate_jobs::characterize::{FitAnswer, Identified, Known, Specimen};
 
-/// The laws side by side, and which is to be preferred.
+/// The laws side by side, and the preferred one.
 pub(super) fn comparison(own: &Specimen) -> Markup {
     if own.fits.is_empty() {
         return Markup::default();
@@ -49,7 +49,7 @@ pub(super) fn comparison(own: &Specimen) -> Markup {
     Markup::plain("h3", "Which law").and(verdict).and(table)
 }
 
-/// By which laws are compared [-].
+/// The criterion for comparing laws [-].
 fn criterion(fit: &FitAnswer) -> f64 {
     fit.information_criterion.unwrap_or(0.0)
 }
@@ -79,7 +79,7 @@ fn verdict(preferred: &str, specimen: &Specimen, least: f64) -> Markup {
     Markup::plain("p", Markup::plain("strong", why).and(how))
 }
 
-/// All parameters, with both errors apart.
+/// All parameters, with both kinds of error.
 pub(super) fn parameters(own: &Specimen) -> Markup {
     let mut table = Table::new([
         "parameter",
@@ -135,13 +135,13 @@ pub(super) fn parameters(own: &Specimen) -> Markup {
     }
 }
 
-/// What the columns of intervals and verdicts mean.
+/// Meaning of the columns of intervals and verdicts.
 const INTERVALS: &str = "The interval is the standard error times the quantile of Student's distribution, with the warning about the \
 relaxation. The profile holds the relaxation at what was found and so leaves that uncertainty out: it shows how far the objective is from a parabola, and \
 may be narrower than the interval. The verdict follows from the standard error (hardly known: more than a quarter of the value), the \
 largest correlation (tied: 0.95 or more, up or down) and the bounds.";
 
-/// How well a parameter is known, in words.
+/// How well a parameter is identified, in words.
 fn verdict_on(known: &Known) -> Markup {
     match (known.verdict, &known.correlated_with) {
         (Some(Identified::Known), _) => "known".into(),
@@ -158,12 +158,12 @@ fn verdict_on(known: &Known) -> Markup {
     }
 }
 
-/// From where to where a parameter lies with a probability of 95 %.
+/// The 95 % confidence interval of a parameter.
 fn interval(key: &str, bounds: Option<[f64; 2]>) -> String {
     profile(key, bounds.map(|bounds| bounds.map(Some)))
 }
 
-/// What noise would do to the parameters (section 6.4.6).
+/// Effect of noise on the parameters (section 6.4.6).
 pub(super) fn noise(own: &Specimen) -> Markup {
     let mut table = Table::new(["law", "noise", "parameter", "spread", "of its value"]);
     for (law, found) in own.laws() {
@@ -196,7 +196,7 @@ pub(super) fn noise(own: &Specimen) -> Markup {
         .and(table)
 }
 
-/// From where to where the objective says a parameter is.
+/// The interval of a parameter by the objective.
 fn profile(key: &str, bounds: Option<[Option<f64>; 2]>) -> String {
     let end = |bound: Option<f64>| bound.map_or("?".to_owned(), |end| quantity(key, end, None));
     bounds.map_or("–".to_owned(), |[low, high]| {

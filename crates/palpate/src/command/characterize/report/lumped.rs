@@ -2,7 +2,7 @@ use super::words;
 use crate::report::{Markup, Table, count, quantity, symbol};
 use palpate_jobs::characterize::{Named, Specimen};
 
-/// What was found without geometry.
+/// Models without geometry.
 pub(super) fn tables(own: &Specimen) -> Markup {
     let found = [
         ("linear_elastic", &own.lumped.linear_elastic),
@@ -20,12 +20,12 @@ pub(super) fn tables(own: &Specimen) -> Markup {
             Some(_) => ", ± their standard deviation",
             None => "",
         };
-        let said = format!(
+        let value = format!(
             "{value}: relaxed, a secant of the half-space at {depth}, from {holds}{spread}"
         );
         table.row(vec![
             words::quantity("mean_elastic_modulus").into(),
-            said.into(),
+            value.into(),
         ]);
     }
     for (key, named) in found {

@@ -1,4 +1,4 @@
-//! A map of moduli: one square for each place of a surface that was pressed.
+//! A map of moduli: one square for each indented location on a surface.
 
 use palpate_files::quantity::rounded;
 use palpate_jobs::characterize::Specimen;
@@ -25,7 +25,7 @@ const COLORS: [[f64; 3]; 6] = [
     [253.0, 231.0, 37.0],
 ];
 
-/// A place, and Young's modulus [Pa] there where it was found.
+/// A location, and Young's modulus [Pa] there where it was found.
 struct Place {
     x: f64,
     y: f64,
@@ -33,7 +33,7 @@ struct Place {
     title: String,
 }
 
-/// The map of specimens whose positions are stated; nothing of fewer than three places or of one.
+/// The map of specimens whose positions are stated; nothing for fewer than three locations or for a single one.
 pub(super) fn figure(specimens: &[Specimen]) -> Markup {
     let places = specimens.iter().filter_map(|own| {
         let [x, y, _] = own.position_m?;
@@ -118,18 +118,18 @@ impl Map {
         Markup::plain("figure", title.and(drawn).and(caption))
     }
 
-    /// A square, with what it is as a text that appears over it.
+    /// A square, with a tooltip.
     fn square(&self, place: &Place) -> Markup {
         let side = self.scale * self.side;
         let [x, y] = [
             LEFT + self.scale * (place.x - self.corner[0]) - 0.5 * side,
             TOP + self.scale * (self.corner[1] - place.y) - 0.5 * side,
         ];
-        let said = match place.modulus {
+        let value = match place.modulus {
             Some(modulus) => palpate_files::quantity::plain_quantity("_pa", modulus, None),
             None => "no modulus".to_owned(),
         };
-        let title = Markup::plain("title", format!("{}: {said}", place.title));
+        let title = Markup::plain("title", format!("{}: {value}", place.title));
         let [x, y, side] = [x, y, side].map(length);
         let fill = match place.modulus {
             Some(modulus) => color(self.share(modulus)),
@@ -219,7 +219,7 @@ impl Map {
     }
 }
 
-/// Ways between places that count as none, over the width of the map [-].
+/// Distances between locations that count as zero, over the width of the map [-].
 const SAME: f64 = 1e-3;
 
 fn extent(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {

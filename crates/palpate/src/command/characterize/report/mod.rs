@@ -1,4 +1,4 @@
-//! `--report`: what was found, as a page for people. It is made of the answer and of portraits alone.
+//! `--report`: the characterization as a page for people, made of the answer and of portraits alone.
 
 mod convergence;
 mod curves;
@@ -16,7 +16,7 @@ use crate::report::{Markup, Page, Provenance, count, provenance};
 use palpate_jobs::characterize::Answer;
 use palpate_jobs::characterize::Portrait;
 
-/// The page on `answer`, whose specimens have `portraits`, in their order. `settings` say how it was asked for:
+/// The page on `answer`, whose specimens have `portraits`, in their order. `settings` are the options of the command:
 /// names and values.
 pub(super) fn html(
     answer: &Answer,
@@ -56,7 +56,7 @@ fn lead(answer: &Answer) -> String {
     format!("Mechanical parameters of soft tissue, found from {recordings}{unusable}.")
 }
 
-/// Where all this comes from.
+/// The provenance of the page.
 fn foot(portraits: &[Portrait], settings: &[(String, String)]) -> Markup {
     let recordings = portraits.iter().flat_map(|portrait| &portrait.recordings);
     let recordings = recordings.map(|own| Provenance {
@@ -70,7 +70,7 @@ fn foot(portraits: &[Portrait], settings: &[(String, String)]) -> Markup {
     provenance(settings, recordings).and(Markup::plain("p", CONVENTIONS))
 }
 
-/// What holds of all numbers.
+/// Conventions for all numbers.
 const CONVENTIONS: &str = "Moduli are instantaneous, and g is relative to them: G(t) = G(0) (1 − Σ g (1 − exp(−t/τ))). \
 Errors after ± are standard errors: by noise, whose correlation is taken from the residuals, by the zeros of the recordings, and by what the model may be off, by its \
 elements and by the product of force and G(t), stands apart. Bands hold the model's curve with a probability of 95 %; measured noise lies outside of them.";

@@ -3,7 +3,7 @@ use crate::plot::{Plot, Shade, Style};
 use crate::report::{Markup, figure, unit};
 use palpate_jobs::characterize::DrawnRecording;
 
-/// What was recorded, with what was recognised of it.
+/// The recordings, with the segments recognised in them.
 pub(super) fn figure_of(own: &DrawnRecording) -> Markup {
     let most = |values: &[f64]| values.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
     let force = unit("_n", most(&own.force));

@@ -24,7 +24,7 @@ pub(super) fn section(place: usize, own: &Specimen, several: bool, portrait: &Po
     let inside = title
         .and(files)
         .and(headline(own, portrait))
-        .and(told(own))
+        .and(verdicts(own))
         .and(Markup::of_class("div", "figures", figures))
         .and(laws::comparison(own))
         .and(laws::parameters(own))
@@ -40,7 +40,7 @@ pub(super) fn section(place: usize, own: &Specimen, several: bool, portrait: &Po
     )
 }
 
-/// The preferred law with its numbers, relaxation, and what the recordings say of the specimen.
+/// The preferred law with its numbers, relaxation, and facts on the specimen from the recordings.
 fn headline(own: &Specimen, portrait: &Portrait) -> Markup {
     let mut cards = Vec::new();
     match own.preferred() {
@@ -72,11 +72,11 @@ fn headline(own: &Specimen, portrait: &Portrait) -> Markup {
         ));
     }
     let cards = Markup::of_class("dl", "cards", cards.into_iter().collect::<Markup>());
-    Markup::of_class("p", "muted", said(own, portrait)).and(cards)
+    Markup::of_class("p", "muted", facts(own, portrait)).and(cards)
 }
 
-/// What the recordings say of the specimen.
-fn said(own: &Specimen, portrait: &Portrait) -> String {
+/// Facts on the specimen from the recordings.
+fn facts(own: &Specimen, portrait: &Portrait) -> String {
     let named = [
         ("organ", &own.organ),
         ("subject", &own.subject),
@@ -89,10 +89,10 @@ fn said(own: &Specimen, portrait: &Portrait) -> String {
         .facts
         .iter()
         .map(|(name, value)| (&**name, &**value));
-    let said = named
+    let facts = named
         .chain(facts)
         .map(|(name, value)| format!("{name}: {value}"));
-    said.collect::<Vec<_>>().join(" · ")
+    facts.collect::<Vec<_>>().join(" · ")
 }
 
 fn card(name: impl Into<Markup>, value: impl Into<Markup>, note: impl Into<Markup>) -> Markup {
@@ -110,12 +110,12 @@ fn known_card(name: Markup, key: &str, known: &Known) -> Markup {
     card(name, quantity(key, known.value, known.standard_error), note)
 }
 
-/// What can be told apart, by the verdicts on each parameter, and warnings.
-fn told(own: &Specimen) -> Markup {
+/// The identifiability of each parameter, and warnings.
+fn verdicts(own: &Specimen) -> Markup {
     let others = own
         .warnings
         .iter()
-        .filter(|said| !own.identifiability.contains(said));
+        .filter(|warning| !own.identifiability.contains(warning));
     let others: Vec<String> = others.cloned().collect();
     let apart = match own.identifiability.is_empty() {
         true => Markup::plain("p", known_by_itself(own).unwrap_or_default()),
@@ -124,8 +124,8 @@ fn told(own: &Specimen) -> Markup {
     apart.and(warning_list("Warnings", &others))
 }
 
-/// The sentence on a preferred law and a relaxation whose parameters are all known by themselves, with the numbers
-/// that say so; none where one is not.
+/// The sentence on a preferred law and a relaxation with individually identified parameters, with the numbers that
+/// show it; none where one is not.
 fn known_by_itself(own: &Specimen) -> Option<String> {
     let (name, law) = own.preferred()?;
     let terms = own.relaxation.iter();
@@ -148,7 +148,7 @@ fn known_by_itself(own: &Specimen) -> Option<String> {
     ))
 }
 
-/// Why something was not found.
+/// Why results are missing.
 fn missing(own: &Specimen) -> Markup {
     if own.reasons.is_empty() {
         return Markup::default();

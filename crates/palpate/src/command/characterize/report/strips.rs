@@ -67,18 +67,18 @@ pub(super) fn figures(answer: &Answer) -> Markup {
     drawn.collect()
 }
 
-/// An organ and its condition, as far as the files say them.
+/// An organ and its condition, where the files state them.
 pub(super) fn group(organ: Option<&str>, condition: Option<&str>) -> Option<String> {
     let condition = condition.map(|own| own.replace('_', " "));
-    let said: Vec<String> = organ
+    let parts: Vec<String> = organ
         .map(str::to_owned)
         .into_iter()
         .chain(condition)
         .collect();
-    (!said.is_empty()).then(|| said.join(", "))
+    (!parts.is_empty()).then(|| parts.join(", "))
 }
 
-/// One parameter: organs above one another, specimens beside one another, the mean as a line.
+/// One parameter: organs above one another, specimens side by side, the mean as a line.
 fn strip(title: &str, key: &str, strips: &Strips) -> Markup {
     let all = strips.values().flat_map(|(values, _)| values);
     let most = all.fold(0.0_f64, |most, value| most.max(value.abs()));

@@ -1,4 +1,4 @@
-//! What things are called on a page.
+//! Names on a page.
 
 use palpate_files::tissue::LawName;
 
@@ -9,7 +9,7 @@ pub(super) fn law(key: &str) -> &str {
     LawName::from_word(key).map_or(key, |law| law.row().title)
 }
 
-/// What a key of the answer stands for.
+/// The meaning of a key of the answer.
 pub(super) fn quantity(key: &str) -> String {
     match key {
         "mean_elastic_modulus" => "mean elastic modulus".to_owned(),

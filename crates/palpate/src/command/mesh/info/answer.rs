@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::output::VERSION;
 
-/// What `mesh info` finds.
+/// The report of `mesh info`.
 #[derive(Debug, Serialize)]
 pub(super) struct Answer {
     palpate: &'static str,
@@ -16,7 +16,7 @@ pub(super) struct Answer {
     pub(super) origin: Origin,
     #[serde(flatten)]
     pub(super) report: MeshReport,
-    /// What a repair would do.
+    /// Counts of the repairs.
     pub(super) repair: Repairs,
     /// As it is, or after the repair.
     pub(super) can_be_simulated: bool,
@@ -24,7 +24,7 @@ pub(super) struct Answer {
     pub(super) because: String,
 }
 
-/// Where the mesh is from.
+/// The source of the mesh.
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
 pub(super) enum Origin {

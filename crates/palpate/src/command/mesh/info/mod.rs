@@ -1,4 +1,4 @@
-//! `palpate mesh info`: what a mesh is, what is wrong with it, and whether it can be simulated.
+//! `palpate mesh info`: the size of a mesh, its defects, and whether it can be simulated.
 
 mod answer;
 mod table;

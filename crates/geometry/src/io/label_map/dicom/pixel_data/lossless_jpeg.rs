@@ -7,7 +7,7 @@
 
 use super::FrameFormat;
 
-/// What a damaged stream has wrong.
+/// The fault of a damaged stream.
 type Cause = &'static str;
 
 const TOO_SHORT: Cause = "the JPEG stream ends too early";

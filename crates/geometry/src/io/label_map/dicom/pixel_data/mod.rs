@@ -34,7 +34,7 @@ pub(super) enum Codec {
     Deflated,
 }
 
-/// What a decompressed frame must be.
+/// The expected format of a decompressed frame.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FrameFormat {
     /// Pixels of a row.
@@ -87,7 +87,7 @@ impl<'o> PixelData<'o> {
         Ok(Self::Compressed(codec, frames))
     }
 
-    /// Whether the compression may have changed pixels, as far as the header tells.
+    /// Whether the compression may have changed pixels, by the header.
     pub(super) fn may_be_lossy(object: &FileDicomObject<InMemDicomObject>) -> bool {
         let flag = Values::of(object).text(tags::LOSSY_IMAGE_COMPRESSION);
         object.meta().transfer_syntax() == uids::JPEG2000 && flag.as_deref() != Some("00")
