@@ -144,7 +144,7 @@ fn tube(law: Arc<dyn Law>, pressure: f64, accuracy: f64) {
             outer_radius: 0.0075,
         },
         law,
-        ends: Ends::Held,
+        ends: Ends::Fixed,
     };
     let answer = inflate(&problem, &[pressure], accuracy, &mut |_| {}).unwrap();
     println!(

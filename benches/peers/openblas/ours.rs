@@ -24,7 +24,7 @@ fn main() {
     let problem = BoundaryProblem {
         surface: &surface,
         poissons_ratio: 0.45,
-        held: &held[..100],
+        fixed: &held[..100],
         touchable,
     };
     let (mut begin, mut end) = (Instant::now(), Instant::now());

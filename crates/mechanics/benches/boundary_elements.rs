@@ -39,7 +39,7 @@ fn triangles() -> usize {
 fn kidney(triangles: usize) -> (Surface, Vec<TriangleId>, Vec<TriangleId>) {
     let surface = Surface::new(Organ::Kidney.surface_mesh(triangles).unwrap()).unwrap();
     let mesh = surface.mesh();
-    let (held, free) = mesh.triangle_ids().partition(|&triangle| {
+    let (fixed, free) = mesh.triangle_ids().partition(|&triangle| {
         let [a, b, c] = mesh.positions(triangle);
         let centroid = (a + b + c) / 3.0;
         Organ::Kidney
@@ -47,15 +47,15 @@ fn kidney(triangles: usize) -> (Surface, Vec<TriangleId>, Vec<TriangleId>) {
             .iter()
             .any(|plane| plane.holds(&centroid))
     });
-    (surface, held, free)
+    (surface, fixed, free)
 }
 
 /// Solves for `touchable` and prints the times.
-fn response(surface: &Surface, held: &[TriangleId], touchable: &[TriangleId]) -> SurfaceResponse {
+fn response(surface: &Surface, fixed: &[TriangleId], touchable: &[TriangleId]) -> SurfaceResponse {
     let problem = BoundaryProblem {
         surface,
         poissons_ratio: 0.45,
-        held,
+        fixed,
         touchable,
     };
     let start = Instant::now();
@@ -92,10 +92,10 @@ fn response(surface: &Surface, held: &[TriangleId], touchable: &[TriangleId]) ->
 }
 
 fn boundary_elements(c: &mut Criterion) {
-    let (surface, held, free) = kidney(triangles());
+    let (surface, fixed, free) = kidney(triangles());
     let some = &free[..500.min(free.len())];
-    drop(response(&surface, &held, &free));
-    let response = response(&surface, &held, some);
+    drop(response(&surface, &fixed, &free));
+    let response = response(&surface, &fixed, some);
     let mut group = c.benchmark_group("boundary_elements");
     group.sample_size(50);
     on_line(&mut group, &response);

@@ -41,7 +41,7 @@ fn condensed_elements(criterion: &mut Criterion) {
     let problem = CondensedProblem {
         surface: &surface,
         poissons_ratio: 0.45,
-        held: &held,
+        fixed: &held,
         touchable,
         edge: EDGE,
         regions: None,

@@ -76,7 +76,7 @@ fn response(surface: &Surface) -> SurfaceResponse<f32> {
     SurfaceResponse::new(ResponseParts {
         poissons_ratio: 0.45,
         touchable,
-        held: Vec::new(),
+        fixed: Vec::new(),
         triangles: mesh.triangles().len(),
         sampling: Sampling::Means,
         displacements,

@@ -108,7 +108,7 @@ const LEAST_CURVATURE: f64 = 0.25;
 impl Tip {
     /// The tip that touches a plane as this one touches a surface of the mean curvature `curvature` [1/m], positive
     /// where it bulges out: a sphere of the radius 1/(1/ρ + κ) [Hertz 1881], at most four times its own.
-    pub fn beside(&self, curvature: f64) -> Self {
+    pub fn on_curved_surface(&self, curvature: f64) -> Self {
         match *self {
             Self::Flat { .. } => *self,
             Self::Sphere { radius } => Self::Sphere {

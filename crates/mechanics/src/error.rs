@@ -277,7 +277,7 @@ pub enum Error {
     #[error(
         "the anchor holds no triangle of the body, which can move without force; give a plane, box or sphere that takes in a part of its surface"
     )]
-    NothingHeld,
+    NothingFixed,
     /// A piece of the body is not fixed.
     #[error(
         "the body has {pieces} pieces, and the one at {place:?} m is not fixed; fix each of them, or join them"
@@ -316,7 +316,7 @@ pub enum Error {
     #[error(
         "{:.0} % of the patch lies in the anchor; move the patch, or make the anchor smaller", 100.0 * part
     )]
-    PatchIsHeld {
+    PatchIsFixed {
         /// Part of the nodes of the patch [-].
         part: f64,
     },

@@ -127,10 +127,10 @@ impl TipLaw {
     }
 
     /// The law of the same tool on a surface of the mean curvature `curvature` [1/m], positive where it bulges out; see
-    /// [`Tip::beside`]. The stiffening is that against a plane at the same depth.
-    pub fn beside(&self, curvature: f64) -> Self {
+    /// [`Tip::on_curved_surface`]. The stiffening is that against a plane at the same depth.
+    pub fn on_curved_surface(&self, curvature: f64) -> Self {
         Self {
-            tip: self.tip.beside(curvature),
+            tip: self.tip.on_curved_surface(curvature),
             ..self.clone()
         }
     }

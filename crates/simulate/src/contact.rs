@@ -218,7 +218,7 @@ fn detect_after(
         }
         Friction::Bonded if contact.displacement(tool, tip).z >= 0.0 => return None,
         Friction::Bonded => {
-            let tip = tool.tip.beside(contact.place.mean_curvature());
+            let tip = tool.tip.on_curved_surface(contact.place.mean_curvature());
             contact.place.radius = tip.contact_radius(depth);
         }
     }
@@ -356,7 +356,7 @@ pub(crate) fn place(
         frame,
         curvature,
         triangle: contact_point.triangle,
-        radius: tool.tip.beside(mean).contact_radius(depth),
+        radius: tool.tip.on_curved_surface(mean).contact_radius(depth),
         surroundings: surroundings(rest, tool, contact_point, &frame),
         // As in the calibrated model: fixed like a hemisphere of its volume.
         thickness: rest.radius,

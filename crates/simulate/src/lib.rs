@@ -81,7 +81,7 @@ pub use global::{EnhancedSurface, OrganField, ResponseOrigin};
 pub use hand_speed::FASTEST_HAND;
 pub use indentation::Site;
 pub use limits::LimitCounts;
-pub use organ::{builtin_organ, held_region, read_neighbour, read_organ, read_tissue};
+pub use organ::{builtin_organ, fixed_region, read_neighbour, read_organ, read_tissue};
 pub use play::{Flow, Frame, check_motion, play};
 pub use preparation::{Progress, Resources, Work};
 pub use regions::read_inclusion;

@@ -92,7 +92,7 @@ pub(crate) fn back(location: &Location, place: &Vec3) -> Vec3 {
 }
 
 /// The fixed region of an organ of `shape`: as `stated`, or that of the built-in organ.
-pub fn held_region(shape: &Shape, stated: Option<&Region>) -> Region {
+pub fn fixed_region(shape: &Shape, stated: Option<&Region>) -> Region {
     match (stated, shape) {
         (Some(stated), _) => stated.clone(),
         (None, Shape::Builtin { organ, .. }) => Region {

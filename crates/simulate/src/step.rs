@@ -355,7 +355,7 @@ fn answer(tool: &Tool, state: &mut ToolState) {
         return;
     };
     let displacement = contact.displacement(tool, &Vec3::from(pose.position_m));
-    let law = tool.law.beside(contact.place.mean_curvature());
+    let law = tool.law.on_curved_surface(contact.place.mean_curvature());
     let answer = law.force(&displacement, &response.stiffness);
     let frame = contact.frame();
     state.elastic = frame * answer.force;

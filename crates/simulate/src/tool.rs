@@ -94,7 +94,7 @@ impl Tool {
                     ..Trocar::new(Vec3::from(place), &(0.5 * (low + high)))
                 }
             }),
-            patches: PatchField::new(surface, model.held_radius(typical)),
+            patches: PatchField::new(surface, model.fixed_radius(typical)),
             placement: settings.placement,
             field: None,
             inclusions: InclusionTable::default(),

@@ -473,7 +473,7 @@ impl Curves {
         let problem = TubeProblem {
             tube,
             law: self.law.unit(shape)?,
-            ends: Ends::Held,
+            ends: Ends::Fixed,
         };
         let found = indent(&problem, punch, TUBE_ACCURACY, &mut |_| ());
         let found = found.map_err(|why| Error::of_law(self.law.name(), self.deepest, why))?;

@@ -9,7 +9,7 @@ pub(super) fn description() -> OrganDescription {
         axes: "x, y and z along the edges, z up",
         origin: "the centre",
         lengths: "edge 100 mm: [-0.05, 0.05] m along each axis",
-        held: "the bottom face, z = -0.05 m",
+        fixed: "the bottom face, z = -0.05 m",
         extent: Vec3::repeat(EDGE),
         volume: EDGE.powi(3),
     }

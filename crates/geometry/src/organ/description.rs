@@ -14,7 +14,7 @@ pub struct OrganDescription {
     /// Its lengths, in words and numbers.
     pub lengths: &'static str,
     /// The part fixed by default.
-    pub held: &'static str,
+    pub fixed: &'static str,
     /// Size along x, y and z of a fine mesh [m].
     pub extent: Vec3,
     /// Enclosed volume of a fine mesh [m³].
@@ -40,6 +40,6 @@ impl fmt::Display for OrganDescription {
             mm.z,
             self.volume * 1e3
         )?;
-        write!(formatter, "held:    {}", self.held)
+        write!(formatter, "held:    {}", self.fixed)
     }
 }

@@ -33,7 +33,7 @@ pub(super) fn description() -> OrganDescription {
         origin: "in the middle of the hiatus, half-way through the sheet",
         lengths: "144 mm from side to side, 106 mm from front to back, 4 mm thick; the hiatus is 18 mm \
                   wide; the domes rise 25 to 30 mm above it",
-        held: "both sides, where it grows from the ribs: what lies more than 50 mm from the hiatus",
+        fixed: "both sides, where it grows from the ribs: what lies more than 50 mm from the hiatus",
         extent: Vec3::new(0.1440, 0.1059, 0.0541),
         volume: 52.2e-6,
     }

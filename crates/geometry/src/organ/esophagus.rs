@@ -33,7 +33,7 @@ pub(super) fn description() -> OrganDescription {
                  along z, and it bends to the left on its way down (radius 170 mm)",
         lengths: "60 mm long; outer diameter 15 mm, lumen 10 mm, wall 2.5 mm at half length; 2 mm \
                   wider at the diaphragm, 8 mm wider at the stomach",
-        held: "both ends, 4 mm of each",
+        fixed: "both ends, 4 mm of each",
         extent: Vec3::new(0.0287, 0.0218, 0.0622),
         volume: 6.46e-6,
     }

@@ -12,7 +12,7 @@ pub(super) fn description() -> OrganDescription {
         axes: "z along the axis, pole at +z",
         origin: "the centre of the base",
         lengths: "radius 50 mm; the base is the plane z = 0",
-        held: "the base, z = 0",
+        fixed: "the base, z = 0",
         extent: Vec3::new(2.0 * RADIUS, 2.0 * RADIUS, RADIUS),
         volume: 2.0 / 3.0 * PI * RADIUS.powi(3),
     }

@@ -10,7 +10,7 @@ pub(super) fn description() -> OrganDescription {
         origin: "inside, near the middle",
         lengths: "108 mm from pole to pole, 60 mm wide, 45 mm thick; the upper pole leans 12 \
                   degrees to the middle and 10 degrees to the back; the hilum faces -x",
-        held: "the back, where it rests on the muscles: y > 10 mm",
+        fixed: "the back, where it rests on the muscles: y > 10 mm",
         extent: Vec3::new(0.0651, 0.0485, 0.1053),
         volume: 149.0e-6,
     }

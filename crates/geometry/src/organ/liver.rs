@@ -11,7 +11,7 @@ pub(super) fn description() -> OrganDescription {
         origin: "inside the right lobe, near the middle of the organ",
         lengths: "190 mm from right to left, 150 mm from front to back, 162 mm high; the lower \
                   margin is rounded and notched by the round ligament near x = 38 mm",
-        held: "the top and back, where ligaments hang it from the diaphragm: what lies more than \
+        fixed: "the top and back, where ligaments hang it from the diaphragm: what lies more than \
                60 mm from the origin along (0, 0.6, 0.8)",
         extent: Vec3::new(0.1907, 0.1493, 0.1622),
         volume: 1.583e-3,

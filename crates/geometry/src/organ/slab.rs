@@ -13,7 +13,7 @@ pub(super) fn description() -> OrganDescription {
         axes: "x and y along the edges, z up",
         origin: "the centre of the bottom face",
         lengths: "100 mm along x and y, 15 mm thick",
-        held: "the bottom face, z = 0",
+        fixed: "the bottom face, z = 0",
         extent: SIZE,
         volume: SIZE.product(),
     }

@@ -11,7 +11,7 @@ pub(super) fn description() -> OrganDescription {
         origin: "inside, near the middle",
         lengths: "114 mm along the tenth rib, from the back and top to the front and bottom; \
                   78 mm wide, 40 mm thick; the dome faces left, back and up",
-        held: "the rim of the hollow side, where the ligaments to stomach and kidney are: what \
+        fixed: "the rim of the hollow side, where the ligaments to stomach and kidney are: what \
                lies more than 8 mm from the origin towards the hollow side",
         extent: Vec3::new(0.0699, 0.0977, 0.0882),
         volume: 201.1e-6,

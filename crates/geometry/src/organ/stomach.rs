@@ -26,7 +26,7 @@ pub(super) fn description() -> OrganDescription {
         lengths: "about 270 mm along the greater curve, 170 mm along the lesser; fundus and \
                   body 58 mm wide, antrum 37 mm; the cardia is near (2, 23, 43) mm, the pylorus \
                   near (-56, -2, -14) mm",
-        held: "the top, where fundus and esophagus hang from the diaphragm: z > 40 mm; and the \
+        fixed: "the top, where fundus and esophagus hang from the diaphragm: z > 40 mm; and the \
                pylorus: x < -45 mm",
         extent: Vec3::new(0.1254, 0.0749, 0.1222),
         volume: 0.254e-3,

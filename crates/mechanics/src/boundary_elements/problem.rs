@@ -17,7 +17,7 @@ pub struct BoundaryProblem<'a> {
     /// Poisson's ratio [-].
     pub poissons_ratio: f64,
     /// Triangles that cannot move.
-    pub held: &'a [TriangleId],
+    pub fixed: &'a [TriangleId],
     /// Triangles that a contact may load, ascending; none of them fixed.
     pub touchable: &'a [TriangleId],
 }
@@ -79,7 +79,7 @@ impl BoundaryProblem<'_> {
     ) -> Result<SurfaceResponse<T>, Error> {
         let law = LinearElastic::new(1.0, self.poissons_ratio)?;
         let triangles = self.surface.mesh().triangles().len();
-        let fixed = fixed_triangles(triangles, self.held, self.touchable)?;
+        let fixed = fixed_triangles(triangles, self.fixed, self.touchable)?;
         let needed = self.memory::<T>().most;
         if needed > memory {
             return Err(Error::NotEnoughMemory { needed, memory });
@@ -99,7 +99,7 @@ impl BoundaryProblem<'_> {
             self.poissons_ratio,
             touchable.collect(),
             triangles,
-            self.held,
+            self.fixed,
             Sampling::Centroids,
         )?;
         let system = zeros(self.size() * self.size())?;
@@ -165,7 +165,7 @@ impl BoundaryProblem<'_> {
                 let columns = &mut columns[..3 * rows * loaded.len()];
                 load(influences, loaded, columns);
                 factors.solve(columns);
-                for triangle in self.held {
+                for triangle in self.fixed {
                     for column in columns.chunks_exact_mut(rows) {
                         // Its unknowns are tractions.
                         column[3 * triangle.index()..][..3].fill(T::of(0.0));
@@ -187,7 +187,7 @@ pub(crate) fn fixed_triangles(
     touchable: &[TriangleId],
 ) -> Result<Vec<bool>, Error> {
     if fixed.is_empty() {
-        return Err(Error::NothingHeld);
+        return Err(Error::NothingFixed);
     }
     for (what, numbers) in [("fixed", fixed), ("touchable", touchable)] {
         if let Some(stray) = numbers.iter().find(|t| t.index() >= triangles) {

@@ -43,12 +43,12 @@ impl Error {
             | Self::DepthIsNoNumber { .. }
             | Self::PatchReachesBase { .. }
             | Self::StretchOutOfRange { .. }
-            | Self::NothingHeld
+            | Self::NothingFixed
             | Self::LoosePiece { .. }
             | Self::PatchOffSurface { .. }
             | Self::PatchCoversBody { .. }
             | Self::EmptyPatch { .. }
-            | Self::PatchIsHeld { .. }
+            | Self::PatchIsFixed { .. }
             | Self::DisplacementBeyondBody { .. }
             | Self::TooManyUnknowns { .. }
             | Self::PunchOutOfRange { .. }

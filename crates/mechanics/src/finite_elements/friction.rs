@@ -124,7 +124,7 @@ mod tests {
     ) -> Vec<f64> {
         newton::assemble(model, supports, unknowns, workspace).unwrap();
         let mut equations = workspace.residual.clone();
-        for (equation, prescribed) in equations.iter_mut().zip(&supports.held) {
+        for (equation, prescribed) in equations.iter_mut().zip(&supports.prescribed) {
             if prescribed.is_some() {
                 *equation = 0.0;
             }
@@ -189,7 +189,7 @@ mod tests {
         supports.check(&model).unwrap();
         let mut workspace = FiniteElementWorkspace::new(&model).unwrap();
         let start: Vec<f64> = (0..model.size())
-            .map(|i| match supports.held[i] {
+            .map(|i| match supports.prescribed[i] {
                 Some(prescribed) => prescribed,
                 None => 0.01 * (1.7 * i as f64).sin(),
             })

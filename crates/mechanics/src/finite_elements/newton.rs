@@ -196,11 +196,11 @@ pub(super) fn size_of_residual(
         terms: 0.0,
     };
     let diagonal = |i: usize| workspace.tangent[model.pattern.range(i).start];
-    let mut slides = vec![false; supports.held.len()];
+    let mut slides = vec![false; supports.prescribed.len()];
     for contact in &supports.sliding {
         slides[2 * contact.node..2 * contact.node + 2].fill(true);
     }
-    for (i, prescribed) in supports.held.iter().enumerate() {
+    for (i, prescribed) in supports.prescribed.iter().enumerate() {
         let part = workspace.residual[i].powi(2) / diagonal(i).abs();
         size.terms += diagonal(i).abs() * workspace.trial[i].powi(2);
         if prescribed.is_some() {
@@ -258,7 +258,7 @@ pub(super) fn prescribe(
     workspace.step.fill(0.0);
     let mut gap: f64 = 0.0;
     let mut extent: f64 = 0.0;
-    for (i, prescribed) in supports.held.iter().enumerate() {
+    for (i, prescribed) in supports.prescribed.iter().enumerate() {
         if let Some(target) = prescribed {
             workspace.step[i] = target - unknowns[i];
             gap = gap.max(workspace.step[i].abs());
@@ -370,7 +370,7 @@ pub(super) fn factor(
 /// Rows of prescribed unknowns: prescribed displacements and the normal component of sliding nodes.
 pub(super) fn prescribed_rows(model: &FiniteElementModel, supports: &Supports<'_>) -> Vec<bool> {
     let mut is_prescribed = vec![false; model.size()];
-    for (row, prescribed) in is_prescribed.iter_mut().zip(&supports.held) {
+    for (row, prescribed) in is_prescribed.iter_mut().zip(&supports.prescribed) {
         *row = prescribed.is_some();
     }
     for contact in &supports.sliding {

@@ -347,8 +347,8 @@ impl<'a> Path<'a> {
         // Prescribed changes, their forces, then their own rows.
         let mut product = vec![0.0; model.size()];
         let mut prescribed = [vec![0.0; model.size()], vec![0.0; model.size()]];
-        for (i, target) in loads.held.iter().enumerate() {
-            if let (Some(target), Some(full)) = (target, self.loads.held[i]) {
+        for (i, target) in loads.prescribed.iter().enumerate() {
+            if let (Some(target), Some(full)) = (target, self.loads.prescribed[i]) {
                 prescribed[0][i] = target - state.unknowns[i];
                 prescribed[1][i] = full;
             }
@@ -392,7 +392,7 @@ fn blend(low: &PathPoint, high: &PathPoint, part: f64) -> (f64, FiniteElementSta
 /// `loads`, `factor` times.
 fn scaled<'a>(loads: &Supports<'a>, factor: f64) -> Supports<'a> {
     let mut all = loads.clone();
-    for target in all.held.iter_mut().flatten() {
+    for target in all.prescribed.iter_mut().flatten() {
         *target *= factor;
     }
     let pressures = all.pressures.iter_mut().map(|(_, pressure)| pressure);

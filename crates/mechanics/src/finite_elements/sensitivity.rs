@@ -35,7 +35,12 @@ pub(super) fn solve(
     workspace.supported.copy_from_slice(&workspace.tangent);
     workspace.trial.copy_from_slice(&state.unknowns);
     workspace.step.fill(0.0);
-    for ((step, prescribed), slope) in workspace.step.iter_mut().zip(&supports.held).zip(&*slope) {
+    for ((step, prescribed), slope) in workspace
+        .step
+        .iter_mut()
+        .zip(&supports.prescribed)
+        .zip(&*slope)
+    {
         if prescribed.is_some() {
             *step = *slope;
         }

@@ -12,7 +12,7 @@ use crate::Vec3;
 #[derive(Debug, Clone)]
 pub struct Supports<'a> {
     /// Prescribed (Dirichlet) value of each displacement unknown [m]; `None` where it is free.
-    pub held: Vec<Option<f64>>,
+    pub prescribed: Vec<Option<f64>>,
     /// Nodes that slide on a rigid surface, in an axisymmetric body; their unknowns must not be
     /// prescribed.
     pub sliding: Vec<Sliding>,
@@ -109,7 +109,7 @@ impl<'a> Supports<'a> {
     /// A body that nothing holds.
     pub fn none(model: &FiniteElementModel) -> Self {
         Self {
-            held: vec![None; model.displacements()],
+            prescribed: vec![None; model.displacements()],
             sliding: Vec::new(),
             pressures: Vec::new(),
             pressed: Vec::new(),
@@ -133,8 +133,8 @@ impl<'a> Supports<'a> {
         let dimension = model.dimension();
         for node in nodes {
             let place = node.checked_mul(dimension).map(|first| first + axis);
-            match place.and_then(|place| self.held.get_mut(place)) {
-                Some(held) if axis < dimension => *held = Some(at),
+            match place.and_then(|place| self.prescribed.get_mut(place)) {
+                Some(prescribed) if axis < dimension => *prescribed = Some(at),
                 _ => self.stray = self.stray.or(Some((node, axis))),
             }
         }
@@ -200,7 +200,7 @@ impl<'a> Supports<'a> {
         let displacements = model.displacements();
         lengths(
             "the list of fixed displacements",
-            self.held.len(),
+            self.prescribed.len(),
             displacements,
         )?;
         if let Some((load, _)) = self.dead_load {
@@ -237,7 +237,7 @@ impl<'a> Supports<'a> {
             if !force_ratio.is_finite() {
                 return Err(Mismatch::ForceRatioOutOfRange { node, force_ratio });
             }
-            let fixed = [0, 1].map(|axis| self.held[2 * node + axis].is_some());
+            let fixed = [0, 1].map(|axis| self.prescribed[2 * node + axis].is_some());
             if fixed[0] || fixed[1] || std::mem::replace(&mut slides[node], true) {
                 return Err(Mismatch::SlidesAndIsFixed { node });
             }
@@ -251,7 +251,12 @@ impl<'a> Supports<'a> {
         let dimension = model.dimension();
         if dimension == 2 {
             // Along the axis; a ring that widens is strained.
-            let along = self.held.iter().skip(1).step_by(2).any(Option::is_some);
+            let along = self
+                .prescribed
+                .iter()
+                .skip(1)
+                .step_by(2)
+                .any(Option::is_some);
             return !along && self.sliding.is_empty();
         }
         let nodes = &model.mesh.nodes;
@@ -262,7 +267,12 @@ impl<'a> Supports<'a> {
             .fold(0.0, f64::max);
         // Projections of the prescribed unknowns onto three translations and three rotations.
         let mut seen = Matrix6::zeros();
-        for (i, _) in self.held.iter().enumerate().filter(|(_, h)| h.is_some()) {
+        for (i, _) in self
+            .prescribed
+            .iter()
+            .enumerate()
+            .filter(|(_, h)| h.is_some())
+        {
             let axis = Vec3::ith(i % dimension, 1.0);
             let turn = ((nodes[i / dimension] - center) / extent).cross(&axis);
             let row = Vector6::new(axis.x, axis.y, axis.z, turn.x, turn.y, turn.z);

@@ -188,7 +188,7 @@ impl FiniteSphereModel {
     }
 
     /// Radius of the fixed shell [m] for a touching area of `radius` [m].
-    pub fn held_radius(&self, radius: f64) -> f64 {
+    pub fn fixed_radius(&self, radius: f64) -> f64 {
         match self.uncalibrated {
             Some(_) => UNCALIBRATED_RADII[0] * radius,
             None => self.spacing(radius) * self.layout.shells as f64,
@@ -199,7 +199,7 @@ impl FiniteSphereModel {
     pub fn shown_radius(&self, radius: f64) -> f64 {
         match self.uncalibrated {
             Some(_) => UNCALIBRATED_RADII[2] * radius,
-            None => SHOWN * self.held_radius(radius),
+            None => SHOWN * self.fixed_radius(radius),
         }
     }
 

@@ -104,7 +104,7 @@ impl NonlinearModel {
         };
         let is_fixed = select(&is_fixed);
         if !is_fixed.contains(&true) {
-            return Err(Error::NothingHeld);
+            return Err(Error::NothingFixed);
         }
         let can_be_loaded = select(&can_be_loaded);
         let list: Vec<u32> = (0..places.len() as u32)

@@ -49,7 +49,7 @@ pub struct ResponseParts<T> {
     /// The triangles that can be loaded, ascending in their numbers.
     pub touchable: Vec<TouchableTriangle>,
     /// The triangles that cannot move, ascending; none of them touchable.
-    pub held: Vec<TriangleId>,
+    pub fixed: Vec<TriangleId>,
     /// Number of triangles of the mesh.
     pub triangles: usize,
     /// The quantity that the displacements sample.
@@ -82,15 +82,15 @@ impl<T: Precision> ResponseParts<T> {
         poissons_ratio: f64,
         touchable: Vec<TouchableTriangle>,
         triangles: usize,
-        held: &[TriangleId],
+        fixed: &[TriangleId],
         sampling: Sampling,
     ) -> Result<Self, Error> {
         let columns = 3 * touchable.len();
-        let mut held = held.to_vec();
-        held.sort();
+        let mut fixed = fixed.to_vec();
+        fixed.sort();
         Ok(Self {
             poissons_ratio,
-            held,
+            fixed,
             triangles,
             sampling,
             displacements: zeros(columns * 3 * triangles)?,
@@ -119,8 +119,8 @@ impl<T: Precision> ResponseParts<T> {
             Some("no triangle can be touched")
         } else if !self.touchable.windows(2).all(ascends) {
             Some("its triangles do not ascend")
-        } else if !self.held.is_sorted() {
-            Some("its held triangles do not ascend")
+        } else if !self.fixed.is_sorted() {
+            Some("its fixed triangles do not ascend")
         } else if !self.touchable.iter().all(sound) {
             Some("a triangle has no area, normal or place")
         } else if !self.touchable.iter().all(known) {

@@ -61,7 +61,7 @@ impl<T: Precision> SurfaceResponse<T> {
 
     /// Whether a triangle of the mesh is fixed.
     pub fn holds(&self, triangle: TriangleId) -> bool {
-        self.parts.held.binary_search(&triangle).is_ok()
+        self.parts.fixed.binary_search(&triangle).is_ok()
     }
 
     /// Displacement of `moved` from a unit force on `loaded`, times E [1/m], as it was solved.

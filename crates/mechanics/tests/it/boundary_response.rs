@@ -51,7 +51,7 @@ impl Held {
         BoundaryProblem {
             surface: &self.surface,
             poissons_ratio: self.nu,
-            held: &self.held,
+            fixed: &self.held,
             touchable,
         }
     }
@@ -377,7 +377,7 @@ fn what_cannot_be_solved_is_refused() {
         most,
         ["no triangle can be touched", "at least one"],
     );
-    problem.held = &[];
+    problem.fixed = &[];
     refused(&problem, most, ["without force", "anchor"]);
 }
 

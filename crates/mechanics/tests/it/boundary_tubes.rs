@@ -59,7 +59,7 @@ pub(crate) fn by_finite_elements(inner_radius: f64, outer_radius: f64) -> f64 {
             outer_radius,
         },
         law: Arc::new(LinearElastic::new(1.0, NU).unwrap()),
-        ends: Ends::Held,
+        ends: Ends::Fixed,
     };
     let punch = TubePunch {
         radius: PUNCH,

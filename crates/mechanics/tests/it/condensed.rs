@@ -21,7 +21,7 @@ fn problem<'a>(solid: &'a Held, touchable: &'a [TriangleId], edge: f64) -> Conde
     CondensedProblem {
         surface: &solid.surface,
         poissons_ratio: solid.nu,
-        held: &solid.held,
+        fixed: &solid.held,
         touchable,
         edge,
         regions: None,
@@ -155,10 +155,10 @@ fn what_cannot_be_solved_is_refused() {
     refused(&good, most - 1, "GB of memory");
     let lost = CondensedProblem { edge: 1.0, ..good };
     refused(&lost, usize::MAX, "edge");
-    let loose = CondensedProblem { held: &[], ..good };
+    let loose = CondensedProblem { fixed: &[], ..good };
     refused(&loose, usize::MAX, "anchor holds no triangle");
     let both = CondensedProblem {
-        held: &touchable,
+        fixed: &touchable,
         ..good
     };
     refused(&both, usize::MAX, "lie in the anchor");

@@ -246,9 +246,9 @@ fn punches_that_meet_no_tube_are_refused() {
     };
     let refused: [(Result<(), Error>, &[&str]); 4] = [
         (indented(Ends::Guided, good), &["guided", "hold them"]),
-        (indented(Ends::Held, wide), &["0.007 m", "at most 0.006"]),
-        (indented(Ends::Held, deep), &["0.02 m", "0.01 m"]),
-        (indented(Ends::Held, burst), &["balloons at 69", "5000 Pa"]),
+        (indented(Ends::Fixed, wide), &["0.007 m", "at most 0.006"]),
+        (indented(Ends::Fixed, deep), &["0.02 m", "0.01 m"]),
+        (indented(Ends::Fixed, burst), &["balloons at 69", "5000 Pa"]),
     ];
     for (result, words) in refused {
         let message = result.unwrap_err().to_string();

@@ -148,7 +148,7 @@ fn it_goes_over_the_held_shell_without_a_visible_leap() {
     for settings in every_kind() {
         for nu in [0.3, 0.45] {
             let mut shown = Shown::new(settings, nu, Friction::Frictionless, 1.0 / RADIUS);
-            let held = shown.model.held_radius(TIP);
+            let held = shown.model.fixed_radius(TIP);
             let tip = -1e-3 * Vec3::z();
             let mut leap: f64 = 0.0;
             for k in 0..360 {
@@ -214,7 +214,7 @@ fn it_is_continuous_inside() {
         Friction::Bonded,
         10.0,
     );
-    let held = shown.model.held_radius(TIP);
+    let held = shown.model.fixed_radius(TIP);
     let tip = Vec3::new(3e-4, -2e-4, -1e-3);
     let mut random = Random(2);
     let mut worst = [0.0f64; 2];

@@ -340,13 +340,13 @@ fn triangles_that_are_none_or_out_of_order_are_refused_at_once() {
         let boundary = BoundaryProblem {
             surface: &solid.surface,
             poissons_ratio: 0.45,
-            held,
+            fixed: held,
             touchable,
         };
         let condensed = CondensedProblem {
             surface: &solid.surface,
             poissons_ratio: 0.45,
-            held,
+            fixed: held,
             touchable,
             edge: 0.01,
             regions: None,
@@ -380,7 +380,7 @@ fn triangles_that_are_none_or_out_of_order_are_refused_at_once() {
         let problem = CondensedProblem {
             surface: &solid.surface,
             poissons_ratio: 0.45,
-            held,
+            fixed: held,
             touchable: free,
             edge,
             regions: None,

@@ -119,7 +119,7 @@ impl Table {
             Some(edge) => CondensedProblem {
                 surface: &solid.surface,
                 poissons_ratio: grid.poissons_ratio,
-                held: &solid.held,
+                fixed: &solid.held,
                 touchable: &touchable,
                 edge,
                 regions: None,

@@ -170,7 +170,7 @@ impl Tube {
         let response = SurfaceResponse::new(ResponseParts {
             poissons_ratio: NU,
             touchable,
-            held: solid.held.clone(),
+            fixed: solid.held.clone(),
             triangles,
             sampling: Sampling::Means,
             displacements,

@@ -102,7 +102,7 @@ fn follows_the_closed_form() {
 /// The guide to the source's tube: with held ends it balloons near 611 Pa, whose length is not given.
 #[test]
 fn the_esophagus_balloons_near_611_pascal() {
-    let problem = tube(0.05, Ends::Held, esophagus());
+    let problem = tube(0.05, Ends::Fixed, esophagus());
     let pressures = [300.0, 600.0, 650.0, 4000.0];
     let once = run(&problem, &pressures, 1.0);
     let fine = run(&problem, &pressures, 0.0);
@@ -123,7 +123,7 @@ fn the_esophagus_balloons_near_611_pascal() {
 #[test]
 fn a_short_tube_withstands_more() {
     let limit = |length: f64| {
-        let problem = tube(length, Ends::Held, esophagus());
+        let problem = tube(length, Ends::Fixed, esophagus());
         run(&problem, &[], 1.0).answer.limit_pressure.unwrap()
     };
     let limits = [0.02, 0.04, 0.1].map(limit);
@@ -137,7 +137,7 @@ fn a_short_tube_withstands_more() {
 #[test]
 fn a_stiffening_tube_does_not_balloon() {
     let law = Exponential::incompressible(5200.0 / 3.0, 2.0).unwrap();
-    let result = run(&tube(0.04, Ends::Held, law), &[600.0, 4000.0], 0.01);
+    let result = run(&tube(0.04, Ends::Fixed, law), &[600.0, 4000.0], 0.01);
     println!("{result:?}");
     assert_eq!(result.answer.limit_pressure, None);
     let [low, high] = [0, 1].map(|i| result.answer.inner_displacements[i].unwrap());
@@ -157,7 +157,7 @@ fn punch(radius: f64, pressure: f64, depths: &[f64]) -> TubePunch {
 #[test]
 fn a_punch_on_a_short_tube() {
     let law = LinearElastic::new(5200.0, 0.49).unwrap();
-    let problem = tube(0.012, Ends::Held, law);
+    let problem = tube(0.012, Ends::Fixed, law);
     let punch = punch(0.003, 0.0, &[0.004, 0.0, 0.002]);
     let result = indent(&problem, &punch, 1.0, &mut |_| {}).unwrap();
     println!("{result:?}");
@@ -177,7 +177,7 @@ fn a_punch_on_a_short_tube() {
 /// circumference gives way less.
 #[test]
 fn pressure_stiffens_a_short_tube() {
-    let problem = tube(0.012, Ends::Held, esophagus());
+    let problem = tube(0.012, Ends::Fixed, esophagus());
     let force = |pressure: f64| {
         let punch = punch(0.003, pressure, &[0.001]);
         let result = indent(&problem, &punch, 1.0, &mut |_| {}).unwrap();
@@ -196,7 +196,7 @@ fn pressure_stiffens_a_short_tube() {
 #[test]
 #[ignore = "slow: minutes for meshes of 40,000 unknowns"]
 fn the_esophagus_is_indented() {
-    let problem = tube(0.06, Ends::Held, esophagus());
+    let problem = tube(0.06, Ends::Fixed, esophagus());
     let depths = [0.0005, 0.001, 0.002, 0.004];
     let run = |pressure: f64, accuracy: f64| {
         let punch = punch(0.001, pressure, &depths);

@@ -135,8 +135,8 @@ fn implied_radii(rows: &mut Rows<'_>) -> Result<(), Error> {
     for particles in PARTICLES {
         let row = rows.row(&format!("implied_tool_radius/{particles}"));
         match model(particles, Form::Weak, &law) {
-            // Radii scale: a tool of one metre has its periphery at held_radius(1).
-            Ok(model) => row.is(FIXED_RADIUS / model.held_radius(1.0)),
+            // Radii scale: a tool of one metre has its periphery at fixed_radius(1).
+            Ok(model) => row.is(FIXED_RADIUS / model.fixed_radius(1.0)),
             Err(reason) => row.missing(reason),
         }
     }

@@ -95,7 +95,10 @@ impl Body {
 
     fn built_in(organ: Organ, triangles: usize) -> Result<Self, Error> {
         let mesh = organ.surface_mesh(triangles)?;
-        let whose = format!("the built-in {organ}, held on {}", organ.description().held);
+        let whose = format!(
+            "the built-in {organ}, held on {}",
+            organ.description().fixed
+        );
         Self::fixed(Surface::new(mesh)?, &organ.anchor(), &whose)
     }
 
@@ -123,7 +126,7 @@ impl Body {
         BoundaryProblem {
             surface: &self.surface,
             poissons_ratio: POISSONS_RATIO,
-            held: &self.fixed,
+            fixed: &self.fixed,
             touchable: &self.free,
         }
     }

@@ -55,7 +55,7 @@ fn indented(
     let problem = TubeProblem {
         tube,
         law,
-        ends: Ends::Held,
+        ends: Ends::Fixed,
     };
     let punch = TubePunch {
         radius: RADIUS,

@@ -32,7 +32,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let problem = TubeProblem {
         tube: printed.tube,
         law: Arc::new(law),
-        ends: Ends::Held,
+        ends: Ends::Fixed,
     };
     let found = solve(rows, &problem, &[])?;
     let limit = found.answer.limit_pressure;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use palpate_files::Scene;
 use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve};
 use palpate_mechanics::{IndentationCurve, LinearElastic, Material};
-use palpate_simulate::{Simulation, held_region};
+use palpate_simulate::{Simulation, fixed_region};
 
 use super::figures::TRAINER;
 use super::section_7_8::{front, means, scene, scene_of_the_trainer, simulated, unit_forces};
@@ -161,7 +161,7 @@ fn organ(rows: &Rows<'_>, simulation: &Simulation) -> Result<SolidOrgan, Error> 
     let (center, normal) = front(simulation);
     let problem = SolidProblem {
         body: Body::Surface(simulation.surface().clone()),
-        anchor: held_region(&scene()?.organ.shape, None),
+        anchor: fixed_region(&scene()?.organ.shape, None),
         patch: Some(MovedPatch {
             center,
             radius: RADIUS,

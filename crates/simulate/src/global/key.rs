@@ -13,7 +13,7 @@ pub(super) struct Ingredients<'a> {
     pub(super) surface: &'a Surface,
     /// [-]
     pub(super) poissons_ratio: f64,
-    pub(super) held: &'a [TriangleId],
+    pub(super) fixed: &'a [TriangleId],
     pub(super) touchable: &'a [TriangleId],
     pub(super) method: Method,
     pub(super) regions: Option<RegionLaws<'a>>,
@@ -39,7 +39,7 @@ impl Ingredients<'_> {
         for node in mesh.triangles().iter().flatten() {
             hash.update(node.0.to_le_bytes());
         }
-        for list in [self.held, self.touchable] {
+        for list in [self.fixed, self.touchable] {
             hash.update((list.len() as u64).to_le_bytes());
             for triangle in list {
                 hash.update(triangle.0.to_le_bytes());
@@ -72,12 +72,12 @@ mod tests {
             |triangles| Surface::new(Organ::Cube.surface_mesh(triangles).unwrap()).unwrap();
         let (fine, coarse) = (surface(108), surface(48));
         let boundary = Method::BoundaryElements;
-        let key = |surface, poissons_ratio, held: &[u32], touchable: &[u32], method| {
+        let key = |surface, poissons_ratio, fixed: &[u32], touchable: &[u32], method| {
             let of = |list: &[u32]| list.iter().map(|&t| TriangleId(t)).collect::<Vec<_>>();
             Ingredients {
                 surface,
                 poissons_ratio,
-                held: &of(held),
+                fixed: &of(fixed),
                 touchable: &of(touchable),
                 method,
                 regions: None,
@@ -117,7 +117,7 @@ mod tests {
             Ingredients {
                 surface: &surface,
                 poissons_ratio: 0.3,
-                held: &[],
+                fixed: &[],
                 touchable: &[],
                 method: Method::FiniteElements { edge: 1e-2 },
                 regions: Some(RegionLaws {

@@ -51,7 +51,7 @@ use palpate_mechanics::surface_response::{SurfaceResponse, TipField};
 use crate::regions::Regions;
 use crate::tool::Tool;
 use crate::walls::Walls;
-use crate::{Error, Progress, Resources, held_region};
+use crate::{Error, Progress, Resources, fixed_region};
 pub use enhanced_surface::{EnhancedSurface, OrganField};
 use held::HeldWorkspace;
 use key::Ingredients;
@@ -149,7 +149,7 @@ pub(crate) struct GlobalProblem<'a> {
     surface: Surface,
     poissons_ratio: f64,
     regions: Option<OrganRegions<'a>>,
-    held: Vec<TriangleId>,
+    fixed: Vec<TriangleId>,
     touchable: Vec<TriangleId>,
     walls: Walls,
     /// Finite-element settings to try, the best first; if empty, boundary elements are used.
@@ -189,7 +189,7 @@ impl<'a> GlobalProblem<'a> {
     ) -> Result<Self, Error> {
         let wanted = scene.model.mechanical_triangles;
         let (surface, warnings) = mechanical_surface::mechanical_surface(shown, wanted)?;
-        let (held, touchable) = sort(&scene.organ, &surface);
+        let (fixed, touchable) = sort(&scene.organ, &surface);
         if touchable.is_empty() {
             return Err(Error::NothingTouchable);
         }
@@ -206,7 +206,7 @@ impl<'a> GlobalProblem<'a> {
             walls,
             surface,
             poissons_ratio: law.poissons_ratio(),
-            held,
+            fixed,
             touchable,
             warnings,
         })
@@ -289,7 +289,7 @@ impl<'a> GlobalProblem<'a> {
             method,
             surface: &self.surface,
             poissons_ratio: self.poissons_ratio,
-            held: &self.held,
+            fixed: &self.fixed,
             touchable: &self.touchable,
             regions: self.regions.as_ref().map(|own| RegionLaws {
                 map: own.map,
@@ -301,9 +301,9 @@ impl<'a> GlobalProblem<'a> {
 
 /// The fixed triangles, and the touchable ones.
 fn sort(organ: &Organ, surface: &Surface) -> (Vec<TriangleId>, Vec<TriangleId>) {
-    let anchor = held_region(&organ.shape, organ.anchor.as_ref());
+    let anchor = fixed_region(&organ.shape, organ.anchor.as_ref());
     let mesh = surface.mesh();
-    let (held, free): (Vec<_>, Vec<_>) = mesh
+    let (fixed, free): (Vec<_>, Vec<_>) = mesh
         .triangle_ids()
         .partition(|&triangle| anchor.holds(centroid(surface, triangle)));
     let within = |&triangle: &TriangleId| {
@@ -311,7 +311,7 @@ fn sort(organ: &Organ, surface: &Surface) -> (Vec<TriangleId>, Vec<TriangleId>) 
         region.is_none_or(|region| region.holds(centroid(surface, triangle)))
     };
     let touchable = free.into_iter().filter(within).collect();
-    (held, touchable)
+    (fixed, touchable)
 }
 
 fn centroid(surface: &Surface, triangle: TriangleId) -> [f64; 3] {

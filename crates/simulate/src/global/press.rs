@@ -216,7 +216,7 @@ impl GlobalModel {
             .site
             .and_then(|site| self.response.find(site.triangle));
         state.off_model = touched.is_none();
-        let law = tool.law.beside(contact.place.mean_curvature());
+        let law = tool.law.on_curved_surface(contact.place.mean_curvature());
         let over = exchange.map(|exchange| (exchange, &simulation.material.at_rest));
         let (answer, compliance) = tool.force_in_series(&law, &moved, &compliance, over);
         let mut own = moved + compliance * answer.force;

@@ -78,7 +78,7 @@ pub(super) fn solve(
     let &Ingredients {
         surface,
         poissons_ratio,
-        held,
+        fixed,
         touchable,
         method,
         regions,
@@ -88,14 +88,14 @@ pub(super) fn solve(
         Method::BoundaryElements => BoundaryProblem {
             surface,
             poissons_ratio,
-            held,
+            fixed,
             touchable,
         }
         .solve(memory, &mut on_progress),
         Method::FiniteElements { edge } => CondensedProblem {
             surface,
             poissons_ratio,
-            held,
+            fixed,
             touchable,
             edge,
             regions,
@@ -138,7 +138,7 @@ fn read(
     Ok(SurfaceResponse::new(ResponseParts {
         poissons_ratio: ingredients.poissons_ratio,
         touchable: ingredients.touchable.iter().filter_map(of).collect(),
-        held: ingredients.held.to_vec(),
+        fixed: ingredients.fixed.to_vec(),
         triangles: stored.triangles,
         sampling: match ingredients.method {
             Method::BoundaryElements => Sampling::Centroids,

@@ -19,7 +19,7 @@ use super::key::Ingredients;
 use super::mechanical_surface::mechanical_surface;
 use super::method::Method;
 use super::solve::solve;
-use super::{centroid, held_region};
+use super::{centroid, fixed_region};
 use crate::Error;
 use crate::tool::Tool;
 use crate::walls::Walls;
@@ -40,9 +40,9 @@ pub(crate) fn surround(
     memory: usize,
 ) -> Result<Option<String>, Error> {
     let (surface, _) = mechanical_surface(shown, Some(TRIANGLES))?;
-    let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
+    let anchor = fixed_region(&scene.organ.shape, scene.organ.anchor.as_ref());
     let mesh = surface.mesh();
-    let (held, free): (Vec<_>, Vec<_>) = mesh
+    let (fixed, free): (Vec<_>, Vec<_>) = mesh
         .triangle_ids()
         .partition(|&triangle| anchor.holds(centroid(&surface, triangle)));
     let walls = Walls::new(&surface, &free);
@@ -50,7 +50,7 @@ pub(crate) fn surround(
         let ingredients = Ingredients {
             surface: &surface,
             poissons_ratio: law.poissons_ratio(),
-            held: &held,
+            fixed: &fixed,
             touchable: &free,
             method,
             regions: None,

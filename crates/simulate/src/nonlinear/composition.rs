@@ -22,7 +22,7 @@ use super::regions::Elements;
 use super::soft::{Piece, SoftBody, touching};
 use crate::neighbour::Neighbour;
 use crate::regions::Regions;
-use crate::{Error, held_region};
+use crate::{Error, fixed_region};
 
 /// Approximate number of nodes, if the scene does not state it; more with cavities, whose walls have few elements.
 const NODES: usize = 1_500;
@@ -142,7 +142,7 @@ impl Composition {
         let (low, high) = shown.mesh().bounds();
         let of_tissues = regions.nonlinear_warnings.clone();
         let mut walls = WallField::default();
-        let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
+        let anchor = fixed_region(&scene.organ.shape, scene.organ.anchor.as_ref());
         walls.extend(surface, &regions, |place| anchor.holds((*place).into()));
         for body in soft {
             walls.extend(&body.surface, &body.regions, |place| body.holds(place));

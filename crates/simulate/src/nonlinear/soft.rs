@@ -17,7 +17,7 @@ use palpate_mechanics::{LinearElastic, TipLaw};
 
 use super::merged::Merged;
 use crate::Error;
-use crate::organ::{back, held_region, read_neighbour, read_tissue};
+use crate::organ::{back, fixed_region, read_neighbour, read_tissue};
 use crate::regions::Regions;
 use crate::tip_laws::stiffen;
 use crate::tool::{Tool, typical_radius};
@@ -63,7 +63,7 @@ impl SoftBody {
             let body = Self {
                 surface,
                 regions,
-                anchor: held_region(&neighbour.shape, anchor.as_ref()),
+                anchor: fixed_region(&neighbour.shape, anchor.as_ref()),
                 location: anchor.is_none().then_some(neighbour.location),
                 nodes: *nodes,
                 friction: neighbour.friction,

@@ -355,7 +355,9 @@ impl NonlinearOrgan {
         let local = self.rim(body, number, radius) + of_wall;
         let local = place.frame.tr_mul(&local) * place.frame;
         let further = frame.tr_mul(&now.yields) * frame - self.of_load(&now) + local;
-        let law = piece.tip_law(number, tool).beside(place.mean_curvature());
+        let law = piece
+            .tip_law(number, tool)
+            .on_curved_surface(place.mean_curvature());
         let over = exchange.map(|exchange| (exchange, piece.law()));
         let (answer, _) = tool.force_in_series(&law, &moved, &further, over);
         own.stiffness = frame * answer.stiffness * frame.transpose();

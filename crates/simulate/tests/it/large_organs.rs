@@ -10,7 +10,7 @@ use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::solid::{
     Body, LoadPlace, Loads, MovedPatch, SolidFields, SolidProblem, SurfaceLoad, solve_at,
 };
-use palpate_simulate::{Simulation, held_region};
+use palpate_simulate::{Simulation, fixed_region};
 
 use crate::scenes::{Hand, Setting, YOUNGS_MODULUS, nearest};
 
@@ -51,7 +51,7 @@ fn real_liver_of_20000_triangles() {
     let middle = 0.5 * (low + high);
     let solid = SolidProblem::new(
         Body::Surface(simulation.surface().clone()),
-        held_region(&scene.organ.shape, scene.organ.anchor.as_ref()),
+        fixed_region(&scene.organ.shape, scene.organ.anchor.as_ref()),
         Arc::new(LinearElastic::new(YOUNGS_MODULUS, NU).unwrap()),
     );
     let directions = [Vec3::y(), Vec3::z(), -Vec3::x()];

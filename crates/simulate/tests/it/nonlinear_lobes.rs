@@ -10,7 +10,7 @@ use palpate_mechanics::LinearElastic;
 use palpate_mechanics::finite_elements::solid::{
     Body, LoadPlace, Loads, SolidProblem, SurfaceLoad, solve_at,
 };
-use palpate_simulate::held_region;
+use palpate_simulate::fixed_region;
 
 use crate::scenes::{Hand, Setting, YOUNGS_MODULUS};
 
@@ -96,7 +96,7 @@ impl Lobe {
             },
             ..SolidProblem::new(
                 Body::Volume(mesh),
-                held_region(&organ.shape, organ.anchor.as_ref()),
+                fixed_region(&organ.shape, organ.anchor.as_ref()),
                 Arc::new(LinearElastic::new(YOUNGS_MODULUS, NU).unwrap()),
             )
         };

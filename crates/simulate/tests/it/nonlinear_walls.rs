@@ -52,7 +52,7 @@ fn expected(radius: f64) -> (f64, f64) {
             outer_radius: RADIUS,
         },
         law: Arc::new(LinearElastic::new(YOUNGS_MODULUS, NU).unwrap()),
-        ends: Ends::Held,
+        ends: Ends::Fixed,
     };
     let touches = 0.5 * radius * radius / RADIUS + STEP;
     let punch = TubePunch {

@@ -9,7 +9,7 @@ use palpate_geometry::{AabbTree, Vec3};
 use palpate_mechanics::LinearElastic;
 use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem, solve};
 use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, TubePunch, indent};
-use palpate_simulate::{Resources, Simulation, held_region};
+use palpate_simulate::{Resources, Simulation, fixed_region};
 
 use crate::scenes::{Hand, Setting, YOUNGS_MODULUS, nearest};
 use crate::slides::{Count, slides};
@@ -139,7 +139,7 @@ fn the_esophagus_is_that_of_finite_elements() {
         }),
         ..SolidProblem::new(
             Body::Surface(simulation.surface().clone()),
-            held_region(&scene.organ.shape, None),
+            fixed_region(&scene.organ.shape, None),
             law.clone(),
         )
     };
@@ -171,7 +171,7 @@ fn straight_tube(law: Arc<LinearElastic>) -> f64 {
             outer_radius: 7.5e-3,
         },
         law,
-        ends: Ends::Held,
+        ends: Ends::Fixed,
     };
     let punch = TubePunch {
         radius: 2e-3,

@@ -31,7 +31,7 @@ pub struct CondensedProblem<'a> {
     /// Poisson's ratio [-].
     pub poissons_ratio: f64,
     /// Triangles that cannot move.
-    pub held: &'a [TriangleId],
+    pub fixed: &'a [TriangleId],
     /// Triangles that a contact may load, ascending; none of them fixed.
     pub touchable: &'a [TriangleId],
     /// Longest edge of the tetrahedra [m]; seven tenths of a wall are short enough.
@@ -89,7 +89,7 @@ impl CondensedProblem<'_> {
         progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<SurfaceResponse<T>, Error> {
         let triangles = self.surface.mesh().triangles().len();
-        let is_fixed = fixed_triangles(triangles, self.held, self.touchable)?;
+        let is_fixed = fixed_triangles(triangles, self.fixed, self.touchable)?;
         LinearElastic::new(1.0, self.poissons_ratio)?;
         if !(self.edge > 0.0 && self.edge.is_finite()) {
             let name = "the longest edge of the tetrahedra";
@@ -119,7 +119,7 @@ impl CondensedProblem<'_> {
             self.poissons_ratio,
             touchable,
             triangles,
-            self.held,
+            self.fixed,
             Sampling::Means,
         )?;
         match self.columns(&condensed, &mut parts.displacements, progress) {
@@ -254,7 +254,7 @@ fn factor(
         supports = supports.hold(model, nodes, axis, 0.0);
     }
     if supports.leave_free(model) {
-        return Err(Error::NothingHeld);
+        return Err(Error::NothingFixed);
     }
     let rest = FiniteElementState::at_rest(model).unknowns;
     let rows = newton::prescribed_rows(model, &supports);

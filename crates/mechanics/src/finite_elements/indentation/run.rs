@@ -203,7 +203,7 @@ impl IndentationRun {
             .hold(&model, glued, 0, 0.0)
             .hold(&model, body.bottom, 1, 0.0)
             .hold(&model, body.axis, 0, 0.0)
-            .held;
+            .prescribed;
         let scale = indenter.scale(settings.deepest);
         let statuses = top
             .iter()

@@ -344,7 +344,7 @@ impl SolidProblem {
             loads::check_densities(densities)?;
         }
         if self.anchor.is_empty() {
-            return Err(Error::NothingHeld);
+            return Err(Error::NothingFixed);
         }
         let laws = self.regions.iter().filter_map(SolidRegion::law);
         let mut laws = std::iter::once(&self.law).chain(laws);

@@ -223,7 +223,7 @@ fn linear(
     newton::assemble(model, supports, &state.unknowns, workspace)?;
     workspace.supported.copy_from_slice(&workspace.tangent);
     workspace.step.fill(0.0);
-    for (step, prescribed) in workspace.step.iter_mut().zip(&supports.held) {
+    for (step, prescribed) in workspace.step.iter_mut().zip(&supports.prescribed) {
         *step = prescribed.unwrap_or(0.0);
     }
     let is_prescribed = newton::prescribed_rows(model, supports);

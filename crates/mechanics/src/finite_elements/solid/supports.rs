@@ -32,7 +32,7 @@ impl PrescribedNodes {
             .filter(|face| problem.anchor.holds(face.centroid(mesh).into()))
             .collect();
         if anchored.is_empty() {
-            return Err(Error::NothingHeld);
+            return Err(Error::NothingFixed);
         }
         check_every_piece_is_fixed(mesh, &anchored)?;
         let patch = match (&problem.patch, center) {
@@ -52,7 +52,7 @@ impl PrescribedNodes {
         let both = both.count();
         if both > 0 {
             let part = both as f64 / moved.len() as f64;
-            return Err(Error::PatchIsHeld { part });
+            return Err(Error::PatchIsFixed { part });
         }
         Ok(Self {
             anchored,

@@ -53,8 +53,8 @@ const CREASE: &str = "the inner corner of the fixed ends creases near the limit 
 fn order(problem: &TubeProblem) -> f64 {
     match (problem.ends, problem.law.volume().strain) {
         (Ends::Guided, _) => 4.0,
-        (Ends::Held, Strain::Small) => 2.0,
-        (Ends::Held, Strain::Finite) => 1.0,
+        (Ends::Fixed, Strain::Small) => 2.0,
+        (Ends::Fixed, Strain::Finite) => 1.0,
     }
 }
 
@@ -143,7 +143,7 @@ impl Inflation<'_> {
             .hold(self.model, nodes(0.0), 1, 0.0)
             .hold(self.model, nodes(half), 1, 0.0)
             .press(self.cavity, pressure);
-        if self.problem.ends == Ends::Held {
+        if self.problem.ends == Ends::Fixed {
             supports = supports.hold(self.model, nodes(half), 0, 0.0);
         }
         supports
@@ -207,7 +207,7 @@ impl Inflation<'_> {
             if let Some(limit) = limit {
                 answer.limit_pressure = Some(limit.factor * full);
                 answer.limit_displacement = Some(self.displacement(&limit.state));
-                if self.problem.ends == Ends::Held {
+                if self.problem.ends == Ends::Fixed {
                     answer.warnings.push(CREASE.to_owned());
                 }
                 return Ok(answer);

@@ -41,7 +41,7 @@ pub struct Tube {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ends {
     /// Nothing.
-    Held,
+    Fixed,
     /// Widen or narrow.
     Guided,
 }

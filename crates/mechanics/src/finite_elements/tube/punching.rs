@@ -103,7 +103,7 @@ impl<'a> Punching<'a> {
                 easy: 10,
                 hard: usize::MAX,
             },
-            rest: supports.held,
+            rest: supports.prescribed,
             cavity: Arc::new(cavity),
             punch,
             face,
@@ -207,20 +207,20 @@ impl<'a> Punching<'a> {
     }
 
     fn supports(&self, activated: &[Option<[f64; 2]>], depth: f64) -> Supports<'static> {
-        let mut held = self.rest.clone();
+        let mut prescribed = self.rest.clone();
         for (&node, activated) in self.face.iter().zip(activated) {
             if let Some([y, z]) = activated {
                 let rest = self.model.mesh().nodes[node];
-                held[3 * node] = Some(self.top - depth - rest.x);
+                prescribed[3 * node] = Some(self.top - depth - rest.x);
                 if self.punch.face == Friction::Bonded {
                     // A plane of symmetry holds at zero already.
-                    held[3 * node + 1].get_or_insert(y - rest.y);
-                    held[3 * node + 2].get_or_insert(z - rest.z);
+                    prescribed[3 * node + 1].get_or_insert(y - rest.y);
+                    prescribed[3 * node + 2].get_or_insert(z - rest.z);
                 }
             }
         }
         Supports {
-            held,
+            prescribed,
             ..Supports::none(&self.model)
         }
     }
@@ -310,7 +310,7 @@ impl Increments for Rising<'_, '_> {
         } = &mut *self.tube;
         let mut state = now.state.clone();
         let supports = Supports {
-            held: rest.clone(),
+            prescribed: rest.clone(),
             ..Supports::none(model)
         }
         .press(cavity, goal * punch.pressure);
@@ -347,7 +347,7 @@ mod tests {
                 outer_radius: tube[2],
             },
             law: Arc::new(law),
-            ends: Ends::Held,
+            ends: Ends::Fixed,
         }
     }
 

@@ -11,7 +11,7 @@ use palpate_mechanics::LinearElastic;
 use palpate_mechanics::boundary_elements::Influences;
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
 use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem, solve};
-use palpate_simulate::{Simulation, held_region};
+use palpate_simulate::{Simulation, fixed_region};
 
 use super::{HEMISPHERE, Hands, POLE, around_the_pole, grasping, pose, with_jaws};
 use crate::scenes::{Setting, YOUNGS_MODULUS, nearest};
@@ -263,7 +263,7 @@ fn a_pulled_esophagus_is_that_of_finite_elements() {
         }),
         ..SolidProblem::new(
             Body::Surface(simulation.surface().clone()),
-            held_region(&scene.organ.shape, None),
+            fixed_region(&scene.organ.shape, None),
             Arc::new(LinearElastic::new(YOUNGS_MODULUS, 0.45).unwrap()),
         )
     };

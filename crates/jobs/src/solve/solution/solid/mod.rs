@@ -15,7 +15,7 @@ use palpate_mechanics::finite_elements::solid::{
     Body, Loads, MovedPatch, RegionContent, SolidError, SolidProblem, Weight, solve,
 };
 use palpate_mechanics::{Material, Vec3};
-use palpate_simulate::{held_region, read_organ};
+use palpate_simulate::{fixed_region, read_organ};
 
 use super::super::problem::{Patch, Problem, Solid};
 use super::super::table::Table;
@@ -73,7 +73,7 @@ pub(crate) fn solution(
         points: places,
         ..SolidProblem::new(
             body,
-            held_region(&case.shape, case.anchor.as_ref()),
+            fixed_region(&case.shape, case.anchor.as_ref()),
             problem.material.law.clone(),
         )
     };

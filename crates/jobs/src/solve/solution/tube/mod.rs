@@ -27,7 +27,7 @@ pub(crate) fn solution(
             outer_radius: case.outer_radius,
         },
         law: problem.material.law.clone(),
-        ends: Ends::Held,
+        ends: Ends::Fixed,
     };
     let under = |pressures: &[f64], accuracy: f64| {
         inflate(&mechanical, pressures, accuracy, &mut |progress| {

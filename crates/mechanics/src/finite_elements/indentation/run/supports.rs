@@ -13,7 +13,7 @@ impl IndentationRun {
         relaxing: Option<&'a RelaxationStep>,
     ) -> Supports<'a> {
         let mut supports = Supports {
-            held: self.rest.clone(),
+            prescribed: self.rest.clone(),
             sliding: Vec::new(),
             pressures: Vec::new(),
             pressed: Vec::new(),
@@ -28,7 +28,7 @@ impl IndentationRun {
                 self.model.mesh().nodes[node].x,
                 self.model.mesh().nodes[node].y,
             );
-            let prescribed = &mut supports.held[2 * node..2 * node + 2];
+            let prescribed = &mut supports.prescribed[2 * node..2 * node + 2];
             match *status {
                 ContactStatus::Free => {}
                 ContactStatus::Stuck { at: place, .. } => {

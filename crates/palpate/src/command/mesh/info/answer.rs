@@ -115,6 +115,6 @@ fn description<S: serde::Serializer>(organ: &Organ, serializer: S) -> Result<S::
     map.serialize_entry("axes", described.axes)?;
     map.serialize_entry("origin", described.origin)?;
     map.serialize_entry("lengths", described.lengths)?;
-    map.serialize_entry("held", described.held)?;
+    map.serialize_entry("held", described.fixed)?;
     map.end()
 }
