@@ -1538,6 +1538,12 @@ class IndentationBlock(TypedDict, total=False):
 class IndentationIndenter(TypedDict, total=False):
     """The indenter. (required)"""
 
+    edge_radius_cm: float
+    """The radius to which the edge of a flat face, or the apex of a cone, is rounded. The face, its edge and the side are then one surface. (default: they are sharp)"""
+    edge_radius_m: float
+    edge_radius_mm: float
+    edge_radius_nm: float
+    edge_radius_um: float
     face: Literal["stick", "slip"]
     """How its face holds tissue. (default "stick")"""
     friction: float
