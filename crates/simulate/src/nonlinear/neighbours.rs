@@ -25,9 +25,9 @@ const NEAR: f64 = 0.3e-3;
 /// Upper bound of the motion of a step [m]: hardly any part of an organ moves farther.
 const MOST_MOTION: f64 = 2e-3;
 
-/// The sides of cuts touch each other at rest. After a step a penetration counts if it is deeper than this in the other
-/// side [m].
-const SHUT: f64 = 5e-5;
+/// The sides of cuts lie on each other at rest: a point is a candidate from this depth in the other side on [m], and then as
+/// long as it bears.
+const SHUT: f64 = 1e-5;
 
 /// Points deeper in a neighbour at rest are not in contact with it [m].
 const GROWN_IN: f64 = 2e-3;
@@ -149,7 +149,8 @@ impl Candidates {
         if let (Some(search), Some(boundary)) = (&mut self.touching, &organ.touching) {
             let found = &mut self.found;
             self.lost = search.find(boundary, &organ.model, state, |own| {
-                if !own.is_in_slit || own.gap < near {
+                let bears = state.force_between(own.contact.point) > 0.0;
+                if !own.is_in_slit || bears || own.gap < -SHUT {
                     found.push(own);
                 }
             });
@@ -201,13 +202,10 @@ impl Candidates {
                 });
             });
         }
-        self.left_out = 0;
-        if self.found.len() > MOST_CONTACTS {
+        self.left_out = self.found.len().saturating_sub(MOST_CONTACTS);
+        if self.left_out > 0 {
             self.found
                 .select_nth_unstable_by(MOST_CONTACTS, |a, b| a.gap.total_cmp(&b.gap));
-            let others = self.found[MOST_CONTACTS..].iter();
-            let counts = |own: &&TouchingPoint| !own.is_in_slit || own.gap < -SHUT;
-            self.left_out = others.filter(counts).count();
             self.found.truncate(MOST_CONTACTS);
         }
         self.contacts.clear();
@@ -215,14 +213,11 @@ impl Candidates {
             .extend(self.found.iter().map(|own| own.contact));
     }
 
-    /// Whether parts of the body may touch one another in the step. The sides of cuts always may: they count under
-    /// pressure.
-    pub(super) fn touches_itself(&self, state: &NonlinearState) -> bool {
-        let mut found = self.found.iter();
-        found.any(|own| {
-            let is_itself = matches!(own.contact.against, Against::Boundary(_));
-            is_itself && (!own.is_in_slit || state.force_between(own.contact.point) > 0.0)
-        })
+    /// Whether parts of the body may touch one another in the step.
+    pub(super) fn touches_itself(&self) -> bool {
+        self.contacts
+            .iter()
+            .any(|own| matches!(own.against, Against::Boundary(_)))
     }
 
     /// Whether the body may touch shafts in the step.

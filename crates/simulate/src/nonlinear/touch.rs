@@ -259,7 +259,7 @@ impl NonlinearOrgan {
                     travel,
                 };
                 candidates.find(self, &simulation.neighbours, motion, &body.state);
-                let is_hard = candidates.touches_itself(&body.state) || candidates.touches_shafts();
+                let is_hard = candidates.touches_itself() || candidates.touches_shafts();
                 pace.iterations = match is_hard {
                     true => ITERATIONS_TOUCHING,
                     false => self.composition.iterations,
