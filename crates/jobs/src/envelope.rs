@@ -59,7 +59,7 @@ fn warnings(wrapped: &Wrapped, settings: &WrapSettings) -> Vec<String> {
     if let Some(width) = wrapped.opening {
         warnings.push(format!(
             "the body is open: an opening of {:.0} mm was closed where it is narrowest. If the wall around it is the organ, as that of a \
-             tube, ask for a smaller --distance and --close-gaps, of which the wall is several thick",
+             tube, ask for a smaller distance and smaller gaps to close: the wall must be several times as thick",
             1e3 * width
         ));
     }

@@ -8,8 +8,7 @@
 
 use palpate_geometry::{AabbTree, Surface, TriangleId, Vec3};
 use palpate_mechanics::nonlinear::{
-    Against, MOST_CONTACTS, NonlinearModel, NonlinearState, TouchingPoint, TouchingSearch,
-    UnilateralContact,
+    Against, MOST_CONTACTS, NonlinearModel, NonlinearState, TouchingSearch, UnilateralContact,
 };
 use palpate_mechanics::{Limit, Reached};
 
@@ -104,7 +103,7 @@ struct LastDistance {
 #[derive(Debug)]
 pub(super) struct Candidates {
     last_distances: Vec<LastDistance>,
-    found: Vec<TouchingPoint>,
+    found: Vec<(f64, UnilateralContact)>,
     pub(super) contacts: Vec<UnilateralContact>,
     /// Number of such points beyond those that a step takes.
     left_out: usize,
@@ -151,7 +150,7 @@ impl Candidates {
             self.lost = search.find(boundary, &organ.model, state, |own| {
                 let bears = state.force_between(own.contact.point) > 0.0;
                 if !own.is_in_slit || bears || own.gap < -SHUT {
-                    found.push(own);
+                    found.push((own.gap, own.contact));
                 }
             });
         }
@@ -184,33 +183,25 @@ impl Candidates {
                         friction: neighbour.friction,
                         against: Against::Still,
                     };
-                    self.found.push(TouchingPoint {
-                        gap,
-                        is_in_slit: false,
-                        contact,
-                    });
+                    self.found.push((gap, contact));
                 }
             }
         }
         for shaft in motion.shafts.iter().flatten() {
             let found = &mut self.found;
             organ.meet_shaft(shaft, motion.parts, state, |gap, contact| {
-                found.push(TouchingPoint {
-                    gap,
-                    is_in_slit: false,
-                    contact,
-                });
+                found.push((gap, contact));
             });
         }
         self.left_out = self.found.len().saturating_sub(MOST_CONTACTS);
         if self.left_out > 0 {
             self.found
-                .select_nth_unstable_by(MOST_CONTACTS, |a, b| a.gap.total_cmp(&b.gap));
+                .select_nth_unstable_by(MOST_CONTACTS, |a, b| a.0.total_cmp(&b.0));
             self.found.truncate(MOST_CONTACTS);
         }
         self.contacts.clear();
         self.contacts
-            .extend(self.found.iter().map(|own| own.contact));
+            .extend(self.found.iter().map(|(_, contact)| *contact));
     }
 
     /// Whether parts of the body may touch one another in the step.

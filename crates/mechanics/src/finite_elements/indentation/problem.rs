@@ -48,7 +48,7 @@ pub struct IndentationAnswer {
     pub unknowns: usize,
 }
 
-/// The meshes of a sphere or a cone: elements of a tenth of the contact's radius at its edge, doubled first, then halved. The
+/// The meshes of a sphere, a cone or a rounded punch: elements of a tenth of the contact's radius at its edge, doubled first, then halved. The
 /// stress of a cone's apex is infinite, and a contact's end lies between nodes, which leaves the first power of the
 /// size of these elements.
 const ROUND: Meshes<'static> = Meshes {

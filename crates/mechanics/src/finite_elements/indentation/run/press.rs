@@ -8,6 +8,7 @@ use crate::Error;
 
 /// From this step down, an element that gives way is followed downhill [-].
 const DOWNHILL_STEP: f64 = 0.1;
+
 /// How an equilibrium is looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum SearchMethod {
