@@ -98,7 +98,7 @@ impl Own {
             Some(cuts) => {
                 // A restored state may have cut other triangles under the same number.
                 let version = u64::from(self.restored) << 32 | cuts.version() & 0xffff_ffff;
-                SurfaceView::new(cuts.places(), cuts.mesh().triangles(), version + 1)
+                SurfaceView::new(cuts.places(), cuts.triangles(), version + 1)
             }
             None => SurfaceView::of(&state.deformed),
         }

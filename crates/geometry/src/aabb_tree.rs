@@ -44,6 +44,12 @@ pub struct AabbTree {
 }
 
 impl Aabb {
+    /// The box of nothing.
+    const EMPTY: Self = Self {
+        low: Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY),
+        high: Vec3::new(f64::NEG_INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY),
+    };
+
     fn of(mesh: &TriangleMesh, triangle: TriangleId) -> Self {
         let [a, b, c] = mesh.positions(triangle);
         Self {
@@ -109,9 +115,15 @@ impl AabbTree {
 
     /// Fits all boxes, once each.
     pub fn refit_all(&mut self, mesh: &TriangleMesh) {
+        self.refit_where(mesh, |_| true);
+    }
+
+    /// Fits all boxes, once each. No query finds the triangles that are not `included`, until they are fitted again.
+    pub fn refit_where(&mut self, mesh: &TriangleMesh, included: impl Fn(TriangleId) -> bool) {
         // What is below a box stands after it.
         for at in (0..self.nodes.len()).rev() {
             self.nodes[at].aabb = match self.nodes[at].below {
+                Below::Triangle(triangle) if !included(triangle) => Aabb::EMPTY,
                 Below::Triangle(triangle) => Aabb::of(mesh, triangle),
                 Below::Boxes(first) => {
                     let [left, right] = [0, 1].map(|k| &self.nodes[first as usize + k].aabb);

@@ -14,7 +14,6 @@ mod sheet;
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
-use crate::mesh::tetrahedra::pieces;
 use crate::refine::{FLAT, SWEEPS, dihedral_quality, open_around};
 use crate::{TetrahedronError, TetrahedronMesh, Vec3};
 use net::{Boundary, Edge, Net, face_without};
@@ -99,22 +98,6 @@ impl SlitTetrahedra {
         let before = net.boundary().area;
         net.part(&faces);
         0.5 * (net.boundary().area - before)
-    }
-
-    /// Whether every face-connected piece has a vertex [m] on its boundary for which `holds` is true.
-    pub fn is_held(&self, holds: impl Fn(&Vec3) -> bool) -> bool {
-        let tetrahedra = self.net.corners();
-        let boundary = self.net.boundary();
-        let vertices = self.net.split.vertices.iter().zip(&boundary.normals);
-        let fixed: Vec<bool> = vertices
-            .map(|(place, normals)| !normals.is_empty() && holds(place))
-            .collect();
-        let pieces = pieces(&tetrahedra);
-        let mut is_held = vec![false; pieces.iter().max().map_or(0, |last| last + 1)];
-        for (piece, nodes) in pieces.iter().zip(&tetrahedra) {
-            is_held[*piece] |= nodes.iter().any(|node| fixed[node.index()]);
-        }
-        is_held.into_iter().all(|fixed| fixed)
     }
 
     /// The tetrahedra, and of which of the whole body each is a part.

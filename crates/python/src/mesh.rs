@@ -114,7 +114,7 @@ impl Mesh {
     /// Numbers of the triangles' vertices, a copy: uint32, shape (m, 3).
     #[getter]
     fn triangles<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<u32>> {
-        corners(py, &self.mesh)
+        corners(py, self.mesh.triangles())
     }
 
     /// Outward unit normals of the vertices [-]: shape (n, 3).
@@ -297,8 +297,10 @@ impl Mesh {
 }
 
 /// Numbers of vertices, three in a row.
-pub(crate) fn corners<'py>(py: Python<'py>, mesh: &TriangleMesh) -> Bound<'py, PyArray2<u32>> {
-    let triangles = mesh.triangles();
+pub(crate) fn corners<'py>(
+    py: Python<'py>,
+    triangles: &[[NodeId; 3]],
+) -> Bound<'py, PyArray2<u32>> {
     let flat = triangles.iter().flatten().map(|node| node.0).collect();
     numbers::array(py, [triangles.len(), 3], flat)
 }

@@ -3,10 +3,11 @@
 
 use palpate_files::Pose;
 use palpate_files::session::{Event, Events};
-use palpate_geometry::Vec3;
+use palpate_geometry::{TriangleId, Vec3};
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::{ForceHistory, Limits};
 
+use crate::contact::Contact;
 use crate::nonlinear::Body;
 use crate::shaft::Shaft;
 use crate::simulation::Simulation;
@@ -58,10 +59,15 @@ pub fn touch(
         let pose = poses.get(number).copied().flatten();
         let own = &mut state.tools[number];
         let jumps = hand_speed::follow(simulation, pose.as_ref(), elapsed, own);
-        let tip = at_rest(simulation, number, pose.as_ref(), state);
+        let organ = state.bent_organ();
+        let (tip, on) = at_rest(simulation, number, pose.as_ref(), state).unzip();
         let own = &mut state.tools[number];
         own.met = tip.filter(|_| own.contact.is_none());
-        own.row.events = jumps | detect(simulation, tool, pose, tip, own);
+        let is_reached = |contact: &Contact| match (&organ, on.flatten()) {
+            (Some(organ), Some(on)) => organ.is_reached(simulation, on, contact),
+            _ => true,
+        };
+        own.row.events = jumps | detect(simulation, tool, pose, tip, is_reached, own);
         if let (Some(pose), Some(_)) = (&pose, &simulation.nonlinear) {
             own.record_shaft_direction(tool, pose);
         }
@@ -135,27 +141,31 @@ fn move_surface(
     }
 }
 
-/// Position of a tip relative to the organ at rest [m], which only the nonlinear model moves under it; none if it is
-/// clear of the organ.
+/// Position of a tip relative to the organ at rest [m], which only the nonlinear model moves under it, and there the
+/// triangle that it touches or is closest to; none if it is clear of the organ.
 fn at_rest(
     simulation: &Simulation,
     number: usize,
     pose: Option<&Pose>,
     state: &SimulationState,
-) -> Option<Vec3> {
+) -> Option<(Vec3, Option<TriangleId>)> {
     let tip = Vec3::from(pose?.position_m);
     match &simulation.nonlinear {
-        Some(organ) => organ.carry_back(simulation, number, &tip, state),
-        None => Some(tip),
+        Some(organ) => {
+            let (tip, on) = organ.carry_back(simulation, number, &tip, state)?;
+            Some((tip, Some(on)))
+        }
+        None => Some((tip, None)),
     }
 }
 
-/// 1. The contact of the tip, which is at `tip` [m] relative to the organ at rest.
+/// 1. The contact of the tip, which is at `tip` [m] relative to the organ at rest, where that `is_reached`.
 fn detect(
     simulation: &Simulation,
     tool: &Tool,
     pose: Option<Pose>,
     tip: Option<Vec3>,
+    is_reached: impl Fn(&Contact) -> bool,
     state: &mut ToolState,
 ) -> Events {
     let touched = state.touches();
@@ -165,7 +175,8 @@ fn detect(
     state.contact = tip.and_then(|tip| {
         let last = state.contact.as_ref();
         let rest = simulation.rest_surface(tool);
-        state.clearance.detect(&rest, tool, last, &tip)
+        let found = state.clearance.detect(&rest, tool, last, &tip);
+        found.filter(&is_reached)
     });
     match (touched, state.contact) {
         (false, Some(contact)) => {

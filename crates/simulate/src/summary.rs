@@ -55,6 +55,8 @@ pub struct CutSummary {
     pub triangles_after: usize,
     /// How often the innermost layer was opened.
     pub perforations: u64,
+    /// Number of pieces that are detached from all that is fixed.
+    pub detached_pieces: u32,
     /// The cuts through each layer, from outside; empty for an organ without layers.
     pub layers: Vec<LayerCut>,
 }
@@ -269,6 +271,7 @@ impl Tally {
                 triangles_before: simulation.surface().mesh().triangles().len(),
                 triangles_after: cuts.mesh().triangles().len(),
                 perforations: self.perforations,
+                detached_pieces: cuts.detached_pieces(),
                 layers: (1..)
                     .zip(simulation.layer_names())
                     .map(|(layers, name)| LayerCut {

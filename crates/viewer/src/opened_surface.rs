@@ -36,6 +36,7 @@ impl OpenedSurface {
                 triangles: triangles
                     .map(|corners| corners.map(|node| node.0))
                     .collect(),
+                detached: Vec::new(),
                 parts: Vec::new(),
                 around: Vec::new(),
                 below: Vec::new(),

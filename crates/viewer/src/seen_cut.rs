@@ -199,7 +199,7 @@ impl SeenCut {
             .collect();
         self.outer.replace(gpu, &rest, &triangles, &mixed);
         self.make_wall(gpu, opening, &rest);
-        self.make_inner(gpu, surface);
+        self.make_inner(gpu, opening, surface);
     }
 
     /// A column of vertices below each vertex of a rim.
@@ -234,7 +234,7 @@ impl SeenCut {
     }
 
     /// The triangles of the uncut surface around the slits.
-    fn make_inner(&mut self, gpu: &Gpu, surface: &Surface) {
+    fn make_inner(&mut self, gpu: &Gpu, opening: &OpenedSnapshot, surface: &Surface) {
         let mesh = surface.mesh();
         let reach = AROUND * self.deepest;
         self.number.clear();
@@ -242,8 +242,15 @@ impl SeenCut {
         self.inner_nodes.clear();
         self.inner_triangles.clear();
         let starts: Vec<TriangleId> = self.starts(surface).collect();
+        let piece = |node: NodeId| opening.detached.get(node.index());
         for triangle in triangles_near(surface, starts.into_iter(), reach) {
-            let corners = mesh.corners(triangle).map(|node| {
+            let corners = mesh.corners(triangle);
+            let [a, b, c] = corners.map(piece);
+            if a != b || b != c {
+                // It would join a detached piece to the rest.
+                continue;
+            }
+            let corners = corners.map(|node| {
                 *self.number[node.index()].get_or_insert_with(|| {
                     self.inner_nodes.push(node);
                     NodeId(self.inner_nodes.len() as u32 - 1)

@@ -211,6 +211,9 @@ impl Aabb {
     /// Slab test. A zero component gives infinities, which compare as they should; a ray that runs
     /// in the plane of a face (0/0) counts as crossing.
     fn is_crossed(&self, origin: &Vec3, direction: &Vec3, reach: f64) -> bool {
+        if self.low.x > self.high.x {
+            return false;
+        }
         let (mut enter, mut leave) = (0.0f64, reach);
         for k in 0..3 {
             let a = (self.low[k] - origin[k]) / direction[k];

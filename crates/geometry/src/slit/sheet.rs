@@ -17,6 +17,8 @@ pub(super) enum Limit {
 /// A path with directions at its points.
 pub(super) struct Sheet {
     knots: Vec<Knot>,
+    /// Whether the path ends where it begins.
+    is_closed: bool,
     /// Length of the path [m].
     pub(super) length: f64,
     /// Largest depth [m].
@@ -53,6 +55,7 @@ pub(super) struct SheetCoordinates {
 impl SheetCoordinates {
     pub(super) fn within(&self, limit: Limit, sheet: &Sheet) -> f64 {
         match limit {
+            Limit::Start | Limit::End if sheet.is_closed => sheet.length,
             Limit::Start => self.along,
             Limit::End => sheet.length - self.along,
             Limit::Floor => self.floor - self.below,
@@ -77,6 +80,8 @@ impl Sheet {
             let by: Vec3 = points[to].place - points[from].place;
             by.normalize()
         };
+        let ends = points.len() - 1;
+        let is_closed = ends > 2 && points[0].place == points[ends].place;
         let mut along = 0.0;
         let knots = (0..points.len()).map(|k| {
             let SlitPoint {
@@ -87,8 +92,14 @@ impl Sheet {
             if k > 0 {
                 along += (place - points[k - 1].place).norm();
             }
-            let [before, after] = [k.saturating_sub(1), (k + 1).min(points.len() - 1)];
+            let [before, after] = [k.saturating_sub(1), (k + 1).min(ends)];
+            let is_seam = is_closed && (k == 0 || k == ends);
+            let normal = match is_seam {
+                true => (points[0].normal + points[ends].normal).normalize(),
+                false => normal,
+            };
             let mean = match (before < k, k < after) {
+                _ if is_seam => direction(ends - 1, ends) + direction(0, 1),
                 (true, true) => direction(before, k) + direction(k, after),
                 _ => direction(before, after),
             };
@@ -107,6 +118,7 @@ impl Sheet {
             length: along_of(&knots),
             deepest: knots.iter().map(|knot| knot.depth).fold(0.0, f64::max),
             knots,
+            is_closed,
             above,
         })
     }
@@ -139,8 +151,9 @@ impl Sheet {
             let normal = (from.normal + to.normal).normalize();
             let tangent = (by - normal * by.dot(&normal)) / length;
             let part = (place - from.place).dot(&tangent) / (length * tangent.norm_squared());
-            let low = if number == 0 { f64::NEG_INFINITY } else { 0.0 };
-            let high = if number == last { f64::INFINITY } else { 1.0 };
+            let [is_first, is_last] = [0, last].map(|end| number == end && !self.is_closed);
+            let low = if is_first { f64::NEG_INFINITY } else { 0.0 };
+            let high = if is_last { f64::INFINITY } else { 1.0 };
             let part = part.clamp(low, high);
             let inside = part.clamp(0.0, 1.0);
             let blend =

@@ -17,6 +17,7 @@ use palpate_geometry::{AabbTree, NodeId, TetrahedronMesh, TriangleMesh};
 
 use super::boundary::shape_on_face;
 use super::elements::NODES;
+use super::model::NonlinearModel;
 use super::state::NonlinearState;
 use crate::finite_elements::ElementKind;
 use crate::finite_elements::solid::{Face, faces};
@@ -98,6 +99,12 @@ impl EmbeddedPoints {
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.points.is_empty()
+    }
+
+    /// Of each point the free piece of `model` that it moves with, from 1 on; zero for all that is fixed.
+    pub fn free_pieces(&self, model: &NonlinearModel) -> impl Iterator<Item = u32> {
+        let points = self.points.iter();
+        points.map(|point| model.drag.piece(point.nodes[0]))
     }
 
     /// Displacement [m] of each point, in their order, where the body is in `state`.

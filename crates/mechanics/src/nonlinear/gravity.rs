@@ -28,6 +28,9 @@ impl NonlinearModel {
         let elements = ElementMesh::from_tetrahedra(mesh).elements;
         let mut weight = vec![0.0_f32; 3 * self.nodes().len()];
         for (element, density) in densities.iter().enumerate() {
+            if self.drag.piece(elements[10 * element]) > 0 {
+                continue;
+            }
             let [a, b, c, d] = mesh.positions(element);
             let volume = (b - a).dot(&(c - a).cross(&(d - a))) / 6.0;
             for (k, node) in elements[10 * element..][..10].iter().enumerate() {

@@ -27,6 +27,7 @@ mod complementarity;
 mod constraints;
 mod contact;
 mod coupling;
+mod drag;
 mod elements;
 mod embedded;
 mod friction;

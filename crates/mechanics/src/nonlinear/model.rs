@@ -7,6 +7,7 @@ use palpate_geometry::TetrahedronMesh;
 use super::boundary::{Boundary, SpreadLoad};
 use super::cavities::{BodyCavity, Wall};
 use super::contact::{AT, BoundaryPoint};
+use super::drag::Drag;
 use super::elements::{NODES, Pack};
 use super::embedded::EmbeddedPoints;
 use super::law::Moduli;
@@ -31,6 +32,8 @@ pub struct NonlinearModel {
     pub(super) packs: Vec<Pack<f32>>,
     pub(super) rest: RestFactors,
     pub(super) relaxation: Option<Relaxation>,
+    /// On pieces that nothing fixes.
+    pub(super) drag: Drag,
     /// Its cavities.
     pub(super) walls: Vec<Wall>,
     /// Weight on each node [N]; none without gravity. And the body at rest under that and the pressures in its cavities.
@@ -58,7 +61,8 @@ pub struct NonlinearModel {
 impl NonlinearModel {
     /// `moduli` are those of each tetrahedron of `mesh`. Nodes are those of
     /// [`ElementMesh::from_tetrahedra`]; `is_fixed` marks those that cannot move, `can_be_loaded` those that tools may act
-    /// on, which costs 36 bytes times the square of their number.
+    /// on, which costs 36 bytes times the square of their number. A piece of which nothing is fixed is dragged through a
+    /// viscous fluid and has no weight.
     ///
     /// # Errors
     /// When a list has another length, nothing is fixed, the influences need more than [`MOST_INFLUENCE_BYTES`], or
@@ -118,7 +122,8 @@ impl NonlinearModel {
             });
         }
         let exact = Pack::<f64>::all(mesh, &numbers, moduli);
-        let (rest, influences) = RestFactors::new(&exact, &is_fixed, &list)?;
+        let drag = Drag::new(mesh, &numbers, &is_fixed);
+        let (rest, influences) = RestFactors::new(&exact, &is_fixed, &drag, &list)?;
         let mut loaded = vec![None; places.len()];
         for (place, &node) in list.iter().enumerate() {
             loaded[node as usize] = Some(place as u32);
@@ -128,6 +133,7 @@ impl NonlinearModel {
             inverse_volumes: inverse_volumes(&exact, places.len()),
             rest,
             relaxation: None,
+            drag,
             weight: Vec::new(),
             settled: None,
             influences,
@@ -252,6 +258,11 @@ impl NonlinearModel {
         self.walls[cavity].filling
     }
 
+    /// The number of its pieces of which nothing is fixed.
+    pub fn free_pieces(&self) -> usize {
+        self.drag.count
+    }
+
     /// Whether it moves under its weight and the pressures in it, before anything else loads it.
     pub fn is_settled(&self) -> bool {
         self.settled.is_some()
@@ -306,6 +317,15 @@ impl NonlinearModel {
             sum += weight * own * rotation(there).transpose();
         }
         sum
+    }
+
+    /// The part of [`Self::compliance`] that is the motion of a free piece, in a step of 5 ms [m/N]; zero for what is fixed.
+    pub fn drag_compliance(&self, state: &NonlinearState, nodes: &[(u32, f64)]) -> Matrix3<f64> {
+        let place = |node: u32| {
+            let by = &state.displacements[3 * node as usize..][..3];
+            self.nodes[node as usize] + Vec3::from_column_slice(by)
+        };
+        self.drag.compliance(place, nodes)
     }
 
     /// Displacements of all nodes from forces on one; none where that is fixed.

@@ -1,5 +1,6 @@
 //! The stiffness of the body at rest, in factors: made once, turned with the body in every step.
 
+use super::drag::Drag;
 use super::elements::{NODES, Nodal, Pack};
 use super::kernel::Deformed;
 use super::lanes::{LANES, Lanes};
@@ -39,6 +40,7 @@ impl RestFactors {
     pub(super) fn new(
         packs: &[Pack<f64>],
         is_fixed: &[bool],
+        drag: &Drag,
         loaded: &[u32],
     ) -> Result<(Self, Vec<Influence>), Error> {
         let mut unknowns = 0;
@@ -57,6 +59,13 @@ impl RestFactors {
         let pattern = Pattern::new(unknowns, couplings(packs, &numbers));
         let mut values = vec![0.0; pattern.entries()];
         assemble(packs, &numbers, &pattern, &mut values);
+        for (node, stiffness) in drag.at_rest() {
+            if let Some(number) = numbers[node as usize] {
+                for k in [0, 1, 2].map(|axis| number as usize + axis) {
+                    values[pattern.index(k, k)] += stiffness;
+                }
+            }
+        }
         let mut factors = Factors::new(&pattern).map_err(no_factors)?;
         factors.factor(&pattern, &values).map_err(no_factors)?;
         if factors.negative_eigenvalues() > 0 {

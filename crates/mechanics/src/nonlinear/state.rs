@@ -171,27 +171,34 @@ impl NonlinearState {
         }
     }
 
-    /// The largest displacement of a node from rest along an axis [m].
+    /// The largest displacement of a node from rest along an axis [m], without free pieces.
     pub fn largest(&self, model: &NonlinearModel) -> f64 {
-        let largest = |most: f64, off: f64| off.abs().max(most);
-        match &model.settled {
-            None => self.displacements.iter().copied().fold(0.0, largest),
-            Some(settled) => {
-                let each = self.displacements.iter().zip(&settled.displacements);
-                each.map(|(u, rest)| u - rest).fold(0.0, largest)
-            }
+        match model.drag.count {
+            0 => self.largest_of(model, |_| true),
+            _ => self.largest_of(model, |node| model.drag.piece(node) == 0),
         }
     }
 
-    /// Shrinks all displacements from rest to a `part` [-] of what they are; the next step then continues no
-    /// motion.
-    pub fn shrink(&mut self, model: &NonlinearModel, part: f64) {
+    fn largest_of(&self, model: &NonlinearModel, counts: impl Fn(u32) -> bool) -> f64 {
+        let largest = |most: f64, off: f64| off.abs().max(most);
+        let numbers = 0..self.displacements.len();
+        let own = numbers.filter(|k| counts(*k as u32 / 3));
         match &model.settled {
-            None => self.displacements.iter_mut().for_each(|u| *u *= part),
-            Some(settled) => {
-                for (u, rest) in self.displacements.iter_mut().zip(&settled.displacements) {
-                    *u = rest + part * (*u - rest);
-                }
+            None => own.map(|k| self.displacements[k]).fold(0.0, largest),
+            Some(settled) => own
+                .map(|k| self.displacements[k] - settled.displacements[k])
+                .fold(0.0, largest),
+        }
+    }
+
+    /// Shrinks all displacements from rest to a `part` [-] of what they are, without those of free pieces; the next step
+    /// then continues no motion.
+    pub fn shrink(&mut self, model: &NonlinearModel, part: f64) {
+        let settled = model.settled.as_ref();
+        for (k, u) in self.displacements.iter_mut().enumerate() {
+            if model.drag.piece(k as u32 / 3) == 0 {
+                let rest = settled.map_or(0.0, |settled| settled.displacements[k]);
+                *u = rest + part * (*u - rest);
             }
         }
         self.is_smooth = false;
@@ -269,7 +276,7 @@ impl NonlinearState {
 
     /// Whether no node is displaced from rest by more than `most` [m] along any axis, and no force fades.
     pub fn is_within(&self, model: &NonlinearModel, most: f64) -> bool {
-        self.fades == 0 && self.largest(model) <= most
+        self.fades == 0 && self.largest_of(model, |_| true) <= most
     }
 
     /// Contact force at a point of the boundary with fixed bodies [N], along its normal.

@@ -2,6 +2,7 @@ use nalgebra::Matrix3;
 
 use super::constraints::{Conditions, Constraints, Turned};
 use super::coupling::Coupling;
+use super::drag::Drag;
 use super::kernel::{self, Deformed};
 use super::model::NonlinearModel;
 use super::predictor;
@@ -61,6 +62,8 @@ impl Advance {
 pub struct Workspace {
     deformed: Vec<Deformed<f32>>,
     shares: Option<StepShares>,
+    /// See [`Drag::rate`].
+    rate: f32,
     forces: Vec<f32>,
     gradients: Vec<[f32; 9]>,
     guess: Vec<f64>,
@@ -81,6 +84,7 @@ impl Workspace {
         Self {
             deformed: vec![Deformed::default(); model.packs.len()],
             shares: model.relaxation.as_ref().map(Relaxation::shares),
+            rate: 0.0,
             forces: vector(),
             gradients: vec![[0.0; 9]; nodes],
             guess: vec![0.0; 3 * nodes],
@@ -226,6 +230,7 @@ impl Workspace {
 
     #[inline(always)]
     fn begin(&mut self, model: &NonlinearModel, elapsed: f64, state: &NonlinearState) {
+        self.rate = Drag::rate(elapsed);
         if let (Some(relaxation), Some(shares)) = (&model.relaxation, &mut self.shares) {
             relaxation.begin(elapsed, &state.stress, shares, &mut self.deformed);
         }
@@ -252,12 +257,14 @@ impl Workspace {
 
     #[inline(always)]
     fn deform(&mut self, model: &NonlinearModel, at: GuessOrEnd, state: &NonlinearState) {
-        let u = match at {
-            GuessOrEnd::Guess => &self.guess,
-            GuessOrEnd::End => &state.displacements,
+        let (u, before) = match at {
+            GuessOrEnd::Guess => (&self.guess, &state.displacements),
+            GuessOrEnd::End => (&state.displacements, &state.before),
         };
         self.forces.fill(0.0);
         kernel::forces(&model.packs, u, &mut self.deformed, &mut self.forces);
+        let drag = &model.drag;
+        drag.add_forces(self.rate, u, before, &mut self.forces);
         self.constraints.walls.deform(model, u, &mut self.forces);
         for (force, weight) in self.forces.iter_mut().zip(&model.weight) {
             *force -= weight;
@@ -304,6 +311,8 @@ impl Workspace {
         kernel::products(&model.packs, &self.deformed, vector, &mut self.product);
         let walls = &self.constraints.walls;
         walls.add_product(model, vector, &mut self.product);
+        let drag = &model.drag;
+        drag.add_product(self.rate, vector, &mut self.product);
     }
 
     #[inline(always)]

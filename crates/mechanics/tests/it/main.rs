@@ -40,6 +40,7 @@ mod no_allocation;
 mod nonlinear;
 mod nonlinear_cavities;
 mod nonlinear_contact;
+mod nonlinear_free;
 mod nonlinear_friction;
 mod nonlinear_judges;
 mod nonlinear_regions;

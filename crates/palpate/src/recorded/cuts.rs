@@ -11,8 +11,13 @@ pub(super) fn line(cuts: &CutSummary) -> String {
         .iter()
         .map(|layer| format!("; {} cut over {:.1} mm", layer.name, 1e3 * layer.length))
         .collect();
+    let detached = match cuts.detached_pieces {
+        0 => String::new(),
+        1 => "; 1 piece detached".to_owned(),
+        count => format!("; {count} pieces detached"),
+    };
     format!(
-        "\n{} cut{s}, {:.1} mm of the surface at rest in all, at most {} triangles behind the blade; {} triangles became {}; {} perforation{times}{layers}",
+        "\n{} cut{s}, {:.1} mm of the surface at rest in all, at most {} triangles behind the blade; {} triangles became {}; {} perforation{times}{detached}{layers}",
         cuts.count,
         1e3 * cuts.length,
         cuts.largest_lag,

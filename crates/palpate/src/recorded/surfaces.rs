@@ -33,9 +33,12 @@ impl<'a> Surfaces<'a> {
             return Ok(());
         }
         let cuts = frame.state.cuts.as_ref().filter(|cuts| cuts.are_there());
-        let (rest, moved) = match cuts {
-            Some(cuts) => (cuts.mesh(), cuts.places()),
-            None => (simulation.surface().mesh(), frame.state.deformed.vertices()),
+        let (rest, triangles, moved) = match cuts {
+            Some(cuts) => (cuts.mesh(), cuts.triangles(), cuts.places()),
+            None => {
+                let mesh = simulation.surface().mesh();
+                (mesh, mesh.triangles(), frame.state.deformed.vertices())
+            }
         };
         let displacement: Vec<Vec3> = moved
             .iter()
@@ -46,7 +49,7 @@ impl<'a> Surfaces<'a> {
             name: "displacement_m",
             values: vtk::FieldValues::Vectors(&displacement),
         };
-        let bytes = vtk::polydata(moved, rest.triangles(), &[field]);
+        let bytes = vtk::polydata(moved, triangles, &[field]);
         let name = format!("surface-{:04}.vtp", count + 1);
         write_whole(self.folder.join(&name), &bytes)?;
         self.written.push((frame.time, name));

@@ -261,8 +261,8 @@ impl Simulation {
     fn triangles<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<u32>> {
         let state = &self.stepper.course.state;
         match state.cuts.as_ref().filter(|cuts| cuts.are_there()) {
-            Some(cuts) => mesh::corners(py, cuts.mesh()),
-            None => mesh::corners(py, &state.deformed),
+            Some(cuts) => mesh::corners(py, cuts.triangles()),
+            None => mesh::corners(py, state.deformed.triangles()),
         }
     }
 

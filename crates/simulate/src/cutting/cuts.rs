@@ -6,6 +6,7 @@ use super::cut_path::LEAVES;
 use super::gape::Gape;
 use super::parts::{CutPart, nearest, opening_at};
 use crate::Simulation;
+use crate::nonlinear::is_within_one;
 
 /// Initial capacity for parts and cuts: beyond, a step may allocate.
 const CAPACITY: usize = 1024;
@@ -27,6 +28,10 @@ pub struct Cuts {
     gapes: u64,
     /// Current positions of the vertices [m].
     places: Vec<Vec3>,
+    /// The detached piece of each vertex, from 1 on, or zero; empty without any.
+    detached: Vec<u32>,
+    /// The triangles to display.
+    triangles: Vec<[NodeId; 3]>,
     pub(crate) version: u64,
     pub(super) largest_lag: usize,
 }
@@ -69,9 +74,13 @@ impl Cuts {
         let surface = CutSurface::new(&simulation.surface, model.method);
         let [vertices, triangles] = surface.room();
         let mut places = Vec::with_capacity(vertices);
+        let mut shown = Vec::with_capacity(triangles);
+        shown.extend_from_slice(surface.mesh().triangles());
         places.extend_from_slice(surface.mesh().vertices());
         Self {
             places,
+            detached: Vec::with_capacity(vertices),
+            triangles: shown,
             surface,
             cut_path: None,
             gape: Gape::with_capacity(vertices, triangles),
@@ -96,12 +105,15 @@ impl Cuts {
         self.before.clear();
         self.largest_lag = 0;
         self.version += 1;
+        self.detached.clear();
+        self.show();
         // A closed cut does not gape.
         self.gape.clear();
         self.gapes = self.version;
     }
 
-    /// The organ's triangles with their openings, at rest and closed: the first are those of its surface.
+    /// The organ's triangles with their openings, at rest and closed: the first are those of its surface. Among them are those
+    /// that join detached pieces to the rest ([`Self::triangles`]).
     pub fn mesh(&self) -> &TriangleMesh {
         self.surface.mesh()
     }
@@ -109,6 +121,50 @@ impl Cuts {
     /// The same with its edges and vertices.
     pub fn surface(&self) -> &CutSurface {
         &self.surface
+    }
+
+    /// The triangles to display: those of [`Self::mesh`] without those that join a detached piece to the rest.
+    pub fn triangles(&self) -> &[[NodeId; 3]] {
+        &self.triangles
+    }
+
+    /// The piece of each vertex of [`Self::mesh`] that cuts have detached from all that is fixed, from 1 on; zero for the rest.
+    /// Empty without such pieces; of the newest vertices not yet known.
+    pub fn detached(&self) -> &[u32] {
+        &self.detached
+    }
+
+    /// Number of detached pieces.
+    pub fn detached_pieces(&self) -> u32 {
+        self.detached.iter().copied().max().unwrap_or(0)
+    }
+
+    /// Takes over the detached pieces of the `surface` and of the vertices that openings have added to it.
+    pub(crate) fn detach(&mut self, surface: &[u32], rims: impl Iterator<Item = (u32, u32)>) {
+        if surface.is_empty() && self.detached.is_empty() {
+            return;
+        }
+        self.detached.clear();
+        self.detached.extend_from_slice(surface);
+        if !surface.is_empty() {
+            self.detached.resize(self.mesh().vertices().len(), 0);
+            for (vertex, piece) in rims {
+                if let Some(own) = self.detached.get_mut(vertex as usize) {
+                    *own = piece;
+                }
+            }
+        }
+        self.version += 1;
+    }
+
+    /// Finds the triangles to display.
+    fn show(&mut self) {
+        let mesh = self.surface.mesh();
+        self.detached.truncate(mesh.vertices().len());
+        let all = mesh.triangles().iter();
+        self.triangles.clear();
+        self.triangles
+            .extend(all.filter(|corners| is_within_one(&self.detached, corners)));
     }
 
     /// Current positions of the vertices of [`Self::mesh`], gaping [m].
@@ -223,6 +279,7 @@ impl Cuts {
         if self.gapes != self.version {
             self.gapes = self.version;
             self.gape.follow(&self.surface, width);
+            self.show();
         }
         self.surface
             .place(&simulation.surface, moved, 0.0, &mut self.places);

@@ -80,7 +80,9 @@ pub struct OpenedSnapshot {
     pub places: Vec<[f32; 3]>,
     /// The vertices of each triangle, counter-clockwise from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// The edges of openings: two vertices, in the order of their triangle.
+    /// The detached piece of each vertex, from 1 on, or zero; empty without any.
+    pub detached: Vec<u32>,
+    /// The edges of openings: two vertices of one piece, in the order of their triangle.
     pub rims: Vec<[u32; 2]>,
     /// The path of the cuts over the surface at rest, where the organ has layers.
     pub parts: Vec<OpenedPart>,
@@ -210,12 +212,18 @@ impl OpenedSnapshot {
         self.rest.extend(mesh.vertices().iter().map(single));
         self.triangles.clear();
         self.rims.clear();
+        self.detached.clear();
+        self.detached.extend_from_slice(cuts.detached());
+        let shown = cuts.triangles().iter();
+        self.triangles
+            .extend(shown.map(|corners| corners.map(|node| node.0)));
         for id in mesh.triangle_ids() {
             let corners = mesh.corners(id).map(|node| node.0);
-            self.triangles.push(corners);
             for (edge, side) in cuts.surface().sides(id).into_iter().enumerate() {
-                if side.is_some() {
-                    self.rims.push([corners[edge], corners[(edge + 1) % 3]]);
+                let ends = [corners[edge], corners[(edge + 1) % 3]];
+                let [from, to] = ends.map(|end| self.detached.get(end as usize));
+                if side.is_some() && from == to {
+                    self.rims.push(ends);
                 }
             }
         }
@@ -226,6 +234,7 @@ impl OpenedSnapshot {
         self.rest.clear();
         self.places.clear();
         self.triangles.clear();
+        self.detached.clear();
         self.rims.clear();
         self.parts.clear();
         self.around.clear();

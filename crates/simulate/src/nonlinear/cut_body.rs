@@ -126,7 +126,7 @@ impl NonlinearWorkspace {
             return;
         };
         self.fit(simulation, body);
-        let Some(cuts) = cuts.as_ref().filter(|_| simulation.forces_follow_cuts()) else {
+        let Some(cuts) = cuts.as_mut().filter(|_| simulation.forces_follow_cuts()) else {
             return;
         };
         body.look_at(cuts);
@@ -151,6 +151,11 @@ impl NonlinearWorkspace {
                 self.closed = ready.closed;
                 ready.replace(simulation, tools, body);
                 self.replace(simulation, body, ready);
+                let rims = body.cuts.rims.iter().flat_map(|rims| {
+                    let numbers = rims.numbers.iter().copied();
+                    numbers.zip(rims.detached.iter().copied())
+                });
+                cuts.detach(body.organ.detached.of_vertices(), rims);
                 state.energy.close();
             }
             _ => self.closed = cuts.length(),

@@ -3,7 +3,7 @@
 use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use palpate_geometry::Vec3;
+use palpate_geometry::{NodeId, Vec3};
 use palpate_mechanics::nonlinear::{EmbeddedPoints, NonlinearState, SpreadLoad, StateTransfer};
 
 use super::slits::{ASIDE, CutPaths};
@@ -30,6 +30,8 @@ pub(super) type Left = (OfElements, Arc<NonlinearOrgan>, Option<Arc<Rims>>);
 pub(super) struct Rims {
     pub(super) numbers: Vec<u32>,
     pub(super) embedded: EmbeddedPoints,
+    /// The detached piece of each, from 1 on, or zero.
+    pub(super) detached: Vec<u32>,
     pub(super) below: Below,
     /// Number of cuts at that time.
     pub(super) cuts: usize,
@@ -164,10 +166,13 @@ impl Job {
             .map(|(_, place, opens)| place + ASIDE * opens)
             .collect();
         let all = 0..organ.model.mesh().tetrahedra().len();
+        let embedded = organ.model.embed(&places, all)?;
+        let detached: Vec<u32> = embedded.free_pieces(&organ.model).collect();
         let rims = Rims {
             numbers: self.rims.iter().map(|(number, ..)| *number).collect(),
-            embedded: organ.model.embed(&places, all)?,
-            below: self.below(&organ)?,
+            below: self.below(&organ, &detached)?,
+            detached,
+            embedded,
             cuts: self.cuts,
         };
         Ok(Ready {
@@ -189,8 +194,9 @@ impl Job {
 }
 
 impl Job {
-    /// The points below the surface around the cuts of `organ`.
-    fn below(&self, organ: &NonlinearOrgan) -> Result<Below, Error> {
+    /// The points below the surface around the cuts of `organ`, as far as they are in the piece of their vertex; `detached` are the
+    /// pieces of the openings' vertices.
+    fn below(&self, organ: &NonlinearOrgan, detached: &[u32]) -> Result<Below, Error> {
         let (shown, tree) = (&organ.composition.shown, &organ.composition.tree);
         let deepest = self.depths.iter().copied().fold(0.0, f64::max);
         let reach = AROUND.min(OF_DEPTH * deepest);
@@ -204,17 +210,44 @@ impl Job {
             place: *place,
             aside: self.paths.aside(place) - place,
             normal: shown.vertex_normals()[number],
+            piece: organ.detached.piece(NodeId(number as u32)),
         });
-        let rims = self.rims.iter().map(|(number, place, opens)| {
+        let rims = self.rims.iter().zip(detached);
+        let rims = rims.map(|((number, place, opens), piece)| {
             let nearest = tree.nearest(shown.mesh(), place);
             PointBelow {
                 number: *number,
                 place: *place,
                 aside: ASIDE * opens,
                 normal: shown.mesh().area_vector(nearest.triangle).normalize(),
+                piece: *piece,
             }
         });
-        let all: Vec<PointBelow> = near.chain(rims).collect();
+        let mut all: Vec<PointBelow> = near.chain(rims).collect();
+        let (mut rest, mut embedded) = self.embed_below(organ, &all)?;
+        let pieces = embedded.free_pieces(&organ.model);
+        let mut is_own = vec![true; all.len()];
+        for (piece, number) in pieces.zip((0..all.len()).cycle()) {
+            is_own[number] &= piece == all[number].piece;
+        }
+        if is_own.contains(&false) {
+            let mut is_own = is_own.into_iter();
+            all.retain(|_| is_own.next().unwrap_or(true));
+            (rest, embedded) = self.embed_below(organ, &all)?;
+        }
+        Ok(Below {
+            numbers: all.iter().map(|own| own.number).collect(),
+            embedded,
+            rest,
+        })
+    }
+
+    /// The points below `all` at rest [m], one depth after the other, embedded on their side of a cut.
+    fn embed_below(
+        &self,
+        organ: &NonlinearOrgan,
+        all: &[PointBelow],
+    ) -> Result<(Vec<Vec3>, EmbeddedPoints), Error> {
         let depths = self.depths.iter();
         let pairs = depths.flat_map(|depth| all.iter().map(move |own| (own, *depth)));
         let rest: Vec<Vec3> = pairs
@@ -223,11 +256,8 @@ impl Job {
         let asides = all.iter().map(|own| own.aside).cycle();
         let moved: Vec<Vec3> = rest.iter().zip(asides).map(|(at, by)| at + by).collect();
         let elements = 0..organ.model.mesh().tetrahedra().len();
-        Ok(Below {
-            numbers: all.iter().map(|own| own.number).collect(),
-            embedded: organ.model.embed(&moved, elements)?,
-            rest,
-        })
+        let embedded = organ.model.embed(&moved, elements)?;
+        Ok((rest, embedded))
     }
 }
 
@@ -237,4 +267,6 @@ struct PointBelow {
     place: Vec3,
     aside: Vec3,
     normal: Vec3,
+    /// The detached piece, from 1 on, or zero.
+    piece: u32,
 }

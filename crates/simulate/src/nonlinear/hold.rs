@@ -26,8 +26,9 @@ impl NonlinearOrgan {
             return false;
         };
         let ahead = || {
-            let ahead = carry_back_anew(simulation, tool, &swept.ahead(), state)?;
-            contact::detect(&simulation.rest_surface(tool), tool, None, &ahead)
+            let (ahead, on) = carry_back_anew(simulation, tool, &swept.ahead(), state)?;
+            let found = contact::detect(&simulation.rest_surface(tool), tool, None, &ahead);
+            found.filter(|contact| self.is_reached(simulation, on, contact))
         };
         let Some(contact) = own.contact.or_else(ahead) else {
             return false;

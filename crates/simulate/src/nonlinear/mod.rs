@@ -24,7 +24,7 @@
 //!
 //! Cavities are empty, under a pressure, or full of a fluid (`merged`).
 //!
-//! Cuts are slits in the elements (`slits`), which another thread makes (`cut_body`).
+//! Cuts are slits in the elements (`slits`), which another thread makes (`cut_body`). They may detach pieces (`detached`).
 //!
 //! *Limits*: quasi-static. A nearly incompressible body has a Poisson's ratio of 0.49.
 //!
@@ -34,6 +34,7 @@ mod anchor;
 mod composition;
 mod cut_body;
 mod cut_thread;
+mod detached;
 mod filling;
 mod hold;
 mod hollow;
@@ -56,6 +57,8 @@ mod touch;
 use composition::{Composition, Filled};
 use cut_body::FollowedCuts;
 use cut_thread::CutThread;
+use detached::Detached;
+pub(crate) use detached::is_within_one;
 use merged::Merged;
 pub(crate) use moved::Moved;
 use neighbours::{Candidates, Skin};
@@ -106,6 +109,8 @@ pub(crate) struct NonlinearOrgan {
     /// The displayed surface as the organ hangs under its weight, if it has any; for an organ without cuts.
     hangs: Option<(TriangleMesh, AabbTree)>,
     cuts: CutPaths,
+    /// The pieces of the displayed surface that the cuts have detached.
+    detached: Detached,
 }
 
 /// The state of the organ, and of the tools on it.
@@ -226,7 +231,7 @@ impl NonlinearWorkspace {
             None => "cuts change no force: the thread for them could not be started".to_owned(),
             Some(_) => format!(
                 "{:.0} mm of the cuts are seen and do not change the force: they turn back within an element (raise `model.nodes`), or \
-                 would cut a piece off, which nothing holds, or would open a cavity",
+                 would open a cavity",
                 1e3 * self.closed
             ),
         })
@@ -302,6 +307,7 @@ impl NonlinearOrgan {
             skin: Skin::new(&model, shown, tree, neighbours),
             hangs: None,
             touching: composition.touching(&model, &merged)?,
+            detached: Detached::new(&model, &embedded),
             shown: embedded,
             model,
             composition: Arc::clone(composition),

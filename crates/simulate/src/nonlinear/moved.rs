@@ -1,7 +1,7 @@
 //! The motion of the contact location of a tool.
 
 use nalgebra::Rotation3;
-use palpate_geometry::Vec3;
+use palpate_geometry::{TriangleId, Vec3};
 
 use crate::simulation::Simulation;
 use crate::state::SimulationState;
@@ -47,17 +47,20 @@ impl Moved {
     }
 }
 
-/// The tip's position [m] on the organ at rest, if it touches nothing yet, by the triangle that is closest to it now.
-/// None if it is clear of that.
+/// The tip's position [m] on the organ at rest, if it touches nothing yet, by the triangle that is closest to it now; and that
+/// triangle. None if it is clear of that.
 pub(super) fn carry_back_anew(
     simulation: &Simulation,
     tool: &Tool,
     tip: &Vec3,
     state: &SimulationState,
-) -> Option<Vec3> {
+) -> Option<(Vec3, TriangleId)> {
     let nearest = state.tree.nearest(&state.deformed, tip);
     let outward = state.deformed.area_vector(nearest.triangle);
     let is_outside = outward.dot(&(tip - nearest.on.position)) > 0.0;
-    (!is_outside || nearest.distance < tool.overhang())
-        .then(|| state.carry_back_from(simulation.surface.mesh(), &nearest, tip))
+    (!is_outside || nearest.distance < tool.overhang()).then(|| {
+        let rest = simulation.surface.mesh();
+        let tip = state.carry_back_from(rest, &nearest, tip);
+        (tip, nearest.triangle)
+    })
 }

@@ -88,10 +88,11 @@ impl NonlinearOrgan {
             let square = load.radius.powi(2);
             // Also for a body at rest: the next step has to undo it.
             state.shown_deformed = true;
+            let under = self.detached.piece(corners[0]);
             // On both sides of a wall: otherwise the near side would penetrate the far one.
-            for (by, vertex) in shown.iter_mut().zip(rest.vertices()) {
+            for (number, (by, vertex)) in shown.iter_mut().zip(rest.vertices()).enumerate() {
                 let apart = (vertex - place).norm_squared();
-                if apart < square {
+                if apart < square && self.detached.piece(NodeId(number as u32)) == under {
                     let dimple = FRAC_2_PI * (radius / apart.sqrt()).min(1.0).asin();
                     *by += lacks * (dimple * (1.0 - apart / square).powi(2));
                 }
@@ -102,7 +103,10 @@ impl NonlinearOrgan {
                 state.deformed.move_vertex(NodeId(number as u32), from + by);
             }
         }
-        state.tree.refit_all(&state.deformed);
+        let detached = &self.detached;
+        state.tree.refit_where(&state.deformed, |triangle| {
+            detached.is_within_one(rest, triangle)
+        });
     }
 }
 

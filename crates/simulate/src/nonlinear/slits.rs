@@ -3,7 +3,7 @@
 //! *How we know*: `nonlinear_cuts::…`.
 //!
 //! *Limits*: a cut that turns back within the length of an edge, for example over a rim, stays closed there, and one
-//! that would cut a piece off or open a cavity stays closed altogether, with a warning.
+//! that would open a cavity stays closed altogether, with a warning.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -18,6 +18,13 @@ use crate::cutting::{CutPart, Cuts, CuttingModel};
 
 /// Points of a path closer to the one before than this are left out [m].
 const SPACING: f64 = 2e-3;
+
+/// A path reaches another one, or itself, within this distance of its end, and goes so far beyond another [m].
+const REACHES: f64 = 1.5e-3;
+const BEYOND: f64 = 1e-3;
+
+/// A path returns to itself after this length, or later [m].
+const LEAST_LOOP: f64 = 6e-3;
 
 /// A path that parts less than this part of its area changes no force [-].
 const PARTED: f64 = 0.4;
@@ -109,8 +116,7 @@ impl CutPaths {
         let nearest = pairs.map(|pair| {
             let [from, to] = [&pair[0], &pair[1]];
             let by = to.place - from.place;
-            let part = (place - from.place).dot(&by) / by.norm_squared();
-            let off = place - from.place - by * part.clamp(0.0, 1.0);
+            let off = place - nearest_on(&from.place, &to.place, place);
             (off.norm(), off, from.normal.cross(&by).normalize())
         });
         let nearest = nearest.min_by(|one, other| one.0.total_cmp(&other.0));
@@ -129,18 +135,17 @@ impl NonlinearOrgan {
     pub(super) fn slit(&self, paths: &CutPaths) -> Result<(Self, f64), Error> {
         let composition = &self.composition;
         let (mut filled, mut closed) = (Vec::new(), 0.0);
-        let anchors = composition.anchors();
+        let paths_to_slit = joined(paths);
         for (number, whole) in composition.filled.iter().enumerate() {
-            let own = paths
-                .each()
+            let own = paths_to_slit
+                .iter()
                 .filter(|path| self.piece_at(&path[0].place) == number);
             let mut slit = SlitTetrahedra::new(&whole.mesh);
             for path in own {
                 let mut parted = slit.clone();
                 let stays = open(&mut parted, path);
-                // An unfixed piece has no equilibrium; a fluid would leave an opened cavity.
-                let is_held = parted.is_held(|place| anchors[number].fixes(place));
-                if is_held && encloses_cavities(&parted, whole, &composition.pieces[number]) {
+                // A fluid would leave an opened cavity.
+                if encloses_cavities(&parted, whole, &composition.pieces[number]) {
                     slit = parted;
                     closed += stays;
                 } else {
@@ -159,6 +164,111 @@ impl NonlinearOrgan {
         let nearest = composition.tree.nearest(composition.shown.mesh(), place);
         Piece::with(&composition.pieces, nearest.triangle.0)
     }
+}
+
+/// The paths, closed where they return to themselves, and with ends that go through others which they reach: a blade stops where
+/// the surface is open, and a bridge of elements would stay there.
+fn joined(paths: &CutPaths) -> Vec<Vec<SlitPoint>> {
+    let all: Vec<&[SlitPoint]> = paths.each().collect();
+    let extended = |number: usize, end: &SlitPoint, before: &SlitPoint| {
+        let outward = (end.place - before.place).try_normalize(0.0)?;
+        let others = all.iter().enumerate().filter(|(other, _)| *other != number);
+        let reached = others.filter_map(|(_, path)| nearest_within(path, &end.place));
+        let near = reached.min_by(|one, other| one.apart.total_cmp(&other.apart))?;
+        let place = near.place + BEYOND * outward;
+        Some(SlitPoint { place, ..*end })
+    };
+    let each = all.iter().enumerate().flat_map(|(number, path)| {
+        let mut parts = looped(path);
+        for own in parts.iter_mut().filter(|own| !is_closed(own)) {
+            let ends = match own[..] {
+                [first, second, .., before, last] => [[first, second], [last, before]],
+                [first, last] => [[first, last], [last, first]],
+                _ => continue,
+            };
+            let [first, last] = ends.map(|[end, before]| extended(number, &end, &before));
+            own.splice(0..0, first);
+            own.extend(last);
+        }
+        parts
+    });
+    each.collect()
+}
+
+/// Whether a path ends where it begins.
+fn is_closed(path: &[SlitPoint]) -> bool {
+    path.len() > 3 && path[0].place == path[path.len() - 1].place
+}
+
+/// A path that returns to itself as a loop, with what of it is no part of that; any other as it is.
+fn looped(path: &[SlitPoint]) -> Vec<Vec<SlitPoint>> {
+    let [first, .., last] = path else {
+        return vec![path.to_vec()];
+    };
+    let whole = length(path);
+    if whole < LEAST_LOOP {
+        return vec![path.to_vec()];
+    }
+    // What of it is so near to an end along the path does not count.
+    let far = |from: usize, to: usize| length(&path[from..=to]) < whole - LEAST_LOOP;
+    let early = (2..=path.len()).take_while(|end| far(0, end - 1)).last();
+    let late = (0..path.len() - 1).find(|begin| far(*begin, path.len() - 1));
+    let returns = early.and_then(|end| nearest_within(&path[..end], &last.place));
+    let passed = late.and_then(|begin| {
+        let near = nearest_within(&path[begin..], &first.place)?;
+        Some((begin + near.number, near))
+    });
+    let at = |near: &Near, end: &SlitPoint| SlitPoint {
+        place: near.place,
+        ..*end
+    };
+    let (around, rest) = match (returns, passed) {
+        (Some(near), _) => {
+            let seam = at(&near, last);
+            let around = [&[seam], &path[near.number + 1..], &[seam]].concat();
+            (around, [&path[..=near.number], &[seam]].concat())
+        }
+        (None, Some((number, near))) => {
+            let seam = at(&near, first);
+            let around = [&[seam], &path[..=number], &[seam]].concat();
+            (around, [&[seam], &path[number + 1..]].concat())
+        }
+        (None, None) => return vec![path.to_vec()],
+    };
+    match length(&rest) > REACHES {
+        true => vec![around, rest],
+        false => vec![around],
+    }
+}
+
+/// The point of a path that is nearest to another point.
+struct Near {
+    /// Number of its segment.
+    number: usize,
+    place: Vec3,
+    apart: f64,
+}
+
+/// The point of `path` that is nearest to `place` [m], if a cut there reaches it.
+fn nearest_within(path: &[SlitPoint], place: &Vec3) -> Option<Near> {
+    let pairs = path.windows(2).enumerate();
+    let each = pairs.map(|(number, pair)| {
+        let on = nearest_on(&pair[0].place, &pair[1].place, place);
+        Near {
+            number,
+            place: on,
+            apart: (on - place).norm(),
+        }
+    });
+    let near = each.filter(|near| near.apart < REACHES);
+    near.min_by(|one, other| one.apart.total_cmp(&other.apart))
+}
+
+/// The point between `from` and `to` that is nearest to `place` [m].
+fn nearest_on(from: &Vec3, to: &Vec3, place: &Vec3) -> Vec3 {
+    let by = to - from;
+    let part = (place - from).dot(&by) / by.norm_squared();
+    from + by * part.clamp(0.0, 1.0)
 }
 
 /// Whether the cavities of a piece are still closed.

@@ -43,6 +43,8 @@ pub(super) struct Now {
     pub(super) mean: Vec3,
     pub(super) force: Vec3,
     pub(super) yields: Matrix3<f64>,
+    /// The part of Z by which a detached piece goes on, and does not come back [m/N].
+    pub(super) drag: Matrix3<f64>,
     pub(super) turn: Rotation3<f64>,
     /// Its self-compliance on a half-space [m/N]: along the surface, and along its normal.
     pub(super) own: [f64; 2],
@@ -60,9 +62,20 @@ impl Now {
             mean: state.mean_displacement(&load.nodes),
             force: body.histories[number].elastic(),
             yields: organ.model.compliance(state, &load.nodes),
+            drag: organ.model.drag_compliance(state, &load.nodes),
             turn: state.mean_rotation(&load.nodes),
             own,
         }
+    }
+
+    /// Displacement of the load without its force [m].
+    pub(super) fn free(&self) -> Vec3 {
+        self.mean - (self.yields - self.drag) * self.force
+    }
+
+    /// Expected displacement in a step to the force `goal` [m].
+    pub(super) fn travel(&self, goal: &Vec3) -> Vec3 {
+        self.yields * goal - (self.yields - self.drag) * self.force
     }
 }
 
@@ -83,9 +96,8 @@ impl Target {
             }
             None => positive(&(both - now.yields)),
         };
-        let free = now.mean - now.yields * now.force;
-        let offset = displacement - free - (now.yields + compliance) * goal;
-        let travel = now.yields * (goal - now.force);
+        let offset = displacement - now.free() - (now.yields + compliance) * goal;
+        let travel = now.travel(goal);
         Self {
             along,
             forces: [*goal, now.force],

@@ -21,7 +21,7 @@ use std::sync::Arc;
 
 use nalgebra::Matrix3;
 use palpate_files::session::Event;
-use palpate_geometry::Vec3;
+use palpate_geometry::{TriangleId, Vec3};
 use palpate_mechanics::contact::{Friction, half_space_stiffness, half_space_tangential_stiffness};
 use palpate_mechanics::nonlinear::{Conditions, NonlinearModel, Pace, advance};
 use palpate_mechanics::{ForceHistory, Limits, PronySeries};
@@ -32,6 +32,7 @@ use super::shafts::{Pushed, ShaftMotion};
 use super::soft::Piece;
 use super::target::{Now, Target, farthest, positive, slippery};
 use super::{Body, ITERATIONS_TOUCHING, NonlinearOrgan, NonlinearWorkspace};
+use crate::contact::Contact;
 use crate::grip::Held;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, ToolState};
@@ -94,19 +95,34 @@ impl Body {
 }
 
 impl NonlinearOrgan {
-    /// Position of the tip of tool `number` [m] relative to the organ at rest; none if it is clear of the organ.
+    /// Position of the tip of tool `number` [m] relative to the organ at rest, and the triangle that it touches or is
+    /// closest to; none if it is clear of the organ.
     pub(crate) fn carry_back(
         &self,
         simulation: &Simulation,
         number: usize,
         tip: &Vec3,
         state: &SimulationState,
-    ) -> Option<Vec3> {
+    ) -> Option<(Vec3, TriangleId)> {
         let own = &state.tools[number];
         match &own.contact {
-            Some(contact) => Some(own.moved.back(&contact.point(), tip)),
+            Some(contact) => Some((
+                own.moved.back(&contact.point(), tip),
+                contact.place.triangle,
+            )),
             None => carry_back_anew(simulation, &simulation.tools[number], tip, state),
         }
+    }
+
+    /// Whether a contact is on the same piece of the organ as the triangle `on` that its tip is closest to.
+    pub(crate) fn is_reached(
+        &self,
+        simulation: &Simulation,
+        on: TriangleId,
+        contact: &Contact,
+    ) -> bool {
+        let rest = simulation.surface.mesh();
+        self.detached.is_same(rest, [on, contact.place.triangle])
     }
 
     /// Computes the elastic force and the stiffness of every tool, and moves the organ.
@@ -144,7 +160,8 @@ impl NonlinearOrgan {
             return;
         }
         // An unloaded organ returns to rest; inverted elements may not get there. A relaxing body takes its time.
-        let is_slow = body.state.largest(&self.model) > SLOWEST_RETURN * before;
+        let left = body.state.largest(&self.model);
+        let is_slow = left > SLOWEST_RETURN * before && left > AT_REST;
         let state = &body.state;
         let is_held = state.has_friction() || state.touches_itself() || state.touches_tools();
         let lags = is_free && is_slow && !is_held && (ended.is_inverted || !self.model.relaxes());
@@ -337,8 +354,7 @@ impl NonlinearOrgan {
             now.force = -own.pushed.force;
         }
         let tip = Vec3::from(pose.position_m);
-        let free = now.mean - now.yields * now.force;
-        own.moved.go(&free, &now.turn);
+        own.moved.go(&now.free(), &now.turn);
         if let Some(met) = own.met.take() {
             own.moved.meet(&place.point, &tip, &met);
         }
@@ -399,14 +415,15 @@ impl NonlinearOrgan {
         let displacement = hold.displaced();
         let offset = hold.in_scene(&area.offset);
         let jump = displacement - offset - compliance * now.force - now.mean;
+        let goal = now.force + own.stiffness * (jump - now.drag * now.force);
         Some(Target {
             along: None,
-            forces: [now.force + own.stiffness * jump, now.force],
+            forces: [goal, now.force],
             displacement,
             compliance,
             offset,
             jump,
-            travel: now.yields * own.stiffness * jump,
+            travel: now.travel(&goal),
         })
     }
 
@@ -414,7 +431,7 @@ impl NonlinearOrgan {
     /// None once the remaining displacement is small.
     fn release_target(&self, number: usize, body: &Body) -> Option<Target> {
         let now = Now::of(self, body, number);
-        let back = -(now.yields * body.state.force(number));
+        let back = (now.drag - now.yields) * body.state.force(number);
         let travel = back.norm();
         let farthest = farthest(&body.loads[number]);
         (travel > farthest).then(|| {

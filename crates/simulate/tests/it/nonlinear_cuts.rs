@@ -274,37 +274,136 @@ fn random_cuts(organ: &str, gestures: usize, seed: u64) {
     assert!(5 * lost < gestures);
 }
 
-/// Judge: the warning. What a circle through a wall cuts off has no place in a quasi-static organ: the circle stays closed and the
-/// force what it was. A cut around the tube leaves two pieces that are held, and parts, but for what
-/// its ends bear where they press on one another: 0.77 of the force without that.
+/// Around the built-in esophagus, whose wall is 2.3 mm thick: half axes of an ellipse through it, along the tube and around it.
+const ALONG: f64 = 7e-3;
+const AROUND: f64 = 0.7;
+
+/// A circle through a wall cuts out a piece that comes away, and stays where jaws leave it. Judges: its drag in closed form, 1e5 N s/m⁴
+/// times its volume, an ellipse of the surface times the wall, and its speed; 20 % for sides of a slit that follow elements.
+/// The organ without it is at rest, nothing is touched where it was, and a tip moves it where it is. Undone, the cut leaves no trace.
 #[test]
-fn a_piece_that_is_cut_off_stays() {
+fn a_piece_that_is_cut_out_comes_away() {
     let simulation = simulation("builtin = \"esophagus\"", "depth_m = 0.0023", NONLINEAR);
     let tree = AabbTree::new(simulation.surface().mesh());
     let on = |beside: Vec3| nearest(&simulation, &tree, &beside);
     let beside = |angle: f64, up: f64| Vec3::new(0.02 * angle.cos(), 0.02 * angle.sin(), up);
     let (place, normal) = on(beside(0.0, 0.0));
+    let mut hands = Hands::new(&simulation);
+    let mut outline = Vec::new();
+    for k in 0..=420 {
+        let turn = std::f64::consts::TAU * f64::from(k) / 400.0;
+        let (on, normal) = on(beside(AROUND * turn.cos(), ALONG * turn.sin()));
+        hands.at(Some(on - 1e-3 * normal), None);
+        outline.push(on);
+    }
+    hands.wait(FOLLOWED, None);
+    let cuts = |hands: &Hands<'_>| hands.state.cuts.clone().unwrap();
+    assert_eq!(cuts(&hands).detached_pieces(), 1);
+    assert_eq!(hands.workspace.warnings(), [""; 0]);
+
+    let (far, speed) = (0.05, 0.05);
+    hands.wait(5, Some((place - 1e-3 * normal, false)));
+    let steps = (far / speed / simulation.step()).round();
+    let mut force = Vec3::zeros();
+    for k in 0..=steps as u32 {
+        let by = far * f64::from(k) / steps - 1e-3;
+        force = hands.at(None, Some((place + by * normal, true)));
+    }
+    let pairs = outline[..400].iter().zip(&outline[1..=400]);
+    let areas = pairs.map(|(a, b)| 0.5 * (a - place).cross(&(b - place)).norm());
+    // Towards the inside of the tube it gets narrower.
+    let wall = 2.3e-3 * (1.0 - 1.15e-3 / place.xy().norm());
+    let drag = 1e5 * wall * areas.sum::<f64>() * speed;
+    println!("drag {:.5} N for {drag:.5} N", force.norm());
+    assert!((force.norm() / drag - 1.0).abs() < 0.2);
+
+    let there = |hands: &Hands<'_>| -> Vec<Vec3> {
+        let all = cuts(hands);
+        let pieces = all.detached().iter().zip(all.places());
+        pieces
+            .filter(|(piece, _)| **piece == 1)
+            .map(|(_, at)| *at)
+            .collect()
+    };
+    hands.wait(20, Some((place + (far - 1e-3) * normal, true)));
+    let before = there(&hands);
+    assert!(before.len() > 50);
+    hands.wait(400, None);
+    let moved = before
+        .iter()
+        .zip(there(&hands))
+        .map(|(a, b)| (a - b).norm());
+    assert!(moved.fold(0.0, f64::max) < 1e-3);
+    let is_outside = |at: &Vec3| {
+        let far = |there: Vec3| {
+            outline
+                .iter()
+                .map(|on| (on - there).norm())
+                .fold(f64::MAX, f64::min)
+        };
+        far(*at) > 5e-3 && (at - place).norm() > ALONG
+    };
+    let off_rest = |hands: &Hands<'_>| {
+        let rest = simulation.surface().mesh().vertices().iter();
+        let each = rest.zip(hands.state.deformed.vertices());
+        let outside = each.filter(|(at, _)| is_outside(at));
+        outside.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+    };
+    assert!(off_rest(&hands) < 1e-5);
+
+    // Where it was, and where it is: jaws are open, so that the tip pushes.
+    for k in 0..=40 {
+        hands.at(
+            None,
+            Some((place + (2e-3 - 1e-4 * f64::from(k)) * normal, false)),
+        );
+        assert!(hands.state.tools[1].contact.is_none());
+    }
+    hands.wait(5, None);
+    let middle = before.iter().sum::<Vec3>() / before.len() as f64;
+    for k in 0..=200 {
+        hands.at(
+            None,
+            Some((middle + (8e-3 - 1e-4 * f64::from(k)) * normal, false)),
+        );
+    }
+    let pushed = there(&hands);
+    let way = normal.dot(&(pushed.iter().sum::<Vec3>() / pushed.len() as f64 - middle));
+    println!("pushed by {way:.4} m");
+    assert!(way < -5e-3);
+
+    hands.wait(5, None);
+    assert!(hands.state.undo_cut());
+    hands.wait(FOLLOWED + 400, None);
+    assert_eq!(cuts(&hands).detached_pieces(), 0);
+    assert!(off_rest(&hands) < 1e-5);
+}
+
+/// A cut around a tube leaves two pieces that are held, and parts, but for what its ends bear where they press on one another: 0.77
+/// of the force without that. Judge: the uncut tube.
+#[test]
+fn a_tube_that_is_cut_around_parts() {
+    let simulation = simulation("builtin = \"esophagus\"", "depth_m = 0.0023", NONLINEAR);
+    let tree = AabbTree::new(simulation.surface().mesh());
+    let on = |beside: Vec3| nearest(&simulation, &tree, &beside);
+    let beside = |angle: f64, up: f64| Vec3::new(0.02 * angle.cos(), 0.02 * angle.sin(), up);
+    let (place, normal) = on(beside(0.0, 0.0));
+    let mut hands = Hands::new(&simulation);
     let feel = |hands: &mut Hands<'_>| {
         let force = hands.pull(place - 1e-3 * normal, 5e-3 * normal);
         hands.wait(200, None);
-        force
+        force.norm()
     };
-    let cut = |at: &dyn Fn(f64) -> Vec3| {
-        let mut hands = Hands::new(&simulation);
-        let uncut = feel(&mut hands);
-        for k in 0..=420 {
-            let (on, normal) = on(at(std::f64::consts::TAU * f64::from(k) / 400.0));
-            hands.at(Some(on - 1e-3 * normal), None);
-        }
-        hands.wait(FOLLOWED, None);
-        let part = feel(&mut hands).norm() / uncut.norm();
-        println!("{part:.3} {:?}", hands.workspace.warnings());
-        (part, hands.workspace.warnings().len())
-    };
-    let (part, warnings) = cut(&|turn| beside(0.7 * turn.cos(), 7e-3 * turn.sin()));
-    assert!((part - 1.0).abs() < 1e-3 && warnings == 1, "{part}");
-    let (part, warnings) = cut(&|turn| beside(turn, 8e-3));
-    assert!((0.85..0.95).contains(&part) && warnings == 0, "{part}");
+    let uncut = feel(&mut hands);
+    for k in 0..=420 {
+        let turn = std::f64::consts::TAU * f64::from(k) / 400.0;
+        let (on, normal) = on(beside(turn, 8e-3));
+        hands.at(Some(on - 1e-3 * normal), None);
+    }
+    hands.wait(FOLLOWED, None);
+    let part = feel(&mut hands) / uncut;
+    assert!((0.85..0.95).contains(&part), "{part}");
+    assert_eq!(hands.workspace.warnings(), [""; 0]);
 }
 
 /// A rim that is pushed across its cut presses on the other side. Judge: the organ without a cut; two vertices on either side come
