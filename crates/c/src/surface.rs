@@ -94,7 +94,7 @@ pub unsafe extern "C" fn palpate_state_surface(
 impl Own {
     fn surface(&self) -> SurfaceView {
         let state = &self.course.state;
-        match state.cuts.as_ref().filter(|cuts| cuts.are_there()) {
+        match state.cuts.as_ref().filter(|cuts| cuts.has_openings()) {
             Some(cuts) => {
                 // A restored state may have cut other triangles under the same number.
                 let version = u64::from(self.restored) << 32 | cuts.version() & 0xffff_ffff;

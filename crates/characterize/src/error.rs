@@ -161,7 +161,7 @@ pub enum Error {
     #[error(
         "no force that grows with depth is found in the recording; check the signs and the units of depth and force"
     )]
-    NothingFelt,
+    NoContactForce,
     /// The recordings do not say something.
     #[error(
         "the recording does not say `{key}`; add the line `# {key} = ...` at its top, or state it with --set"
@@ -315,7 +315,7 @@ impl Error {
             | Self::PressedWhereFixed
             | Self::NoHold
             | Self::NoStart { .. }
-            | Self::NothingFelt
+            | Self::NoContactForce
             | Self::Unknown { .. }
             | Self::ColumnUnknown
             | Self::TubeLaw { .. }

@@ -24,12 +24,12 @@
 //! rest: the caller maps the blade from a deformed surface back to it, and lifts a blade that has
 //! left it.
 
+mod crossing;
 mod cut_path;
 pub(crate) mod error;
 pub(crate) mod net;
 mod snap;
 mod split;
-mod walk;
 
 use cut_path::CutPath;
 use error::CutError;
@@ -122,7 +122,7 @@ impl CutSurface {
     }
 
     /// Vertices and triangles that it has room for without an allocation.
-    pub fn room(&self) -> [usize; 2] {
+    pub fn capacity(&self) -> [usize; 2] {
         [self.net.nodes.capacity(), self.net.facets.capacity()]
     }
 
@@ -203,7 +203,7 @@ impl CutSurface {
                 triangles,
             });
         }
-        let (triangle, on) = walk::nearest_of_net(&self.net, near, at);
+        let (triangle, on) = crossing::nearest_of_net(&self.net, near, at);
         let distance_m = (on.position - at).norm();
         let [a, b, c] = self.net.mesh.positions(triangle);
         let edge_m = (b - a).norm().max((c - b).norm()).max((a - c).norm());
@@ -252,7 +252,7 @@ impl CutSurface {
         let mut cut_path = self.cut_path.take().ok_or(CutError::NotBegun)?;
         self.finish(surface, &mut cut_path);
         if cut_path.opened == 0 {
-            self.net.go_back(cut_path.before);
+            self.net.restore(cut_path.before);
         } else {
             self.cuts.push(cut_path.before);
         }
@@ -269,7 +269,7 @@ impl CutSurface {
         }
         let last = self.cuts.pop();
         if let Some(mark) = last {
-            self.net.go_back(mark);
+            self.net.restore(mark);
         }
         Ok(last.is_some())
     }
@@ -278,6 +278,6 @@ impl CutSurface {
     pub fn close_all(&mut self) {
         self.cut_path = None;
         self.cuts.clear();
-        self.net.go_back(self.uncut);
+        self.net.restore(self.uncut);
     }
 }

@@ -141,7 +141,7 @@ pub fn isosurface_with_progress(
     let other_pieces = block.keep_largest();
     let kept = block.count();
     at(0.4 * FOUND)?;
-    let filled_voxels = block.fill_hollows();
+    let filled_voxels = block.fill_voids();
     at(0.7 * FOUND)?;
     let voxel_volume = (kept + filled_voxels) as f64 * map.voxel_volume();
     let fine = smooth_surface(map, &block, settings.smoothing, voxel_volume);

@@ -102,7 +102,7 @@ impl SlitTetrahedra {
     }
 
     /// Whether every face-connected piece has a vertex [m] on its boundary for which `holds` is true.
-    pub fn is_held(&self, holds: impl Fn(&Vec3) -> bool) -> bool {
+    pub fn is_fixed(&self, holds: impl Fn(&Vec3) -> bool) -> bool {
         let tetrahedra = self.net.corners();
         let boundary = self.net.boundary();
         let vertices = self.net.split.vertices.iter().zip(&boundary.normals);

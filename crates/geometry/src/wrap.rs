@@ -210,7 +210,7 @@ pub fn wrap_with_progress(
     if !closing.encloses(radius) {
         let found = Openings::find(&capped.mesh, spacing).ok_or(WrapError::Open)?;
         at(0.15)?;
-        found.shut(&mut closing, radius);
+        found.close(&mut closing, radius);
         opening = Some(found.width);
     } else if let Gaps::CloseIfNeeded(_) = settings.gaps {
         map = closing.same_body(spacing, radius);

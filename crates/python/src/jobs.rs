@@ -11,7 +11,7 @@ use palpate_jobs::characterize::{Choice, NamedSpecimen, StudyFolder};
 use palpate_jobs::measure::{Measuring, Out, Plan};
 use palpate_jobs::preparation::resources;
 use palpate_jobs::solve::{Problem, Wanted, in_words};
-use palpate_jobs::{Recordings, Unusable, Watch, json_text};
+use palpate_jobs::{ProgressCallback, Recordings, Unusable, json_text};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use toml::Value;
@@ -22,27 +22,27 @@ use crate::fits;
 use crate::waiting::{ProgressMessage, waiting};
 
 /// Why a thread unwinds.
-struct BrokenOff;
+struct Cancelled;
 
-impl Watch for ProgressMessage {
-    fn say(&self, doing: &str) {
+impl ProgressCallback for ProgressMessage {
+    fn report_step(&self, doing: &str) {
         break_off_if_asked(self);
         Self::say(self, doing);
     }
 
-    fn at(&self, part: f64) {
+    fn report_fraction(&self, part: f64) {
         break_off_if_asked(self);
         Self::at(self, part);
     }
 
-    fn is_asked_to_stop(&self) -> bool {
+    fn should_stop(&self) -> bool {
         Self::is_asked_to_stop(self)
     }
 }
 
 fn break_off_if_asked(told: &ProgressMessage) {
     if told.is_asked_to_stop() {
-        std::panic::resume_unwind(Box::new(BrokenOff));
+        std::panic::resume_unwind(Box::new(Cancelled));
     }
 }
 

@@ -44,6 +44,7 @@ pub mod latest;
 pub mod limits;
 pub mod log;
 mod memory;
+pub mod monitor;
 mod panics;
 mod pid;
 mod priority;
@@ -55,7 +56,6 @@ mod servo_thread;
 mod stepped_loop;
 pub mod supervisor;
 mod velocity;
-pub mod watch;
 
 pub use affine_force::AffineForce;
 pub use clock::Clock;

@@ -25,7 +25,7 @@ use palpate_files::session::Event;
 use palpate_geometry::Vec3;
 use palpate_mechanics::contact::{Friction, Tip};
 
-use crate::grip::Hold;
+use crate::grip::Grasp;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, ToolState};
 use crate::tool::Tool;
@@ -149,10 +149,10 @@ impl ToolState {
         let yields = self.stiffness.try_inverse().map(|inverse| inverse * force);
         Some(Pressed {
             tip: Vec3::from(self.pose?.position_m),
-            held: hold.map(Hold::carried_without_slip),
+            held: hold.map(Grasp::carried_without_slip),
             slid: hold.map_or_else(Vec3::zeros, |hold| *hold.slid()),
             point: hold
-                .map(Hold::place)
+                .map(Grasp::place)
                 .or(self.contact.map(|contact| contact.point()))?,
             force,
             stored: yields.map_or(0.0, |by| (0.5 * force.dot(&by)).max(0.0)),

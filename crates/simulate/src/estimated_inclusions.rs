@@ -116,7 +116,7 @@ pub(crate) fn stiffen(
             }
             if change > SETTLED {
                 let reached = Reached {
-                    asked: change,
+                    unbounded: change,
                     used: SETTLED,
                 };
                 state.limited.add(Limit::Coupling, reached);

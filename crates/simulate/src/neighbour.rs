@@ -106,7 +106,7 @@ impl Neighbour {
             tree: &self.tree,
             patches: &self.patches[tool],
             radius: self.radius,
-            further: None,
+            structural_compliance: None,
         }
     }
 }

@@ -13,7 +13,7 @@ const MOST_STEPS: u64 = 40_000_000;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Flow {
     /// Continue with the next step.
-    GoOn,
+    Continue,
     /// End here; the steps so far count.
     Stop,
 }

@@ -130,7 +130,7 @@ impl Simulation {
                 let own = std::iter::once(&organ_surface);
                 let all: Vec<_> = own.chain(bodies.iter().map(|body| &body.surface)).collect();
                 let misplaced = |fault| Error::Misplaced { fault };
-                let surface = Surface::together(&all).map_err(misplaced)?;
+                let surface = Surface::merged(&all).map_err(misplaced)?;
                 let tree = AabbTree::new(surface.mesh());
                 (surface, tree)
             }

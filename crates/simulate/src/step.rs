@@ -60,7 +60,7 @@ pub fn touch(
         let jumps = hand_speed::follow(simulation, pose.as_ref(), elapsed, own);
         let tip = at_rest(simulation, number, pose.as_ref(), state);
         let own = &mut state.tools[number];
-        own.met = tip.filter(|_| own.contact.is_none());
+        own.free_position = tip.filter(|_| own.contact.is_none());
         own.row.events = jumps | detect(simulation, tool, pose, tip, own);
         if let (Some(pose), Some(_)) = (&pose, &simulation.nonlinear) {
             own.record_shaft_direction(tool, pose);
@@ -173,7 +173,7 @@ fn detect(
             state.history_frame = None;
             state.forget_elsewhere(tool, &contact.point());
             // Where a tip begins to stick there is no shear yet, whatever the shear before.
-            state.history.keep_along(&contact.normal());
+            state.history.project_onto(&contact.normal());
         }
         (true, None) if !state.holds() => events.insert(Event::Release),
         _ => {}
@@ -340,7 +340,7 @@ fn render_force(
         state.force = state.with_pull;
     } else {
         // The tip sticks anew where it is pressed again: there is no shear yet.
-        state.history.keep_along(&normal);
+        state.history.project_onto(&normal);
     }
     Events::NONE
 }
@@ -406,7 +406,7 @@ fn show_cuts(simulation: &Simulation, time: f64, state: &mut SimulationState) {
     let (Some(model), Some(cuts)) = (&simulation.cutting, &mut state.cuts) else {
         return;
     };
-    if cuts.is_behind() || due && cuts.are_there() {
+    if cuts.is_outdated() || due && cuts.has_openings() {
         state.cuts_shown_at = time;
         let rims = state.body.iter().flat_map(Body::rims);
         cuts.follow(simulation, state.deformed.vertices(), rims, model.width);

@@ -49,7 +49,7 @@ impl Tool {
         let (mut answer, compliance, growth) = found;
         if change > SETTLED {
             let reached = Reached {
-                asked: change,
+                unbounded: change,
                 used: SETTLED,
             };
             answer.limits.add(Limit::Coupling, reached);

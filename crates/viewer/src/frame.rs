@@ -6,16 +6,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use image::RgbaImage;
-use palpate_files::{Scene, scene, write_whole};
+use palpate_files::{Scene, scene, write_atomically};
 use palpate_geometry::{Surface, TriangleMesh, Vec3};
 use palpate_simulate::interactive::OpenedSnapshot;
 use palpate_simulate::{Frame, Simulation, SimulationState, read_neighbour};
 
+use crate::displayed_organ::SeenOrgan;
 use crate::render::{
     Body, Label, LabelTarget, Labels, Looks, Renderer, Target, Tint, ToolPicture, View,
     single_precision,
 };
-use crate::seen_organ::SeenOrgan;
 use crate::{Error, Gpu, TissuePicture, scene_camera};
 
 /// Width and height of a frame [pixels].
@@ -164,7 +164,7 @@ impl Studio {
             }
             None => self
                 .organ
-                .deform(&self.gpu, &vertices, state.whole.as_ref()),
+                .deform(&self.gpu, &vertices, state.organ_field.as_ref()),
         }
     }
 
@@ -186,7 +186,10 @@ impl Studio {
 pub type SeenTool = (scene::Tool, Option<Arc<TriangleMesh>>);
 
 fn seen_tools(scene: &Scene, simulation: &Simulation) -> Vec<SeenTool> {
-    let looks = simulation.tools().iter().map(|tool| tool.look.clone());
+    let looks = simulation
+        .tools()
+        .iter()
+        .map(|tool| tool.display_mesh.clone());
     scene.tools.iter().cloned().zip(looks).collect()
 }
 
@@ -259,7 +262,7 @@ impl FrameWriter {
         }
         let picture = self.studio.picture(frame.state)?;
         let path = self.folder.join(format!("frame-{:04}.png", count + 1));
-        write_whole(&path, &png(&picture)?)?;
+        write_atomically(&path, &png(&picture)?)?;
         self.written.push(path);
         Ok(())
     }

@@ -5,6 +5,8 @@
 
 mod animation;
 mod camera;
+mod displayed_cut;
+mod displayed_organ;
 mod error;
 mod frame;
 mod gpu;
@@ -15,8 +17,6 @@ mod orbit;
 mod pick;
 mod render;
 pub mod rig;
-mod seen_cut;
-mod seen_organ;
 mod style;
 mod window;
 

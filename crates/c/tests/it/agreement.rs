@@ -65,7 +65,7 @@ fn assert_same(scene: &str, poses: &[Vec<ToolPose>]) -> u32 {
     let Shape {
         vertices, corners, ..
     } = hand.shape();
-    let cuts = state.cuts.as_ref().filter(|cuts| cuts.are_there());
+    let cuts = state.cuts.as_ref().filter(|cuts| cuts.has_openings());
     let (places, mesh) = match cuts {
         Some(cuts) => (cuts.places(), cuts.mesh()),
         None => (state.deformed.vertices(), &state.deformed),

@@ -145,7 +145,8 @@ fn is_any_power(header: &RecordingHeader) -> bool {
 /// The contact where the force begins to rise.
 pub(super) fn by_force(samples: &Oriented, header: &RecordingHeader) -> Result<Contact, Error> {
     let shape = header.indenter_shape;
-    if !noise::stands_out(&samples.force) || rise(&noise::without_spikes(&samples.force)) <= 0.0 {
+    if !noise::exceeds_noise(&samples.force) || rise(&noise::without_spikes(&samples.force)) <= 0.0
+    {
         return Err(Error::NoContact {
             cause: "the force never rises above its noise",
         });

@@ -29,7 +29,7 @@ impl Moving<'_> {
     /// as the stiffness of an elastic contact grows with the depth.
     pub(crate) fn force_at_rest(&self) -> Vec<f64> {
         let (mut force, ripple) = (self.force.to_vec(), self.ripple);
-        ripple.take_out(self.time, &mut force);
+        ripple.remove(self.time, &mut force);
         let hold_depth = self.depth[ripple.first];
         let ramp = self.segments.iter().find(|own| own.end == ripple.first);
         for sample in ramp.map_or(0..0, |ramp| ramp.first..ramp.end) {

@@ -18,7 +18,7 @@ mod search;
 
 use palpate_mechanics::PronySeries;
 
-use crate::inverse::{SoughtLaw, ZeroErrors};
+use crate::inverse::{CandidateLaw, ZeroErrors};
 
 pub use expected::{ExpectedParameter, Expecting};
 pub use search::{Criterion, Designed, design};
@@ -27,7 +27,7 @@ pub use search::{Criterion, Designed, design};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Guess {
     /// The law.
-    pub law: SoughtLaw,
+    pub law: CandidateLaw,
     /// Its modulus [Pa].
     pub modulus: f64,
     /// Its shapes [-].

@@ -32,12 +32,12 @@ mod thickness;
 
 pub use body::{BLOCK, BaseModulus, Body, LayerBase};
 pub use correlations::Correlations;
-pub use curves::{Curves, OfBase, UnitCurve};
+pub use curves::{BaseSensitivity, Curves, UnitCurve};
 pub use description::LawDescription;
 pub(crate) use expected::expected_law;
 pub use fitted_force::{ElasticForce, standard_errors};
 pub use forces::{Indentation, ZeroErrors};
-pub use law::{LawParameter, ShapeRange, SoughtLaw, Terms};
+pub use law::{CandidateLaw, LawParameter, ShapeRange, Terms};
 pub(crate) use law_fit::LawData;
 pub use law_fit::{LawFit, OtherMinimum, law_fit};
 pub use organ::{FarField, Organ};

@@ -2,9 +2,9 @@ use nalgebra::DMatrix;
 use palpate_mechanics::PronySeries;
 
 use super::curves::Curves;
-use super::description::{LawDescription, in_its_parameters};
+use super::description::{LawDescription, in_own_parameters};
 use super::forces::{self, Indentation};
-use super::law::SoughtLaw;
+use super::law::CandidateLaw;
 use super::law_fit::SETTINGS;
 use crate::Error;
 use crate::fit::{
@@ -61,7 +61,7 @@ pub fn repeated(
             law: law.found.law.name(),
         });
     }
-    let own = in_its_parameters(&law.found);
+    let own = in_own_parameters(&law.found);
     let count = law.parameters.len();
     let lengths: Vec<usize> = indentations.iter().map(|each| each.time.len()).collect();
     let samples: usize = lengths.iter().sum();
@@ -146,7 +146,7 @@ fn profiles(
 
 /// Forces by a law's own parameters and a relaxation.
 struct OwnModel<'a> {
-    law: SoughtLaw,
+    law: CandidateLaw,
     curves: &'a Curves,
     indentations: &'a [Indentation<'a>],
 }
@@ -160,7 +160,7 @@ impl OwnModel<'_> {
         jacobian: &mut DMatrix<f64>,
     ) -> Option<()> {
         let count = self.law.count();
-        let own = self.law.seen_as_shape(&values[..count])?;
+        let own = self.law.to_shape_parameters(&values[..count])?;
         let curve = self.curves.predicted(own.modulus, &own.shape)?;
         let pairs = terms(&values[count - 1..], (values.len() - count) / 2);
         let series = PronySeries::new(&pairs).ok()?;

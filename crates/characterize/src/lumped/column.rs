@@ -58,7 +58,7 @@ pub fn fit_column(contact: Contact, depths: &[f64], forces: &[f64]) -> Result<Co
     let (deepest, largest) = (most(depths), most(forces));
     let [area, length] = column_size(contact, deepest);
     if !(area > 0.0 && largest > 0.0) {
-        return Err(Error::NothingFelt);
+        return Err(Error::NoContactForce);
     }
     let column = |gamma: f64, alpha: f64| EffectiveColumn {
         gamma_pa: gamma.into(),

@@ -264,7 +264,7 @@ impl Branch {
 /// When the indenter is not stated or nothing was pressed.
 pub fn fit_approach(recordings: &[CleanRecording]) -> Result<ElasticContact, Error> {
     let (recording, contact) = deepest(recordings)?;
-    let (branch, begin) = Branch::approach(recording, contact).ok_or(Error::NothingFelt)?;
+    let (branch, begin) = Branch::approach(recording, contact).ok_or(Error::NoContactForce)?;
     let start = 0.75 * branch.strongest / contact.unit_force(branch.deepest);
     let force = |modulus: f64, _: f64, depth: f64| contact.unit_force(depth) * modulus / 0.75;
     let mut found = branch.fit([start, 0.0], force)?.elastic;
@@ -317,7 +317,7 @@ fn deepest(recordings: &[CleanRecording]) -> Result<(&CleanRecording, Contact), 
     let depth = |own: &CleanRecording| own.depth.iter().copied().fold(0.0, f64::max);
     let pressed = recordings.iter().filter(|own| !own.is_piece());
     let most = pressed.max_by(|a, b| depth(a).total_cmp(&depth(b)));
-    let most = most.ok_or(Error::NothingFelt)?;
+    let most = most.ok_or(Error::NoContactForce)?;
     Ok((most, Contact::of(&most.header)?))
 }
 

@@ -15,7 +15,7 @@ use crate::Error;
 use crate::fit::{
     Fit, Parameter, Settings, another_minimum, distinct_minima, least_squares_with_jacobian,
 };
-use crate::inverse::SoughtLaw;
+use crate::inverse::CandidateLaw;
 
 /// What is known of fibres before a fit.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -90,7 +90,7 @@ pub(super) fn fitted(pieces: &[Measured], known: KnownFibres) -> Result<FibreFit
     let some = thinned(pieces, SOME);
     let starts = starts(&thinned(pieces, FEW), known);
     let minima = distinct_minima(starts.iter().map(|start| least(start, &some, known)))?;
-    let (best, others) = minima.split_first().ok_or(Error::NothingFelt)?;
+    let (best, others) = minima.split_first().ok_or(Error::NoContactForce)?;
     let fit = in_degrees(least(&best.fit.parameters, pieces, known)?, known);
     let sought = known.sought();
     let (mut undetermined, mut warnings) = (Vec::new(), Vec::new());
@@ -156,7 +156,7 @@ fn thinned(pieces: &[Measured], most: usize) -> Vec<Measured> {
 
 /// Where fits start: all stress grows with C₁₀, which is found for each set of shapes, and the best are taken.
 fn starts(pieces: &[Measured], known: KnownFibres) -> Vec<Vec<Parameter>> {
-    let law = SoughtLaw::HolzapfelGasserOgden;
+    let law = CandidateLaw::HolzapfelGasserOgden;
     let samples = pieces.iter().flat_map(Measured::samples);
     let largest = samples.fold(0.0, |most: f64, (_, stress)| most.max(stress.abs()));
     // E of fibres along the load.
@@ -251,7 +251,7 @@ fn in_degrees(mut fit: Fit, known: KnownFibres) -> Fit {
 
 /// Parameters that start at these values, with sin² γ for γ and what is known of them fixed.
 fn bounded(values: &[f64], least: f64, known: KnownFibres) -> Vec<Parameter> {
-    let names = SoughtLaw::HolzapfelGasserOgden.names();
+    let names = CandidateLaw::HolzapfelGasserOgden.names();
     let each = names.into_iter().zip(values).map(|(name, &value)| {
         let free = Parameter::new(name, value);
         let fix_known = |known: Option<f64>, own: Parameter| match known {

@@ -8,7 +8,7 @@ use palpate_mechanics::{
     Exponential, FibreFrame, Law, MooneyRivlin, NeoHookean, Ogden, Vec3, law_named,
 };
 
-use crate::inverse::SoughtLaw;
+use crate::inverse::CandidateLaw;
 use crate::{CleanRecording, Error};
 
 /// How a piece is deformed, evenly.
@@ -201,7 +201,7 @@ impl PieceTest {
 /// # Errors
 /// Where the law has no stress, and of a law with fibres when their direction is not stated.
 pub fn piece_stress(
-    law: SoughtLaw,
+    law: CandidateLaw,
     loading: impl Into<PieceLoading>,
     p: &[f64],
     stretch: f64,
@@ -210,20 +210,20 @@ pub fn piece_stress(
     let test = loading.test;
     let of = |law: &dyn Law| test.stress(law, stretch);
     match law {
-        SoughtLaw::NeoHookean => Ok(p[0] * of(&NeoHookean::incompressible(1.0)?)?),
-        SoughtLaw::MooneyRivlin => {
+        CandidateLaw::NeoHookean => Ok(p[0] * of(&NeoHookean::incompressible(1.0)?)?),
+        CandidateLaw::MooneyRivlin => {
             let first = of(&MooneyRivlin::incompressible(1.0, 0.0)?)?;
             let second = of(&MooneyRivlin::incompressible(0.0, 1.0)?)?;
             Ok(p[0] * first + p[1] * second)
         }
-        SoughtLaw::Exponential => Ok(p[0] * of(&Exponential::incompressible(1.0, p[1])?)?),
-        SoughtLaw::Ogden(_) => {
+        CandidateLaw::Exponential => Ok(p[0] * of(&Exponential::incompressible(1.0, p[1])?)?),
+        CandidateLaw::Ogden(_) => {
             let terms = p.as_chunks().0.iter();
             let each =
                 terms.map(|&[mu, alpha]| Ok(mu * of(&Ogden::incompressible(&[[1.0, alpha]])?)?));
             each.sum()
         }
-        SoughtLaw::ReducedPolynomial(_) => {
+        CandidateLaw::ReducedPolynomial(_) => {
             // The stress of neo-Hookean tissue times Σ k C_k0 (I₁ − 3)^(k−1).
             let first = of(&NeoHookean::incompressible(1.0)?)?;
             let invariant = test.invariant(stretch);
@@ -231,7 +231,7 @@ pub fn piece_stress(
             let slope = each.map(|(k, c)| f64::from(k) * c * invariant.powi(k - 1));
             Ok(first * slope.sum::<f64>())
         }
-        SoughtLaw::HolzapfelGasserOgden => {
+        CandidateLaw::HolzapfelGasserOgden => {
             let law = law_named(law.name(), p)?;
             let law = law.in_frame(&loading.frame()?).unwrap_or(law);
             Ok(deformed(law.as_ref(), test.into(), stretch, None)?.nominal_stress)

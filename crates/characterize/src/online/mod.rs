@@ -26,8 +26,8 @@ mod record;
 use palpate_files::recording::RecordingHeader;
 
 use crate::Error;
-use crate::inverse::{Body, Curves, SoughtLaw, has_curve};
-use contact::ContactWatch;
+use crate::inverse::{Body, CandidateLaw, Curves, has_curve};
+use contact::ContactDetector;
 use estimate::Fitted;
 pub use estimate::{OnlineEstimate, OnlineParameter};
 pub use record::OnlineSample;
@@ -36,7 +36,7 @@ use record::Record;
 /// Blocks of the record, at most.
 pub const MOST_BLOCKS: usize = 1024;
 /// The relative half interval at which a parameter is known well enough by default [-].
-pub const USUAL_TARGET: f64 = 0.1;
+pub const DEFAULT_TARGET: f64 = 0.1;
 /// Depth to which the force is known by default, in radii of the indenter [-]: that of the table.
 const DEEPEST: f64 = 8.0;
 
@@ -49,7 +49,7 @@ pub enum OnlineContact {
         error_m: f64,
     },
     /// Depths count from anywhere; the contact is where the force begins to rise.
-    Sought,
+    Detected,
 }
 
 /// What is pressed, and how.
@@ -74,7 +74,7 @@ impl OnlineSettings {
         let deepest = deepest.ok_or(unknown)?;
         match deepest > 0.0 && deepest.is_finite() {
             true => Ok(deepest),
-            false => Err(Error::NothingFelt),
+            false => Err(Error::NoContactForce),
         }
     }
 
@@ -84,7 +84,7 @@ impl OnlineSettings {
         let is_there = || {
             let deepest = self.deepest()?;
             let body = Body::of(&self.header, deepest)?;
-            Ok::<_, Error>(has_curve(&body, SoughtLaw::NeoHookean, deepest))
+            Ok::<_, Error>(has_curve(&body, CandidateLaw::NeoHookean, deepest))
         };
         is_there().unwrap_or(false)
     }
@@ -95,7 +95,7 @@ impl OnlineSettings {
 pub struct OnlineEstimator {
     settings: OnlineSettings,
     curves: Curves,
-    watch: ContactWatch,
+    watch: ContactDetector,
     pressed: Record,
     /// Time of the last sample [s].
     last: f64,
@@ -113,10 +113,10 @@ impl OnlineEstimator {
     pub fn new(settings: OnlineSettings) -> Result<Self, Error> {
         let deepest = settings.deepest()?;
         let body = Body::of(&settings.header, deepest)?;
-        let mut curves = Curves::new(body, SoughtLaw::NeoHookean, deepest);
+        let mut curves = Curves::new(body, CandidateLaw::NeoHookean, deepest);
         curves.of(f64::INFINITY, &[])?;
         Ok(Self {
-            watch: ContactWatch::new(settings.contact, settings.header.indenter_shape),
+            watch: ContactDetector::new(settings.contact, settings.header.indenter_shape),
             curves,
             settings,
             pressed: Record::new(MOST_BLOCKS),
@@ -129,7 +129,8 @@ impl OnlineEstimator {
 
     /// Forgets the press, for the next one.
     pub fn restart(&mut self) {
-        self.watch = ContactWatch::new(self.settings.contact, self.settings.header.indenter_shape);
+        self.watch =
+            ContactDetector::new(self.settings.contact, self.settings.header.indenter_shape);
         self.pressed.clear();
         self.last = f64::NEG_INFINITY;
         self.skipped = 0;
@@ -154,7 +155,7 @@ impl OnlineEstimator {
             self.watch.add(sample, &mut |own| pressed.add(own));
             return;
         }
-        if self.watch.is_left_at(&sample) {
+        if self.watch.is_withdrawn(&sample) {
             self.is_released = true;
             return;
         }

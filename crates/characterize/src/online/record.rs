@@ -1,6 +1,6 @@
 use palpate_files::recording::IndenterShape;
 
-use super::contact::Touched;
+use super::contact::DetectedContact;
 use super::estimate::FEWEST;
 use crate::clean::{Moving, Ripple, segments};
 use crate::inverse::ZeroErrors;
@@ -98,7 +98,7 @@ impl Record {
     }
 
     /// What is fitted: from the first contact on, with the zeros taken off.
-    pub(super) fn since(&self, contact: &Touched) -> Samples {
+    pub(super) fn since(&self, contact: &DetectedContact) -> Samples {
         let pressed = self
             .blocks
             .iter()

@@ -16,7 +16,7 @@ use palpate_mechanics::{IndentationCurve, PronySeries};
 use super::{Characterization, CharacterizeSettings, Pressed, records, sought};
 use crate::Error;
 use crate::fit::Draws;
-use crate::inverse::{Body, Curves, LawDescription, SoughtLaw};
+use crate::inverse::{Body, CandidateLaw, Curves, LawDescription};
 use crate::viscoelastic::{Relaxation, relaxation};
 
 /// Rounds at most.
@@ -68,7 +68,7 @@ pub(super) fn refine(
 struct Specimen<'a> {
     pressed: &'a [Pressed],
     body: Body,
-    law: SoughtLaw,
+    law: CandidateLaw,
     /// [m]
     deepest: f64,
 }
@@ -104,7 +104,7 @@ impl Specimen<'_> {
         settings: &CharacterizeSettings,
         at_step: &mut dyn FnMut(&'static str),
     ) -> Result<(Relaxation, LawDescription), Error> {
-        let (_, first) = found.laws.first().ok_or(Error::NothingFelt)?;
+        let (_, first) = found.laws.first().ok_or(Error::NoContactForce)?;
         let first = first.as_ref().map_err(Clone::clone)?;
         let relaxing = found.relaxation.as_ref().map_err(Clone::clone)?;
         let mut tissue = Tissue::of(relaxing, first);

@@ -148,7 +148,7 @@ pub fn relaxation(
     settings: RelaxationSettings,
 ) -> Result<Relaxation, Error> {
     if records.is_empty() {
-        return Err(Error::NothingFelt);
+        return Err(Error::NoContactForce);
     }
     let mut fits: Vec<Fit> = Vec::new();
     for count in settings.terms.map_or(1..=MOST_TERMS, |terms| terms..=terms) {
@@ -164,7 +164,7 @@ pub fn relaxation(
     }
     // What the richest leaves is noise, so all are compared as if that noise had been seen.
     let lengths: Vec<usize> = records.iter().map(|course| course.time.len()).collect();
-    let richest = fits.last().ok_or(Error::NothingFelt)?;
+    let richest = fits.last().ok_or(Error::NoContactForce)?;
     let of_richest = correlated_uncertainty(richest, &lengths);
     let samples = of_richest.effective_samples;
     let (chosen, criteria) = simplest(&fits.iter().collect::<Vec<_>>(), samples);
@@ -219,7 +219,7 @@ pub(crate) fn expected_relaxation(
     let values = values_of(&fit);
     model
         .evaluate(&values, &mut fit.residuals, &mut fit.jacobian)
-        .ok_or(Error::NothingFelt)?;
+        .ok_or(Error::NoContactForce)?;
     let systematic = model.systematic(&values);
     let expected = Expected::of(fit, &systematic, weights);
     let known = expected.known(&expected.fit, systematic.len(), records.len());
@@ -261,7 +261,7 @@ fn with_terms(
             best = Some(fit);
         }
     }
-    let best = best.ok_or(Error::NothingFelt)?;
+    let best = best.ok_or(Error::NoContactForce)?;
     fitted(records, count, &best.parameters)
 }
 

@@ -5,7 +5,7 @@ use palpate_characterize::design::{
     Criterion, Designed, Expecting, Guess, Instrument, Limits, Presses, design,
 };
 use palpate_characterize::fit::{Draws, Random};
-use palpate_characterize::inverse::{Body, Curves, SoughtLaw, ZeroErrors};
+use palpate_characterize::inverse::{Body, CandidateLaw, Curves, ZeroErrors};
 use palpate_characterize::viscoelastic::RelaxationSettings;
 use palpate_characterize::{Characterization, CharacterizeSettings, characterize};
 use palpate_files::Recording;
@@ -59,7 +59,7 @@ fn instrument() -> Instrument {
 
 fn guess() -> Guess {
     Guess {
-        law: SoughtLaw::MooneyRivlin,
+        law: CandidateLaw::MooneyRivlin,
         modulus: 612.0,
         shape: vec![0.37],
         series: PronySeries::new(&LIVER).unwrap(),
@@ -75,7 +75,7 @@ fn specimen(seed: u64) -> Guess {
         (between(0.15, 0.25), between(4.5, 8.5)),
     ];
     Guess {
-        law: SoughtLaw::MooneyRivlin,
+        law: CandidateLaw::MooneyRivlin,
         modulus: between(400.0, 1000.0),
         shape: vec![between(0.25, 0.6)],
         series: PronySeries::new(&terms).unwrap(),

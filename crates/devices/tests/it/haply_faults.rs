@@ -47,7 +47,7 @@ fn after(begin: impl FnOnce(&HaplyStandIn), expected: Option<Fault>) -> Duration
             Err(fault) => Some(fault),
             Ok(sample) => match sample.stage {
                 Stage::Faulted(fault) => {
-                    assert_eq!(sample.sent, Vec3::zeros());
+                    assert_eq!(sample.output, Vec3::zeros());
                     Some(fault)
                 }
                 _ => None,
@@ -143,7 +143,7 @@ fn a_place_out_of_this_world_is_no_force() {
         let (service, mut servo) = pressed(PATIENT);
         leap(&service);
         let sample = servo.tick().unwrap();
-        assert_eq!(sample.sent, Vec3::zeros());
+        assert_eq!(sample.output, Vec3::zeros());
         // The way over the time is itself beyond all numbers, at times.
         let expected = [Stage::Faulted(Fault::NonFiniteState)];
         let is_too_fast = matches!(sample.stage, Stage::Faulted(Fault::TooFast { .. }));

@@ -7,7 +7,7 @@ use palpate_devices::self_test;
 use palpate_servo::{Clock, Fault, HandImpedance, Trajectory, Vec3, VirtualDevice, Waypoint};
 
 fn held() -> HaplyStandIn {
-    let still = Trajectory::way(vec![Waypoint::new(0.0, Vec3::zeros())]).unwrap();
+    let still = Trajectory::waypoints(vec![Waypoint::new(0.0, Vec3::zeros())]).unwrap();
     let hand = VirtualDevice::new(still)
         .with_hand(HandImpedance::default())
         .unwrap();

@@ -8,8 +8,8 @@ use super::{
     Origin, Recording, RecordingHeader, foreign_table, foreign_units, stated_speed, stretches,
 };
 use crate::Error;
+use crate::atomic_write::{MOST_OF_TABLE, read_bytes};
 use crate::table::{Column, Row};
-use crate::whole_file::{MOST_OF_TABLE, read_bytes};
 
 /// The columns of time, depth and force in a table of another program. A column that is not named is recognised by
 /// its name, if the match is unique.

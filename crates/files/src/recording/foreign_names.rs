@@ -2,7 +2,7 @@ use super::ForeignColumns;
 use super::foreign_units::base;
 use crate::Error;
 use crate::table::TableText;
-use crate::words::either;
+use crate::words::or_list;
 
 const TIME: &[&str] = &[
     "time",
@@ -147,7 +147,7 @@ impl<'c> Wanted<'c> {
             several => Err(Error::AmbiguousColumn {
                 place: table.column_place(),
                 quantity: self.quantity,
-                found: either(&quoted(several)),
+                found: or_list(&quoted(several)),
                 first: (*several[0]).to_owned(),
             }),
         }

@@ -29,8 +29,8 @@ pub use writer::RecordingWriter;
 
 pub use crate::table::ExtraKey;
 
+use crate::atomic_write::{MOST_OF_TABLE, read_text};
 use crate::table::{Ended, TableText};
-use crate::whole_file::{MOST_OF_TABLE, read_text};
 use crate::{Error, Incomplete};
 
 /// The origin of a recording, which determines the known zeros and signs.

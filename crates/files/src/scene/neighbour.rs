@@ -93,7 +93,7 @@ impl Neighbour {
             "How much larger it is than its shape.",
         )
         .default("1.0"),
-        Key::truth(
+        Key::boolean(
             "collides",
             "Whether it stops the tips of tools and an organ of the nonlinear model.",
         )
@@ -143,7 +143,7 @@ impl Neighbour {
         Ok(Self {
             shape: Shape::from_keys(keys, folder)?,
             location: Location::from_keys(keys)?,
-            collides: keys.truth("collides")?.unwrap_or(false),
+            collides: keys.boolean("collides")?.unwrap_or(false),
             friction: keys.number("friction")?.unwrap_or(0.0),
             stiffness_n_per_m: keys.number("stiffness_n_per_m")?.unwrap_or(RIGID_STIFFNESS),
             soft: SoftNeighbour::from_keys(keys, folder)?,
@@ -214,8 +214,8 @@ impl SoftNeighbour {
             }
             return Ok(None);
         }
-        if keys.truth("collides")? == Some(true) {
-            return Err(keys.bad(
+        if keys.boolean("collides")? == Some(true) {
+            return Err(keys.invalid(
                 "collides",
                 "nothing, for a neighbour with `tissue` bends, and is touched anyhow",
             ));

@@ -1,5 +1,5 @@
+use super::crossing::{Blade, Crossing};
 use super::net::{Corner, Mark, Side};
-use super::walk::{Blade, Crossing};
 use super::{CutMethod, CutSurface, snap, split};
 use crate::{NodeId, Surface, TriangleId, Vec3};
 

@@ -167,7 +167,7 @@ impl Net {
     }
 
     /// Makes everything as it was at `mark`.
-    pub(super) fn go_back(&mut self, mark: Mark) {
+    pub(super) fn restore(&mut self, mark: Mark) {
         while self.undo_log.len() > mark.changes {
             match self.undo_log.pop() {
                 Some(UndoEntry::Triangle(id, corners, facet)) => {

@@ -1,6 +1,6 @@
+use super::crossing::nearest_of_surface;
 use super::net::{Corner, Net, Node, Origin};
 use super::split::shape;
-use super::walk::nearest_of_surface;
 use super::{LEAST_SHAPE, MOST_AREA_CHANGE};
 use crate::{Surface, Vec3};
 

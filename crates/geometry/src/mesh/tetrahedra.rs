@@ -129,7 +129,7 @@ impl TetrahedronMesh {
         let faces = faces(&self.tetrahedra);
         let crowded = matched(&faces).find(|alike| alike.len() > 2);
         crowded.map_or(Ok(()), |alike| {
-            Err(TetrahedronError::CrowdedFace {
+            Err(TetrahedronError::NonManifoldFace {
                 corners: alike[0].corners.map(NodeId::index),
                 tetrahedra: alike.len(),
             })

@@ -223,7 +223,7 @@ mod tests {
             let plane = organ.anchor()[0];
             let held: f64 = mesh
                 .triangle_ids()
-                .filter(|&t| plane.holds(&(mesh.positions(t).iter().sum::<Vec3>() / 3.0)))
+                .filter(|&t| plane.contains(&(mesh.positions(t).iter().sum::<Vec3>() / 3.0)))
                 .map(|t| mesh.area_vector(t).norm())
                 .sum();
             assert!((held - 0.01).abs() < 1e-12, "{organ}");

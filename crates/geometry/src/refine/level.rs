@@ -1,5 +1,5 @@
 use super::facets::common;
-use super::shell::{CUT_FLOOR, MOVED_FLOOR, SearchedSurface, move_if_sound};
+use super::shell::{CUT_FLOOR, MOVED_FLOOR, SearchedSurface, move_if_valid};
 use super::split::SplitNet;
 use crate::mesh::edges::{by_edge, sides};
 use crate::{NodeId, Surface, TetrahedronError, TetrahedronMesh, Vec3};
@@ -281,7 +281,7 @@ impl<'a> Resolving<'a> {
             } = &mut self.net;
             let star = around[node.index()].iter();
             let star = star.map(|&t| tetrahedra[t as usize]);
-            if move_if_sound(vertices, star, node.0, target, MOVED_FLOOR) {
+            if move_if_valid(vertices, star, node.0, target, MOVED_FLOOR) {
                 self.heights[node.index()] = 0.0;
                 moved += 1;
             }
@@ -336,7 +336,7 @@ impl<'a> Resolving<'a> {
         let chord = from + (to - from) * (below / (below - above));
         // On the surface if that can be, else on the chord.
         let targets = [self.crossing(edge), Some(chord)].into_iter().flatten();
-        let Some(parents) = self.net.split_if_sound([a.0, b.0], targets, CUT_FLOOR) else {
+        let Some(parents) = self.net.split_if_valid([a.0, b.0], targets, CUT_FLOOR) else {
             return Vec::new();
         };
         self.heights.push(0.0);

@@ -1,6 +1,6 @@
 use super::bisection::{Bisection, Edge};
 use super::relax::relax;
-use super::shell::{SearchedSurface, move_if_sound};
+use super::shell::{SearchedSurface, move_if_valid};
 use crate::memoized::Memoized;
 use crate::{Surface, TetrahedronError, TetrahedronMesh, Vec3};
 
@@ -94,5 +94,5 @@ fn pull(bisection: &mut Bisection, searched: &SearchedSurface<'_>, node: u32, ed
     if (target - here).norm() > 0.5 * shortest {
         return false;
     }
-    move_if_sound(vertices, star.iter().copied(), node, target, FLOOR)
+    move_if_valid(vertices, star.iter().copied(), node, target, FLOOR)
 }

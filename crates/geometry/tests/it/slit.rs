@@ -140,11 +140,11 @@ fn a_slit_in_a_block_has_its_area() {
 fn a_block_is_cut_in_two() {
     let mut slit = SlitTetrahedra::new(&block());
     let [from, to] = [-25e-3, 25e-3].map(|x| Vec3::new(x, 1.7e-3 + 0.1 * x, 0.0));
-    assert!(slit.is_held(|place| place.y > 19e-3));
+    assert!(slit.is_fixed(|place| place.y > 19e-3));
     slit.open(&straight(from, to, 30e-3));
     // One half is held no more.
-    assert!(!slit.is_held(|place| place.y > 19e-3));
-    assert!(slit.is_held(|place| place.z < -19e-3));
+    assert!(!slit.is_fixed(|place| place.y > 19e-3));
+    assert!(slit.is_fixed(|place| place.z < -19e-3));
     assert_eq!(pieces(&slit.into_mesh().unwrap().0), 2);
 }
 

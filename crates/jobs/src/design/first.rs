@@ -1,19 +1,19 @@
 use palpate_characterize::CleanRecording;
 use palpate_characterize::clean::SegmentKind;
 use palpate_characterize::design::{Expecting, Instrument, Presses};
-use palpate_characterize::inverse::{SoughtLaw, ZeroErrors};
+use palpate_characterize::inverse::{CandidateLaw, ZeroErrors};
 use palpate_files::Tissue;
 use palpate_files::recording::IndenterShape;
 
 use super::{BARE, DEEPEST, Start, guess};
 use crate::characterize::{Choice, Specimen, characterize};
-use crate::{Error, Recordings, Watch};
+use crate::{Error, ProgressCallback, Recordings};
 
 /// The tissue of first recordings, with their noise, from a fit of them.
 pub(super) fn of_recordings(
     recordings: &Recordings,
-    law: Option<SoughtLaw>,
-    watch: &dyn Watch,
+    law: Option<CandidateLaw>,
+    watch: &dyn ProgressCallback,
 ) -> Result<Start, Error> {
     let choice = Choice {
         law,

@@ -3,8 +3,8 @@
 mod answer;
 mod problem;
 mod solution;
+mod solver_progress;
 mod table;
-mod telling;
 
 pub use answer::Answer;
 pub use problem::Problem;

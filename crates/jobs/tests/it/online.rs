@@ -80,7 +80,7 @@ fn estimates(
     let mut rig = rig(tissue, curve, factor, alive, seed);
     let mut online = OnlineEstimator::new(OnlineSettings {
         header: rig.header().clone(),
-        contact: OnlineContact::Sought,
+        contact: OnlineContact::Detected,
         deepest_m: None,
     })
     .unwrap();

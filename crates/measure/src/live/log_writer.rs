@@ -10,7 +10,7 @@ use crate::{Axes, Ended, Error, Phase, Recorded, Recorder, RigSample};
 
 /// A recording that is to be made.
 #[derive(Debug, Clone)]
-pub struct Commission {
+pub struct RecordingRequest {
     /// Its number in [`RigCommand::Press`].
     pub number: u64,
     /// Its file.
@@ -29,7 +29,7 @@ pub enum ConsoleEvent {
     /// It dropped a stale command.
     Dropped(RigCommand),
     /// The rig failed while it waited.
-    Disturbed(Error),
+    Failed(Error),
     /// Forces are off.
     Faulted(Fault),
     /// Forces are on again.
@@ -45,7 +45,7 @@ pub enum ConsoleEvent {
 #[derive(Debug)]
 pub struct Unwritten {
     /// The commission of the recording.
-    pub commission: Commission,
+    pub request: RecordingRequest,
     /// Its samples.
     pub rows: Vec<RecordingRow>,
     /// Why it could not be written.
@@ -60,7 +60,7 @@ impl Unwritten {
     pub fn write_to(&self, file: &Path) -> Result<Recorded, palpate_files::Error> {
         let has_axes = self.rows.first().is_some_and(|row| row.axes.is_some());
         let axes = if has_axes { Axes::Six } else { Axes::One };
-        let mut recorder = Recorder::begin(file, &self.commission.header, axes)?;
+        let mut recorder = Recorder::begin(file, &self.request.header, axes)?;
         for row in &self.rows {
             recorder.write(*row)?;
         }
@@ -71,7 +71,7 @@ impl Unwritten {
 /// Writes the recordings from the events of the rig, and forwards the events to the console.
 pub(super) struct LogWriter {
     pub(super) events: log::Reader<RigEvent>,
-    pub(super) commissions: Receiver<Commission>,
+    pub(super) requests: Receiver<RecordingRequest>,
     pub(super) samples: log::Writer<RigSample>,
     pub(super) news: Sender<ConsoleEvent>,
     pub(super) switches: Switches,
@@ -80,7 +80,7 @@ pub(super) struct LogWriter {
 
 /// The recording that is being made.
 pub(super) struct Open {
-    commission: Commission,
+    commission: RecordingRequest,
     /// None before the first sample: a refused command leaves no file.
     recorder: Option<Recorder>,
     rows: Vec<RecordingRow>,
@@ -101,7 +101,7 @@ impl LogWriter {
                     self.pass_on(ConsoleEvent::Ended(command, ended));
                 }
                 RigEvent::Dropped(command) => self.pass_on(ConsoleEvent::Dropped(command)),
-                RigEvent::Disturbed(error) => self.pass_on(ConsoleEvent::Disturbed(error)),
+                RigEvent::Failed(error) => self.pass_on(ConsoleEvent::Failed(error)),
                 RigEvent::Faulted(fault) => self.pass_on(ConsoleEvent::Faulted(fault)),
                 RigEvent::Armed => self.pass_on(ConsoleEvent::Armed),
             }
@@ -118,7 +118,7 @@ impl LogWriter {
             return;
         };
         let own = self
-            .commissions
+            .requests
             .try_iter()
             .find(|other| other.number == number);
         self.open = own.map(|commission| Open {
@@ -165,7 +165,7 @@ impl LogWriter {
     fn give_up(&mut self, open: Open, error: palpate_files::Error) {
         self.switches.stop();
         self.pass_on(ConsoleEvent::Unwritten(Box::new(Unwritten {
-            commission: open.commission,
+            request: open.commission,
             rows: open.rows,
             error,
         })));
@@ -177,7 +177,7 @@ impl Open {
         let recorder = match &mut self.recorder {
             Some(recorder) => recorder,
             None => {
-                let Commission { file, header, .. } = &mut self.commission;
+                let RecordingRequest { file, header, .. } = &mut self.commission;
                 // A normal may have been measured since it was asked for.
                 header.approach_normal = Some(sample.normal.into());
                 let begun = Recorder::begin(file, header, Axes::of(sample))?;
@@ -205,7 +205,7 @@ mod tests {
         log_writer: LogWriter,
         events: Writer<RigEvent>,
         news: Receiver<ConsoleEvent>,
-        commissions: Sender<Commission>,
+        commissions: Sender<RecordingRequest>,
         samples: log::Reader<RigSample>,
         trajectory: DepthTrajectory,
     }
@@ -217,7 +217,7 @@ mod tests {
         let (commissions, commissioned) = channel();
         let log_writer = LogWriter {
             events: events_reader,
-            commissions: commissioned,
+            requests: commissioned,
             samples,
             news,
             switches: Switches::default(),
@@ -257,7 +257,7 @@ mod tests {
     impl TestBench {
         fn ask(&self, number: u64, file: PathBuf) -> RigCommand {
             let header = RecordingHeader::default();
-            let commission = Commission {
+            let commission = RecordingRequest {
                 number,
                 file,
                 header,

@@ -15,12 +15,12 @@
 //! *Limits*: the operating system decides how punctual the thread is. Over virtual tissue the rig's time waits with the
 //! thread.
 
+mod commanded_rig;
 mod console;
 mod live_rig;
 mod log_writer;
-mod operated;
 
+pub use commanded_rig::{Operated, RigEvent};
 pub use console::{Console, RigCommand};
 pub use live_rig::LiveRig;
-pub use log_writer::{Commission, ConsoleEvent, Unwritten};
-pub use operated::{Operated, RigEvent};
+pub use log_writer::{ConsoleEvent, RecordingRequest, Unwritten};

@@ -2,7 +2,7 @@ use palpate_files::recording::RecordingHeader;
 
 use super::{Ended, Listener, Phase, Rig, ZEROING};
 use crate::approach::contact_height;
-use crate::rig_settings::{CALM, LEAD, STANDOFF};
+use crate::rig_settings::{LEAD, SETTLING_TIME, STANDOFF};
 use crate::{DepthTrajectory, Error, RigSettings};
 
 /// Ticks of an approach that room is made for at once: an hour and more at 1 kHz, 64 MB.
@@ -25,17 +25,17 @@ impl Rig {
     }
 
     fn find_contact(&mut self, listener: Listener<'_>) -> Result<Ended, Error> {
-        if self.stay(CALM, listener)? == Ended::Stopped {
+        if self.stay(SETTLING_TIME, listener)? == Ended::Stopped {
             return Ok(Ended::Stopped);
         }
         let RigSettings {
             period,
             approach_speed,
-            approach_way,
+            approach_distance,
             ..
         } = self.settings;
         let resting = (ZEROING / period) as usize;
-        let ticks = resting + (approach_way / approach_speed / period) as usize;
+        let ticks = resting + (approach_distance / approach_speed / period) as usize;
         // A tick allocates nothing, unless a caller asks for an approach of more than an hour.
         let room = ticks.min(MOST_ROOM);
         let mut heights = Vec::with_capacity(room);
@@ -58,7 +58,7 @@ impl Rig {
             }
         }
         Err(Error::NoContact {
-            way_mm: 1e3 * approach_way,
+            way_mm: 1e3 * approach_distance,
         })
     }
 
@@ -79,7 +79,7 @@ impl Rig {
         trajectory: &DepthTrajectory,
         listener: Listener<'_>,
     ) -> Result<Ended, Error> {
-        self.press_and_tell(trajectory, &mut |sample| {
+        self.press_with_listener(trajectory, &mut |sample| {
             sample.phase != Phase::Pressing || listener(sample)
         })
     }
@@ -89,7 +89,7 @@ impl Rig {
     ///
     /// # Errors
     /// As for [`press`](Self::press).
-    pub fn press_and_tell(
+    pub fn press_with_listener(
         &mut self,
         trajectory: &DepthTrajectory,
         listener: Listener<'_>,
@@ -117,7 +117,7 @@ impl Rig {
             period,
             ..
         } = self.settings;
-        let mut ended = self.stay(self.settings.calm(), listener)?;
+        let mut ended = self.stay(self.settings.settling_time(), listener)?;
         for (above, speed) in [(clearance, withdrawal_speed), (STANDOFF, approach_speed)] {
             if ended == Ended::Whole {
                 ended = self.go(contact + above, speed, Phase::Waiting, listener)?;

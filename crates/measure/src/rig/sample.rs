@@ -14,7 +14,7 @@ pub enum Phase {
     /// It leaves the tissue.
     Withdrawing,
     /// It exerts no force, after a fault.
-    Limp,
+    ForceOff,
 }
 
 /// The state of the rig at a tick.

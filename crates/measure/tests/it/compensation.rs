@@ -248,7 +248,7 @@ fn joints_are_found_from_the_place_of_the_handle() {
 fn comes_to_rest(hand: HandImpedance, cutoff: f64, mass: f64) -> bool {
     let places = [(0.0, 0.0), (0.1, 0.0), (0.11, 1e-5)];
     let places = places.map(|(time, x)| Waypoint::new(time, Vec3::x() * x));
-    let device = VirtualDevice::new(Trajectory::way(places.to_vec()).unwrap())
+    let device = VirtualDevice::new(Trajectory::waypoints(places.to_vec()).unwrap())
         .with_hand(hand)
         .unwrap();
     let compensation = Compensation {

@@ -193,7 +193,7 @@ fn an_emergency_stop_is_latched_until_somebody_arms() {
     bench.operated.turn(&mut |_| ());
     assert_eq!(said(&mut bench), [RigEvent::Dropped(RigCommand::Rest)]);
     let free = bench.idle(3000);
-    assert!(free.iter().all(|sample| sample.phase == Phase::Limp));
+    assert!(free.iter().all(|sample| sample.phase == Phase::ForceOff));
     // Tissue pushes the tip out of it: what is left is the friction of the device (0.04 N) at most.
     assert!(free[2999].force < 0.05, "{:?}", free[2999]);
     assert_eq!(

@@ -209,7 +209,7 @@ fn a_rig_keeps_the_walls_of_its_device() {
     let mut rig = Rig::on(Box::new(device), soft(), RigSettings::default(), clock, 7).unwrap();
     let mut highest: f64 = 0.0;
     for _ in 0..700 {
-        rig.limp(&mut |sample| {
+        rig.tick_without_force(&mut |sample| {
             highest = highest.max(sample.height);
             true
         })

@@ -140,7 +140,7 @@ fn a_fault_of_the_sensor_withdraws_and_is_recorded() {
         let file = folder.path().join("one.csv");
         let mut recorder = Recorder::begin(&file, &rig.describe(&usual(), 1), Axes::Six).unwrap();
         let (mut pressed, mut all) = (0, Vec::<RigSample>::new());
-        let ended = rig.press_and_tell(&usual(), &mut |sample| {
+        let ended = rig.press_with_listener(&usual(), &mut |sample| {
             all.push(*sample);
             if sample.phase == Phase::Pressing {
                 pressed += 1;

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use palpate_measure::live::{ConsoleEvent, LiveRig};
 use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass, VirtualPhantom};
 use palpate_measure::{Rig, RigSettings};
-use palpate_servo::supervisor::SILENCE;
+use palpate_servo::supervisor::REPORT_TIMEOUT;
 use palpate_servo::{Capabilities, Clock, Command, Device, DeviceState, Disabled, Fault, Vec3};
 
 use crate::rig::soft;
@@ -119,7 +119,9 @@ fn an_emergency_stop_a_signal_and_a_lost_window_leave_no_force() {
 #[test]
 fn a_silent_window_of_the_rig_leaves_no_force() {
     let pressed = Pressed::new(|| false);
-    let silent = Fault::ProgramSilent { limit: SILENCE };
+    let silent = Fault::ProgramSilent {
+        limit: REPORT_TIMEOUT,
+    };
     let begun = Instant::now();
     // A machine that is busy elsewhere takes forces off before.
     loop {

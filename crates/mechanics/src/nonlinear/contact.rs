@@ -67,7 +67,7 @@ pub struct BoundaryPoint {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Against {
     /// A fixed body.
-    Still,
+    Fixed,
     /// A tool, where it is at the end of the step.
     Tool {
         /// Its number.
@@ -99,7 +99,7 @@ impl UnilateralContact {
     pub(super) fn slot(&self, model: &NonlinearModel) -> usize {
         let points = model.boundary_points().len();
         let first = match self.against {
-            Against::Still => 0,
+            Against::Fixed => 0,
             Against::Boundary(_) => points,
             Against::Tool { number, .. } => 2 * points + number * model.tool_points().len(),
         };
@@ -230,7 +230,7 @@ pub(super) struct Contact {
 impl Contact {
     fn new(model: &NonlinearModel, contact: &UnilateralContact) -> Self {
         let points = match contact.against {
-            Against::Still | Against::Boundary(_) => model.boundary_points(),
+            Against::Fixed | Against::Boundary(_) => model.boundary_points(),
             Against::Tool { .. } => model.tool_points(),
         };
         let point = &points[contact.point as usize];
@@ -250,7 +250,7 @@ impl Contact {
             offset: contact.offset,
             motion: match contact.against {
                 Against::Tool { motion, .. } => motion,
-                Against::Still | Against::Boundary(_) => Vec3::zeros(),
+                Against::Fixed | Against::Boundary(_) => Vec3::zeros(),
             },
         }
     }

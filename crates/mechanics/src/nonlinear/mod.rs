@@ -58,6 +58,6 @@ pub use law::Moduli;
 pub use model::{MOST_INFLUENCE_BYTES, NonlinearModel};
 pub use state::NonlinearState;
 pub use state_transfer::StateTransfer;
-pub use step::{Advance, Pace, Workspace, advance};
+pub use step::{Advance, StepSettings, Workspace, advance};
 pub use touching::TouchingBoundary;
 pub use touching_search::{TouchingPoint, TouchingSearch};

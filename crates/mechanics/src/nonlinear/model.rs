@@ -267,7 +267,7 @@ impl NonlinearModel {
 
     /// Room for a load on its boundary.
     pub fn spread_load(&self) -> SpreadLoad {
-        SpreadLoad::with_room(self.nodes.len(), self.boundary.areas().count())
+        SpreadLoad::with_capacity(self.nodes.len(), self.boundary.areas().count())
     }
 
     /// Embeds `points` [m] in the tetrahedra of a range.

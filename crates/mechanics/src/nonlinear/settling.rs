@@ -4,7 +4,7 @@ use super::cavities::{Wall, WallLoad};
 use super::constraints::Conditions;
 use super::model::NonlinearModel;
 use super::state::{CavityHistory, NonlinearState};
-use super::step::{Pace, Workspace, advance};
+use super::step::{StepSettings, Workspace, advance};
 use crate::Error;
 use palpate_files::scene::CavityContent;
 
@@ -95,7 +95,7 @@ impl NonlinearModel {
         workspace: &mut Workspace,
         at_part: impl Fn(&mut Self, f64),
     ) -> Result<(), Error> {
-        let pace = Pace {
+        let pace = StepSettings {
             iterations: 40,
             elapsed: LONG,
         };
@@ -108,11 +108,11 @@ impl NonlinearModel {
             if ended.was_reset {
                 break;
             }
-            if step > PARTS * STEPS && state.last_way() < farthest {
+            if step > PARTS * STEPS && state.last_motion() < farthest {
                 return Ok(());
             }
         }
-        Err(Error::UnsoundResponse {
+        Err(Error::InvalidResponse {
             fault: "it does not come to rest under its own weight and the pressures in it",
         })
     }

@@ -226,7 +226,7 @@ impl NonlinearState {
     }
 
     /// Largest motion of a node in the last step, along an axis [m].
-    pub fn last_way(&self) -> f64 {
+    pub fn last_motion(&self) -> f64 {
         let each = self.displacements.iter().zip(&self.before);
         each.fold(0.0, |most, (now, before)| (now - before).abs().max(most))
     }
@@ -346,7 +346,7 @@ impl NonlinearState {
     }
 
     /// Whether any place of the boundary is in contact with another.
-    pub fn touches_itself(&self) -> bool {
+    pub fn has_self_contact(&self) -> bool {
         self.pressed[self.pressed.len() / 2..]
             .iter()
             .any(|force| *force > 0.0)

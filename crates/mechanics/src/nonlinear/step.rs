@@ -24,7 +24,7 @@ const MOST_TIMES: usize = 2;
 
 /// Settings of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pace {
+pub struct StepSettings {
     /// Conjugate gradients; where they converge slowly, up to twice as many [-].
     pub iterations: usize,
     /// Time since the last step [s], in which tissue relaxes; zero is a jump.
@@ -51,7 +51,7 @@ pub struct Advance {
 impl Advance {
     /// Whether the step found no equilibrium and its forces are meaningless: the stiffness is not positive, and elements are
     /// inverted.
-    pub fn has_no_answer(&self) -> bool {
+    pub fn has_no_equilibrium(&self) -> bool {
         self.was_reset || (self.was_unstable && self.is_inverted)
     }
 }
@@ -115,7 +115,7 @@ impl Workspace {
 pub fn advance(
     model: &NonlinearModel,
     conditions: Conditions<'_>,
-    pace: Pace,
+    pace: StepSettings,
     state: &mut NonlinearState,
     workspace: &mut Workspace,
 ) -> Advance {
@@ -133,7 +133,7 @@ pub fn advance(
 struct Step<'a> {
     model: &'a NonlinearModel,
     conditions: Conditions<'a>,
-    pace: Pace,
+    pace: StepSettings,
     state: &'a mut NonlinearState,
     workspace: &'a mut Workspace,
 }
@@ -158,7 +158,7 @@ impl pulp::WithSimd for Step<'_> {
 fn step(
     model: &NonlinearModel,
     conditions: Conditions<'_>,
-    pace: Pace,
+    pace: StepSettings,
     state: &mut NonlinearState,
     workspace: &mut Workspace,
 ) -> Advance {

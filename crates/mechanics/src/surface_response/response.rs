@@ -35,7 +35,7 @@ impl<T: Precision> SurfaceResponse<T> {
     pub fn new(parts: ResponseParts<T>) -> Result<Self, Error> {
         LinearElastic::new(1.0, parts.poissons_ratio)?;
         match parts.fault() {
-            Some(fault) => Err(Error::UnsoundResponse { fault }),
+            Some(fault) => Err(Error::InvalidResponse { fault }),
             None => Ok(Self { parts }),
         }
     }

@@ -207,9 +207,9 @@ fn pressures_change_nothing_where_nothing_locks() {
         let model = FiniteElementModel::new(mesh, law.clone(), formulation).unwrap();
         let mut supports = Supports::none(&model);
         for axis in 0..3 {
-            supports = supports.hold(&model, bottom.iter().copied(), axis, 0.0);
+            supports = supports.fix(&model, bottom.iter().copied(), axis, 0.0);
         }
-        let supports = supports.hold(&model, top, 2, -1e-3);
+        let supports = supports.fix(&model, top, 2, -1e-3);
         let mut state = FiniteElementState::at_rest(&model);
         let mut workspace = FiniteElementWorkspace::new(&model).unwrap();
         equilibrate(&model, &supports, &mut state, &mut workspace).unwrap();

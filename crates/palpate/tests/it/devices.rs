@@ -30,7 +30,7 @@ fn devices(arguments: &[&str], haply: &str) -> Output {
 }
 
 fn service() -> HaplyStandIn {
-    let still = Trajectory::way(vec![Waypoint::new(0.0, Vec3::zeros())]).unwrap();
+    let still = Trajectory::waypoints(vec![Waypoint::new(0.0, Vec3::zeros())]).unwrap();
     let hand = VirtualDevice::new(still)
         .with_hand(HandImpedance::default())
         .unwrap();

@@ -106,7 +106,7 @@ impl Body {
         let mesh = surface.mesh();
         let (fixed, free) = mesh.triangle_ids().partition(|&triangle| {
             let centroid = centroid(&surface, triangle);
-            anchor.iter().any(|plane| plane.holds(&centroid))
+            anchor.iter().any(|plane| plane.contains(&centroid))
         });
         let description = format!(
             "{whose}: {} vertices, {} triangles",

@@ -13,7 +13,7 @@ use palpate_mechanics::surface_response::{
 use super::body::Body;
 use crate::machine::median;
 use crate::row::Rows;
-use palpate_jobs::{Watch, preparation};
+use palpate_jobs::{ProgressCallback, preparation};
 
 /// Times of the off-line computation [s].
 #[derive(Debug, Clone, Copy)]
@@ -58,7 +58,7 @@ pub(super) fn solve(
         };
         ends[stage] = start.elapsed().as_secs_f64();
         rows.say(format!("{words}, {:.0} %", 100.0 * progress.part));
-        match rows.is_asked_to_stop() {
+        match rows.should_stop() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
@@ -88,7 +88,7 @@ pub(super) fn touch(body: &Body, response: &SurfaceResponse, triangles: usize) -
         })
         .collect();
     let contact = PatchContact {
-        bond: Friction::Bonded,
+        friction: Friction::Bonded,
         reciprocity: Reciprocity::Imposed,
         youngs_modulus: YOUNGS_MODULUS,
     };

@@ -1,6 +1,6 @@
 //! Force over time by the full viscoelastic run of finite elements, with internal variables.
 
-use palpate_characterize::inverse::{Body, SoughtLaw};
+use palpate_characterize::inverse::{Body, CandidateLaw};
 use palpate_mechanics::finite_elements::indentation::{
     History, IndentationRun, IndentationSettings,
 };
@@ -21,14 +21,16 @@ const FIRST: f64 = 0.02;
 /// coarsest mesh.
 pub(super) fn full_run(
     rows: &Rows<'_>,
-    law: SoughtLaw,
+    law: CandidateLaw,
     parameters: &[f64],
     series: &PronySeries,
     depth: f64,
 ) -> Result<(History, Vec<f64>), Error> {
     let law: Arc<dyn Law> = match (law, parameters) {
-        (SoughtLaw::NeoHookean, &[c10]) => Arc::new(NeoHookean::incompressible(c10)?),
-        (SoughtLaw::MooneyRivlin, &[c10, c01]) => Arc::new(MooneyRivlin::incompressible(c10, c01)?),
+        (CandidateLaw::NeoHookean, &[c10]) => Arc::new(NeoHookean::incompressible(c10)?),
+        (CandidateLaw::MooneyRivlin, &[c10, c01]) => {
+            Arc::new(MooneyRivlin::incompressible(c10, c01)?)
+        }
         _ => {
             return Err(Error::failed("no such law is printed; please report this"));
         }

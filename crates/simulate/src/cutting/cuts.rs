@@ -67,7 +67,7 @@ impl Cuts {
     /// No cuts.
     pub(crate) fn new(simulation: &Simulation, model: &CuttingModel) -> Self {
         let surface = CutSurface::new(&simulation.surface, model.method);
-        let [vertices, triangles] = surface.room();
+        let [vertices, triangles] = surface.capacity();
         let mut places = Vec::with_capacity(vertices);
         places.extend_from_slice(surface.mesh().vertices());
         Self {
@@ -133,7 +133,7 @@ impl Cuts {
     }
 
     /// Whether there is an opening, or one begins.
-    pub fn are_there(&self) -> bool {
+    pub fn has_openings(&self) -> bool {
         self.cut_path.is_some() || !self.before.is_empty()
     }
 
@@ -148,7 +148,7 @@ impl Cuts {
     }
 
     /// Whether a blade is in the tissue.
-    pub(crate) fn is_being_made(&self) -> bool {
+    pub(crate) fn is_cutting(&self) -> bool {
         self.cut_path.is_some()
     }
 
@@ -171,7 +171,7 @@ impl Cuts {
     }
 
     /// Whether the surface is being opened.
-    pub(crate) fn goes_on(&self) -> bool {
+    pub(crate) fn is_in_progress(&self) -> bool {
         self.cut_path.is_some_and(|cut_path| cut_path.opens)
     }
 
@@ -194,7 +194,7 @@ impl Cuts {
 
     /// Undoes the last cut. Returns whether there was one; while a cut is in progress there is none.
     pub(crate) fn undo(&mut self) -> bool {
-        if self.is_being_made() {
+        if self.is_cutting() {
             return false;
         }
         let Some(mark) = self.before.pop() else {
@@ -236,7 +236,7 @@ impl Cuts {
     }
 
     /// Whether an update is due at once, because the triangles have changed.
-    pub(crate) fn is_behind(&self) -> bool {
+    pub(crate) fn is_outdated(&self) -> bool {
         self.gapes != self.version
     }
 

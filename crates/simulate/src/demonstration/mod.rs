@@ -5,8 +5,8 @@
 //!
 //! *Limits*: it moves tips and jaws, and turns no tool.
 
+mod paths;
 mod uncover;
-mod ways;
 
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
@@ -18,7 +18,7 @@ use palpate_geometry::Vec3;
 use crate::performance::{Performance, Status};
 use crate::polyline::Polyline;
 use crate::{Simulation, SimulationState, SimulationWorkspace, step};
-use ways::{RestSurface, cut, depths, found, pulled};
+use paths::{RestSurface, cut, depths, found, pulled};
 
 /// Speed through the air [m/s], and in or towards the tissue [m/s].
 const FREE: f64 = 0.025;
@@ -157,7 +157,7 @@ impl Demonstration {
         let mut rows = Vec::new();
         for number in 0.. {
             let time = period * f64::from(number);
-            if time > longest || matches!(performance.status(), Status::Over { .. }) {
+            if time > longest || matches!(performance.status(), Status::Ended { .. }) {
                 break;
             }
             if number % 50 == 0 && on_progress(time / longest).is_break() {

@@ -8,7 +8,7 @@ use nalgebra::{Rotation3, Unit};
 use palpate_files::scene::TouchGoal;
 use palpate_geometry::Vec3;
 
-use super::ways::{BITE, RestSurface, grasped};
+use super::paths::{BITE, RestSurface, grasped};
 use super::{FREE, SLOW, Step};
 use crate::Simulation;
 

@@ -98,7 +98,7 @@ impl GlobalModel {
         state: &mut SimulationState,
         workspace: &mut GlobalWorkspace,
     ) {
-        let Some(organ) = &mut state.whole else {
+        let Some(organ) = &mut state.organ_field else {
             return;
         };
         self.sum_field(simulation, &state.tools, workspace);

@@ -90,7 +90,7 @@ impl GlobalModel {
             state.elastic = Vec3::zeros();
             state.own = Vec3::zeros();
             state.displaced = Vec3::zeros();
-            state.moves = 0.0;
+            state.self_displacement = 0.0;
             state.stiffness = Matrix3::zeros();
             state.limited = Limits::NONE;
         }
@@ -119,7 +119,7 @@ impl GlobalModel {
             }
             if sweep == MOST_SWEEPS {
                 let reached = Reached {
-                    asked: change / largest,
+                    unbounded: change / largest,
                     used: SETTLED,
                 };
                 for tool in tools.iter_mut() {
@@ -184,14 +184,14 @@ impl GlobalModel {
         {
             let place = number * tools.len() + other;
             let by = (between[place] - held.fixes(number, other, tools.len())) * state.elastic;
-            let most = MOST_CARRIED * state.moves;
+            let most = MOST_CARRIED * state.self_displacement;
             if by.norm() <= most {
                 carried -= by;
                 continue;
             }
             carried -= by * (most / by.norm());
             bounded = Some(Reached {
-                asked: by.norm() / state.moves,
+                unbounded: by.norm() / state.self_displacement,
                 used: MOST_CARRIED,
             });
         }
@@ -223,7 +223,7 @@ impl GlobalModel {
         if tool.bond == Friction::Frictionless {
             own = Vec3::new(0.0, 0.0, own.z);
         }
-        state.moves = moved.norm();
+        state.self_displacement = moved.norm();
         state.own = frame * own;
         // The organ moves a slipping tip along its surface.
         state.displaced = frame * (own - compliance * answer.force) + carried;

@@ -44,7 +44,7 @@ pub(crate) fn surround(
     let mesh = surface.mesh();
     let (fixed, free): (Vec<_>, Vec<_>) = mesh
         .triangle_ids()
-        .partition(|&triangle| anchor.holds(centroid(&surface, triangle)));
+        .partition(|&triangle| anchor.contains(centroid(&surface, triangle)));
     let walls = Walls::new(&surface, &free);
     let by = |method| {
         let ingredients = Ingredients {
@@ -97,7 +97,7 @@ pub(crate) fn surround(
             known.push((radius, further.clone()));
             further
         };
-        tool.further = Some(further);
+        tool.structural_compliance = Some(further);
     }
     Ok(warning)
 }

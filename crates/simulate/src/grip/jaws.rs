@@ -41,7 +41,7 @@ impl Swept {
     }
 
     /// Whether a place in the tool's frame lies between the jaws.
-    pub(crate) fn holds(&self, place: &Vec3) -> bool {
+    pub(crate) fn contains(&self, place: &Vec3) -> bool {
         (0..3).all(|axis| (self.low[axis]..=self.high[axis]).contains(&place[axis]))
     }
 
@@ -60,7 +60,7 @@ impl Swept {
         along.any(|z| {
             ACROSS.iter().any(|part| {
                 let point = Vec3::new(part * self.high.x, 0.0, z);
-                self.holds(&closest_on_triangle(corners, &point).position)
+                self.contains(&closest_on_triangle(corners, &point).position)
             })
         })
     }
@@ -114,7 +114,7 @@ mod tests {
         let turned = UnitQuaternion::from_axis_angle(&Vec3::x_axis(), std::f64::consts::PI);
         let swept = Swept::new(&Jaws::GRASPER, Vec3::x(), turned, 0.0);
         // The shaft runs down.
-        let inside = |place: Vec3| swept.holds(&swept.inside_of_tool(&place));
+        let inside = |place: Vec3| swept.contains(&swept.inside_of_tool(&place));
         assert!(inside(Vec3::new(1.004, 0.0, -0.011)));
         assert!(!inside(Vec3::new(1.004, 0.0, 0.011)));
         assert!(!inside(Vec3::new(1.0, 0.003, -0.001)));

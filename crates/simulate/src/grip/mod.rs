@@ -20,7 +20,7 @@
 //! work on the hand; a pull across the jaws (along the tool's x) never causes slip; the patch keeps its size while it
 //! slides.
 
-mod hold;
+mod grasp;
 mod jaws;
 mod place;
 mod slip;
@@ -30,8 +30,8 @@ use palpate_files::session::{Event, Events};
 use palpate_geometry::Vec3;
 use palpate_mechanics::finite_spheres::LocalContact;
 
-pub(crate) use hold::{
-    DisplayedHold, Held, HeldArea, HeldPart, HeldPatch, HeldTriangle, Hold, MOST_PARTS,
+pub(crate) use grasp::{
+    DisplayedHold, Grasp, Grasped, HeldArea, HeldPart, HeldPatch, HeldTriangle, MOST_PARTS,
     MOST_TRIANGLES,
 };
 pub(crate) use jaws::Swept;
@@ -58,7 +58,7 @@ pub(crate) struct Grip {
     shut: bool,
     /// Whether they shut in this step.
     shuts: bool,
-    pub(crate) hold: Option<Hold>,
+    pub(crate) hold: Option<Grasp>,
     slides: Slides,
 }
 
@@ -149,7 +149,7 @@ fn lose(
     let mut lost = false;
     for (tool, own) in simulation.tools.iter().zip(&mut state.tools) {
         let length = tool.jaws.map_or(0.0, |jaws| jaws.length_m);
-        let gone = |hold: &mut Hold| hold.slid().norm() >= length;
+        let gone = |hold: &mut Grasp| hold.slid().norm() >= length;
         if own.grip.hold.take_if(gone).is_some() {
             own.row.events.insert(Event::GripRelease);
             own.row.events.insert(Event::Release);
@@ -180,7 +180,7 @@ fn grasp(
         place::grasp(simulation, tool, &mut state.tools[number], workspace)
     };
     let own = &mut state.tools[number];
-    if let (true, Some(at)) = (took, own.grip.hold.as_ref().map(Hold::place)) {
+    if let (true, Some(at)) = (took, own.grip.hold.as_ref().map(Grasp::place)) {
         own.contact = None;
         own.row.events.insert(Event::Grip);
         if !touched {
@@ -199,9 +199,9 @@ impl Grip {
     /// The held place of the local model, and its displacement [m].
     pub(crate) fn shown_place(&self) -> Option<(LocalContact, Vec3)> {
         let hold = self.hold.as_ref()?;
-        match &hold.held {
-            Held::Place(held) => Some((held.place, hold.displaced())),
-            Held::Patch(_) | Held::Area(_) => None,
+        match &hold.grasped {
+            Grasped::Place(held) => Some((held.place, hold.displaced())),
+            Grasped::Patch(_) | Grasped::Area(_) => None,
         }
     }
 }

@@ -11,8 +11,8 @@ use palpate_geometry::Vec3;
 use palpate_mechanics::contact::{Friction, half_space_stiffness, half_space_tangential_stiffness};
 use palpate_mechanics::finite_spheres::{FiniteSphereWorkspace, LocalContact, Response};
 
-use super::hold::DisplayedHold;
-use super::{Held, Hold, Swept};
+use super::grasp::DisplayedHold;
+use super::{Grasp, Grasped, Swept};
 use crate::contact;
 use crate::simulation::Simulation;
 use crate::state::ToolState;
@@ -53,13 +53,13 @@ pub(super) fn grasp(
         at: None,
         displaced,
     };
-    let held = Held::Place(HeldPlace {
+    let held = Grasped::Place(HeldPlace {
         place,
         tip: swept.tip,
         force: state.elastic,
     });
     let area = Swept::face(&jaws);
-    state.grip.hold = Some(Hold::new(&swept, area, jaws.opening_m, held, displayed));
+    state.grip.hold = Some(Grasp::new(&swept, area, jaws.opening_m, held, displayed));
     answer(simulation, tool, state, workspace);
     true
 }
@@ -74,7 +74,7 @@ pub(crate) fn answer(
     let Some(hold) = &state.grip.hold else {
         return false;
     };
-    let Held::Place(held) = &hold.held else {
+    let Grasped::Place(held) = &hold.grasped else {
         return false;
     };
     let response = tool.model.respond(&held.place, workspace);

@@ -65,7 +65,7 @@ pub(super) struct Replacing {
 }
 
 /// The model thread's end of a replacement, used between two steps.
-pub(super) struct TakingOver {
+pub(super) struct ReplacementReceiver {
     next: Receiver<Box<Model>>,
     replaced: SyncSender<Box<Model>>,
     supervisor: Supervisor,
@@ -75,10 +75,10 @@ pub(super) struct TakingOver {
 }
 
 /// Both ends, for the session of `supervisor` with the model `touched`.
-pub(super) fn take_over(
+pub(super) fn replacement(
     touched: &Arc<Simulation>,
     supervisor: &Supervisor,
-) -> (Replacing, TakingOver) {
+) -> (Replacing, ReplacementReceiver) {
     let (next, waiting) = sync_channel(1);
     let (give_back, replaced) = sync_channel(1);
     let replacing = Replacing {
@@ -86,7 +86,7 @@ pub(super) fn take_over(
         replaced,
         touched: touched.clone(),
     };
-    let taking_over = TakingOver {
+    let taking_over = ReplacementReceiver {
         next: waiting,
         replaced: give_back,
         supervisor: supervisor.clone(),
@@ -133,7 +133,7 @@ fn have_one_touch(one: &Simulation, other: &Simulation) -> bool {
         && fulcrums(one) == fulcrums(other)
 }
 
-impl TakingOver {
+impl ReplacementReceiver {
     /// The model that takes over now; none if there is none, or if a loop still displays a force of the old one,
     /// according to its last of `samples`.
     pub(super) fn next(&mut self, samples: &[Option<Sample>]) -> Option<Box<Model>> {

@@ -13,12 +13,12 @@ use std::time::Duration;
 
 use palpate_geometry::Vec3;
 
-use super::cut_thread::{Below, Job, Left, OfElements, Ready, Rims};
+use super::cut_thread::{Below, Discarded, ElementState, Job, Ready, Rims};
 use super::slits::key;
 use super::target::Now;
 use super::{Body, NonlinearOrgan, NonlinearWorkspace, REACH_IN_RADII, jaws_radius};
 use crate::cutting::Cuts;
-use crate::grip::Held;
+use crate::grip::Grasped;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, ToolState};
 
@@ -54,8 +54,8 @@ pub(super) struct FollowedCuts {
     below: Vec<Vec3>,
     /// The body without cuts, while it has some, and the body with the cuts before a reset: so neither allocates nor
     /// frees.
-    whole: Option<OfElements>,
-    left: Option<Left>,
+    whole: Option<ElementState>,
+    left: Option<Discarded>,
 }
 
 impl FollowedCuts {
@@ -172,12 +172,12 @@ impl NonlinearWorkspace {
             thread.job = Some(job);
         }
         let idle = &mut thread.job;
-        let Some(mut job) = idle.take_if(|job| !job.made(cut.key, &body.organ)) else {
+        let Some(mut job) = idle.take_if(|job| !job.has_prepared(cut.key, &body.organ)) else {
             return;
         };
         job.is_used = false;
         job.key = cut.key;
-        job.whole = Arc::clone(whole);
+        job.uncut = Arc::clone(whole);
         job.now = Arc::clone(&body.organ);
         job.paths.follow(model, cuts, cut.parts);
         job.cuts = cuts.count();
@@ -207,7 +207,7 @@ impl NonlinearWorkspace {
                 }
                 continue;
             };
-            if job.made(cut.key, &body.organ) {
+            if job.has_prepared(cut.key, &body.organ) {
                 return Some(job);
             }
             thread.job = Some(job);
@@ -223,7 +223,7 @@ impl NonlinearWorkspace {
         let own = std::mem::replace(&mut self.own, workspace);
         if FollowedCuts::is_whole(simulation, &before) {
             ready.workspace = self.whole.replace(own);
-            ready.left_workspace = self.left.take();
+            ready.discarded_workspace = self.left.take();
         } else {
             ready.workspace = Some(own);
         }
@@ -256,7 +256,7 @@ impl Body {
             own.rims = None;
         }
         // A cut in progress counts once its blade has been lifted, and after those before it.
-        if own.version == cuts.version() || cuts.is_being_made() || own.pending.is_some() {
+        if own.version == cuts.version() || cuts.is_cutting() || own.pending.is_some() {
             return;
         }
         own.version = cuts.version();
@@ -285,7 +285,7 @@ impl Ready {
         std::mem::swap(&mut body.loads, &mut loads);
         if FollowedCuts::is_whole(simulation, &self.organ) {
             self.body = body.cuts.whole.replace((state, loads));
-            self.left = body.cuts.left.take();
+            self.discarded = body.cuts.left.take();
         } else {
             self.body = Some((state, loads));
         }
@@ -307,7 +307,7 @@ impl Body {
         };
         let turned = *hold.turned();
         let place = hold.displayed.place;
-        let Held::Area(area) = &mut hold.held else {
+        let Grasped::Area(area) = &mut hold.grasped else {
             return;
         };
         let organ = Arc::clone(&self.organ);

@@ -97,7 +97,7 @@ pub(super) fn tetrahedra(
     let mesh = filling
         .and_then(|fine| coarsen_with_progress(&fine, surface, nodes, detail, &mut on_progress));
     if let Err(TetrahedronError::Cancelled) = mesh {
-        return Err(palpate_mechanics::Error::BrokenOff.into());
+        return Err(palpate_mechanics::Error::Cancelled.into());
     }
     regions.with_cavities(mesh.map_err(palpate_mechanics::Error::from)?, surface)
 }

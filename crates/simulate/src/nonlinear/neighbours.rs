@@ -142,7 +142,7 @@ impl Candidates {
         motion: StepMotion<'_>,
         state: &NonlinearState,
     ) {
-        let near = NEAR + (motion.travel + state.last_way()).min(MOST_MOTION);
+        let near = NEAR + (motion.travel + state.last_motion()).min(MOST_MOTION);
         let (points, skin) = (organ.model.boundary_points(), &organ.skin);
         self.found.clear();
         if let (Some(search), Some(boundary)) = (&mut self.touching, &organ.touching) {
@@ -181,7 +181,7 @@ impl Candidates {
                         normal,
                         offset: gap - normal.dot(&moved),
                         friction: neighbour.friction,
-                        against: Against::Still,
+                        against: Against::Fixed,
                     };
                     self.found.push((gap, contact));
                 }
@@ -205,7 +205,7 @@ impl Candidates {
     }
 
     /// Whether parts of the body may touch one another in the step.
-    pub(super) fn touches_itself(&self) -> bool {
+    pub(super) fn has_self_contact(&self) -> bool {
         self.contacts
             .iter()
             .any(|own| matches!(own.against, Against::Boundary(_)))
@@ -221,14 +221,14 @@ impl Candidates {
     pub(super) fn report(&self, tool: &mut ToolState) {
         if self.left_out > 0 {
             let reached = Reached {
-                asked: (MOST_CONTACTS + self.left_out) as f64,
+                unbounded: (MOST_CONTACTS + self.left_out) as f64,
                 used: MOST_CONTACTS as f64,
             };
             tool.limited.add(Limit::NeighbourContacts, reached);
         }
         if self.lost > 0.0 {
             let reached = Reached {
-                asked: self.lost,
+                unbounded: self.lost,
                 used: 0.0,
             };
             tool.limited.add(Limit::LostContact, reached);

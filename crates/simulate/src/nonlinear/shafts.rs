@@ -336,10 +336,10 @@ impl NonlinearOrgan {
             candidates.report(own);
             let lag = (motion.now.tip - shaft.tip).norm();
             if own.is_pushed() && lag > REPORTED_LAG {
-                let asked = (motion.now.tip - motion.before.tip).norm();
+                let unbounded = (motion.now.tip - motion.before.tip).norm();
                 let reached = Reached {
-                    asked,
-                    used: asked - lag,
+                    unbounded,
+                    used: unbounded - lag,
                 };
                 own.limited.add(Limit::Pace, reached);
             }

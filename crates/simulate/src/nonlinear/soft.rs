@@ -105,7 +105,7 @@ impl SoftBody {
             Some(location) => back(location, place),
             None => *place,
         };
-        self.anchor.holds(place.into())
+        self.anchor.contains(place.into())
     }
 }
 

@@ -42,7 +42,7 @@ pub(super) struct Now {
     /// ū [m], Fₑ [N] and Z [m/N].
     pub(super) mean: Vec3,
     pub(super) force: Vec3,
-    pub(super) yields: Matrix3<f64>,
+    pub(super) compliance: Matrix3<f64>,
     pub(super) turn: Rotation3<f64>,
     /// Its self-compliance on a half-space [m/N]: along the surface, and along its normal.
     pub(super) own: [f64; 2],
@@ -59,7 +59,7 @@ impl Now {
         Self {
             mean: state.mean_displacement(&load.nodes),
             force: body.histories[number].elastic(),
-            yields: organ.model.compliance(state, &load.nodes),
+            compliance: organ.model.compliance(state, &load.nodes),
             turn: state.mean_rotation(&load.nodes),
             own,
         }
@@ -78,14 +78,14 @@ impl Target {
     ) -> Self {
         let compliance = match along {
             Some(normal) => {
-                let own = normal.dot(&((both - now.yields) * normal)).max(0.0);
+                let own = normal.dot(&((both - now.compliance) * normal)).max(0.0);
                 Matrix3::from_diagonal_element(own)
             }
-            None => positive(&(both - now.yields)),
+            None => positive(&(both - now.compliance)),
         };
-        let free = now.mean - now.yields * now.force;
-        let offset = displacement - free - (now.yields + compliance) * goal;
-        let travel = now.yields * (goal - now.force);
+        let free = now.mean - now.compliance * now.force;
+        let offset = displacement - free - (now.compliance + compliance) * goal;
+        let travel = now.compliance * (goal - now.force);
         Self {
             along,
             forces: [*goal, now.force],
@@ -109,7 +109,7 @@ impl Target {
         let travel = self.travel.norm();
         if lag > REPORTED_LAG.1.max(REPORTED_LAG.0 * travel) {
             let reached = Reached {
-                asked: travel.max(lag),
+                unbounded: travel.max(lag),
                 used: (travel.max(lag) - lag).max(0.0),
             };
             tool.limited.add(Limit::Pace, reached);

@@ -23,7 +23,7 @@ use nalgebra::Matrix3;
 use palpate_files::session::Event;
 use palpate_geometry::Vec3;
 use palpate_mechanics::contact::{Friction, half_space_stiffness, half_space_tangential_stiffness};
-use palpate_mechanics::nonlinear::{Conditions, NonlinearModel, Pace, advance};
+use palpate_mechanics::nonlinear::{Conditions, NonlinearModel, StepSettings, advance};
 use palpate_mechanics::{ForceHistory, Limits, PronySeries};
 
 use super::moved::carry_back_anew;
@@ -32,7 +32,7 @@ use super::shafts::{Pushed, ShaftMotion};
 use super::soft::Piece;
 use super::target::{Now, Target, farthest, positive, slippery};
 use super::{Body, ITERATIONS_TOUCHING, NonlinearOrgan, NonlinearWorkspace};
-use crate::grip::Held;
+use crate::grip::Grasped;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, ToolState};
 use crate::tool::Tool;
@@ -136,7 +136,7 @@ impl NonlinearOrgan {
         let ended = self.go(simulation, elapsed, body, workspace);
         if ended.has_no_answer
             || body.state.largest(&self.model) > self.composition.size
-            || self.is_unsound(&simulation.tools, body, workspace)
+            || self.is_invalid(&simulation.tools, body, workspace)
         {
             body.state.reset(&self.model);
             body.histories.fill(ForceHistory::default());
@@ -146,7 +146,7 @@ impl NonlinearOrgan {
         // An unloaded organ returns to rest; inverted elements may not get there. A relaxing body takes its time.
         let is_slow = body.state.largest(&self.model) > SLOWEST_RETURN * before;
         let state = &body.state;
-        let is_held = state.has_friction() || state.touches_itself() || state.touches_tools();
+        let is_held = state.has_friction() || state.has_self_contact() || state.touches_tools();
         let lags = is_free && is_slow && !is_held && (ended.is_inverted || !self.model.relaxes());
         body.stalled = if lags { body.stalled + 1 } else { 0 };
         if body.stalled > MOST_STALLED {
@@ -243,7 +243,7 @@ impl NonlinearOrgan {
             .map(own)
             .chain(shafts().map(ShaftMotion::travel));
         let travel = reach * travel.fold(0.0, f64::max);
-        let mut pace = Pace {
+        let mut pace = StepSettings {
             iterations: self.composition.iterations,
             elapsed: elapsed / parts as f64,
         };
@@ -259,7 +259,7 @@ impl NonlinearOrgan {
                     travel,
                 };
                 candidates.find(self, &simulation.neighbours, motion, &body.state);
-                let is_hard = candidates.touches_itself() || candidates.touches_shafts();
+                let is_hard = candidates.has_self_contact() || candidates.touches_shafts();
                 pace.iterations = match is_hard {
                     true => ITERATIONS_TOUCHING,
                     false => self.composition.iterations,
@@ -269,7 +269,7 @@ impl NonlinearOrgan {
             let relaxes: [_; MOST_TOOLS] = std::array::from_fn(|number| {
                 let history = body.histories.get(number);
                 history.map_or((1.0, Vec3::zeros()), |own| {
-                    own.foresee(series, pace.elapsed)
+                    own.predict(series, pace.elapsed)
                 })
             });
             let couplings: [_; MOST_TOOLS] = std::array::from_fn(|number| {
@@ -283,7 +283,7 @@ impl NonlinearOrgan {
             };
             let (state, solver) = (&mut body.state, &mut workspace.own.solver);
             let advance = advance(&self.model, conditions, pace, state, solver);
-            ended.has_no_answer |= advance.has_no_answer();
+            ended.has_no_answer |= advance.has_no_equilibrium();
             ended.is_inverted = advance.is_inverted;
             for (number, own) in body.histories.iter_mut().enumerate() {
                 let (follows, history) = relaxes[number];
@@ -337,10 +337,10 @@ impl NonlinearOrgan {
             now.force = -own.pushed.force;
         }
         let tip = Vec3::from(pose.position_m);
-        let free = now.mean - now.yields * now.force;
+        let free = now.mean - now.compliance * now.force;
         own.moved.go(&free, &now.turn);
-        if let Some(met) = own.met.take() {
-            own.moved.meet(&place.point, &tip, &met);
+        if let Some(met) = own.free_position.take() {
+            own.moved.begin_contact(&place.point, &tip, &met);
         }
         contact.turn = now.turn;
         let frame = contact.frame();
@@ -354,7 +354,7 @@ impl NonlinearOrgan {
         let (of_wall, exchange) = self.local_compliance(number, tool, body);
         let local = self.rim(body, number, radius) + of_wall;
         let local = place.frame.tr_mul(&local) * place.frame;
-        let further = frame.tr_mul(&now.yields) * frame - self.of_load(&now) + local;
+        let further = frame.tr_mul(&now.compliance) * frame - self.of_load(&now) + local;
         let law = piece
             .tip_law(number, tool)
             .on_curved_surface(place.mean_curvature());
@@ -363,7 +363,7 @@ impl NonlinearOrgan {
         own.stiffness = frame * answer.stiffness * frame.transpose();
         own.limited = answer.limits;
         let goal = -(frame * answer.force);
-        let (follows, history) = body.histories[number].foresee(series, elapsed);
+        let (follows, history) = body.histories[number].predict(series, elapsed);
         // Tissue that has not yet recovered does not hold the tip.
         if self.model.relaxes() && (follows * goal - history).dot(&contact.normal()) >= 0.0 {
             own.elastic = -goal;
@@ -375,7 +375,7 @@ impl NonlinearOrgan {
         };
         let tip_and_organ = frame * stiffness.try_inverse()? * frame.transpose();
         // A tip with little contact.
-        if now.yields.trace() < LEAST_STIFFNESS * tip_and_organ.trace() {
+        if now.compliance.trace() < LEAST_STIFFNESS * tip_and_organ.trace() {
             return None;
         }
         Some(Target::new(
@@ -390,12 +390,12 @@ impl NonlinearOrgan {
     /// The target of jaws that hold.
     fn hold(&self, tool: &Tool, number: usize, own: &mut ToolState, body: &Body) -> Option<Target> {
         let hold = own.grip.hold.as_ref()?;
-        let Held::Area(area) = &hold.held else {
+        let Grasped::Area(area) = &hold.grasped else {
             return None;
         };
         let now = Now::of(self, body, number);
         let compliance = self.of_jaws(tool, number, &area.frame, body, &now)?;
-        own.stiffness = (compliance + now.yields).try_inverse()?;
+        own.stiffness = (compliance + now.compliance).try_inverse()?;
         let displacement = hold.displaced();
         let offset = hold.in_scene(&area.offset);
         let jump = displacement - offset - compliance * now.force - now.mean;
@@ -406,7 +406,7 @@ impl NonlinearOrgan {
             compliance,
             offset,
             jump,
-            travel: now.yields * own.stiffness * jump,
+            travel: now.compliance * own.stiffness * jump,
         })
     }
 
@@ -414,7 +414,7 @@ impl NonlinearOrgan {
     /// None once the remaining displacement is small.
     fn release_target(&self, number: usize, body: &Body) -> Option<Target> {
         let now = Now::of(self, body, number);
-        let back = -(now.yields * body.state.force(number));
+        let back = -(now.compliance * body.state.force(number));
         let travel = back.norm();
         let farthest = farthest(&body.loads[number]);
         (travel > farthest).then(|| {

@@ -112,7 +112,7 @@ impl CutTracker {
 
     pub(super) fn add(&mut self, row: &SessionRow) {
         let happened = |event| row.events.contains(event);
-        if happened(Event::BeginAnew) {
+        if happened(Event::Restart) {
             self.cut_paths.clear();
             self.by = None;
         }
@@ -178,7 +178,7 @@ impl CutTracker {
     }
 
     /// Whether the whole line is cut down to the required layer.
-    pub(super) fn is_whole(&self) -> bool {
+    pub(super) fn is_complete(&self) -> bool {
         self.covered()
             .is_some_and(|[wanted, covered]| wanted - covered <= JOINED.min(LEFT * wanted))
     }

@@ -1,6 +1,6 @@
 //! Progress and outcome of a task.
 
-use palpate_files::scene::{Goal, SoughtSize};
+use palpate_files::scene::{Goal, SizeGoal};
 use palpate_files::{Event, SessionRow};
 use palpate_geometry::Vec3;
 
@@ -66,14 +66,14 @@ pub enum Cue {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Status {
     /// It continues; the completed part [-], if defined.
-    GoesOn {
+    InProgress {
         /// From 0 to 1 [-].
         part: Option<f64>,
         /// What to change, if a force is required.
         advice: Option<Advice>,
     },
     /// It is over.
-    Over {
+    Ended {
         /// Because its time limit was reached.
         late: bool,
     },
@@ -85,7 +85,7 @@ pub struct SizeOutcome {
     /// The stated diameter [m]; none if none was stated.
     pub stated: Option<f64>,
     /// The true diameter.
-    pub truth: SoughtSize,
+    pub truth: SizeGoal,
 }
 
 impl SizeOutcome {
@@ -243,12 +243,12 @@ impl GoalTracker {
             Goal::Cut { .. } => cut.part(),
             Goal::Touch(_) => self.touch.as_ref().map(TouchTracker::part),
         };
-        let is_cut = cut.is_whole();
+        let is_cut = cut.is_complete();
         match self.done || is_cut || late {
-            true => Status::Over {
+            true => Status::Ended {
                 late: late && !self.done && !is_cut,
             },
-            false => Status::GoesOn {
+            false => Status::InProgress {
                 part,
                 advice: match &self.touch {
                     Some(touch) => Some(touch.advice()),
@@ -286,7 +286,7 @@ impl GoalTracker {
                 let on_line = line.is_some_and(|line| line.largest_deviation <= *tolerance_m);
                 Outcome::Cut {
                     part: cut.part().unwrap_or(0.0),
-                    clean: cut.is_whole() && on_line && errors.perforations == 0,
+                    clean: cut.is_complete() && on_line && errors.perforations == 0,
                 }
             }
         }

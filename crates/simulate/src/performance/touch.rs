@@ -75,7 +75,7 @@ impl TouchTracker {
             Event::GripRelease,
             Event::Lifted,
             Event::Jump,
-            Event::BeginAnew,
+            Event::Restart,
         ];
         self.holds |= happened(Event::Grip);
         self.holds &= !releases.into_iter().any(happened);
@@ -88,7 +88,7 @@ impl TouchTracker {
     fn follow_tool(&mut self, row: &SessionRow, force: f64) {
         let happened = |event| row.events.contains(event);
         self.shaft_touches |= happened(Event::ShaftContact);
-        self.shaft_touches &= !happened(Event::ShaftRelease) && !happened(Event::BeginAnew);
+        self.shaft_touches &= !happened(Event::ShaftRelease) && !happened(Event::Restart);
         let offset = Vec3::from(row.position_m) - Vec3::from(self.goal.target_m);
         self.tip = (!happened(Event::Lifted)).then_some(Tip {
             distance: offset.norm(),

@@ -68,15 +68,17 @@ impl InclusionTable {
                     tips: match tip {
                         Tip::Flat { .. } => {
                             let load = Load::punch(radius);
-                            [field.less(&[load], radius, place, normal)[0]; TIPS]
+                            [field.compliance_decrease(&[load], radius, place, normal)[0]; TIPS]
                         }
                         Tip::Sphere { .. } => {
                             let loads = radii.map(Load::hertz);
-                            field
-                                .less_under_sphere(radii, field.less(&loads, radius, place, normal))
+                            field.sphere_displacement_decrease(
+                                radii,
+                                field.compliance_decrease(&loads, radius, place, normal),
+                            )
                         }
                     },
-                    loads: field.less(&loads, radius, place, normal),
+                    loads: field.compliance_decrease(&loads, radius, place, normal),
                 }
             }));
         }
@@ -140,11 +142,14 @@ impl TipExchange {
         let radii = radii(tip);
         let less = match tip {
             Tip::Flat { radius } => {
-                [field.less(&[Load::punch(radius)], radius, place, normal)[0]; TIPS]
+                [field.compliance_decrease(&[Load::punch(radius)], radius, place, normal)[0]; TIPS]
             }
             Tip::Sphere { radius } => {
                 let loads = radii.map(|touching| Load::punch(PUNCH_OF_HERTZ * touching));
-                field.less_under_sphere(radii, field.less(&loads, radius, place, normal))
+                field.sphere_displacement_decrease(
+                    radii,
+                    field.compliance_decrease(&loads, radius, place, normal),
+                )
             }
         };
         Self {

@@ -140,7 +140,7 @@ impl Regions {
         let yields = |shape| -> Vec<[f64; 2]> {
             let radii = (0..RADII).filter(|_| !layers.is_empty());
             radii
-                .map(|n| layered.yields(shape, LEAST_RADIUS * FACTOR.powi(n as i32)))
+                .map(|n| layered.compliance_ratios(shape, LEAST_RADIUS * FACTOR.powi(n as i32)))
                 .collect()
         };
         let names = layers.iter().map(|layer| &layer.name);

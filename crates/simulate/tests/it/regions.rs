@@ -175,11 +175,11 @@ fn finite_elements(
     let model =
         FiniteElementModel::with_regions(mesh, &laws, &regions, Formulation::Displacement).unwrap();
     let mut supports = Supports::none(&model)
-        .hold(&model, axis, 0, 0.0)
-        .hold(&model, base.iter().copied(), 0, 0.0)
-        .hold(&model, base, 1, 0.0);
+        .fix(&model, axis, 0, 0.0)
+        .fix(&model, base.iter().copied(), 0, 0.0)
+        .fix(&model, base, 1, 0.0);
     for (&node, down) in tip.iter().zip(down) {
-        supports = supports.hold(&model, [node], 1, down);
+        supports = supports.fix(&model, [node], 1, down);
     }
     let mut state = FiniteElementState::at_rest(&model);
     let mut workspace = FiniteElementWorkspace::new(&model).unwrap();

@@ -96,7 +96,7 @@ fn played(
         );
         let present = state.tools.iter().filter(|tool| tool.pose.is_some());
         present.for_each(|tool| performance.add(&tool.row));
-        if matches!(performance.status(), Status::Over { .. }) {
+        if matches!(performance.status(), Status::Ended { .. }) {
             break;
         }
     }
@@ -125,7 +125,7 @@ fn demonstrated(seed: u64, nodes: usize) -> Result<(), String> {
         score.duration, score.outcome
     );
     let is_clean = errors.force_limit + errors.drops == 0;
-    let passes = score.outcome.passed() == Some(true) && status == Status::Over { late: false };
+    let passes = score.outcome.passed() == Some(true) && status == Status::Ended { late: false };
     match passes && is_clean && score.duration > 10.0 {
         true => Ok(()),
         false => Err(format!("{seed}: {status:?} {:?} {errors:?}", score.outcome)),
@@ -197,7 +197,7 @@ fn without_lifting_nothing_is_touched() {
             vec![left, Some(right)]
         });
         println!("{seed}: {status:?} {:?} {:?}", score.outcome, score.errors);
-        assert_eq!(status, Status::Over { late: true }, "{seed}");
+        assert_eq!(status, Status::Ended { late: true }, "{seed}");
         assert_eq!(score.outcome.passed(), Some(false), "{seed}");
         let measures = score.measures();
         let held = measures.iter().find(|own| own.key == "held_s").unwrap();
@@ -289,7 +289,7 @@ fn a_touch_counts_while_the_organ_is_out_of_the_way() {
         ..row(0.0, Vec3::x() * x)
     };
     let part = |status: Status| match status {
-        Status::GoesOn {
+        Status::InProgress {
             part: Some(part),
             advice: Some(advice),
         } => (part, advice.cue),
@@ -329,7 +329,7 @@ fn a_touch_counts_while_the_organ_is_out_of_the_way() {
     let slips = [Some(Event::GripRelease), None];
     assert_eq!(part(second(slips, touches, 0.3).0).1, Cue::Grasp);
     let (status, outcome) = second([Some(Event::Grip), None], touches, 0.3);
-    assert_eq!(status, Status::Over { late: false });
+    assert_eq!(status, Status::Ended { late: false });
     assert_eq!(outcome.passed(), Some(true));
     for (right, pull) in [(right(0.004, 0.6, false), 0.3), (touches, 1.1)] {
         let mut harmed = Performance::new(&task, &tools);
@@ -339,7 +339,7 @@ fn a_touch_counts_while_the_organ_is_out_of_the_way() {
             ..row(0.0, Vec3::zeros())
         });
         harmed.add(&SessionRow { tool: 1, ..right });
-        assert_eq!(harmed.status(), Status::Over { late: false });
+        assert_eq!(harmed.status(), Status::Ended { late: false });
         assert_eq!(harmed.score().outcome.passed(), Some(false));
     }
 }

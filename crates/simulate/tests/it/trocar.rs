@@ -399,7 +399,9 @@ fn a_pause_and_an_emergency_stop_leave_nothing_of_the_wall() {
         let samples: Vec<Sample> = hands.samples(0).collect();
         assert_eq!(samples.len(), ticks);
         let last = samples[ticks - 1];
-        let forces = samples.iter().flat_map(|sample| [sample.held, sample.sent]);
+        let forces = samples
+            .iter()
+            .flat_map(|sample| [sample.applied, sample.output]);
         (
             forces.map(|force| force.norm()).fold(0.0, f64::max),
             last.stage,

@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use palpate_files::recording::{RecordingHeader, RecordingRow};
 use palpate_files::{Claim, Error, Overwrite, unfinished};
-use palpate_measure::live::{Commission, Unwritten};
+use palpate_measure::live::{RecordingRequest, Unwritten};
 use palpate_measure::{DepthTrajectory, Recorded, RigSettings, recording_name, stimulus_name};
 
 use super::curves::{force_over_depth, relaxation};
@@ -76,7 +76,7 @@ impl Journal {
         settings: &RigSettings,
         specimen: &RecordingHeader,
         place: usize,
-    ) -> Commission {
+    ) -> RecordingRequest {
         let stimulus = stimulus_name(&trajectory.stimulus());
         let mut repeat = 0;
         let file = loop {
@@ -99,7 +99,7 @@ impl Journal {
                 repeat,
             },
         });
-        Commission {
+        RecordingRequest {
             number: self.last,
             file,
             header: settings.describe(specimen, trajectory, repeat),
@@ -123,7 +123,7 @@ impl Journal {
 
     /// Takes a recording that could not be written; its samples stay in memory.
     pub(super) fn keep_unsaved(&mut self, unwritten: Unwritten) {
-        let number = unwritten.commission.number;
+        let number = unwritten.request.number;
         let Some(place) = self.asked.iter().position(|asked| asked.number == number) else {
             return;
         };
@@ -197,7 +197,7 @@ impl Journal {
 /// Writes a recording into another folder, over nothing that is there.
 fn written(unwritten: &Unwritten, folder: &Path) -> Result<Recorded, Error> {
     let claim = Claim::of_folder(folder, Overwrite::Refused)?;
-    let name = unwritten.commission.file.file_name().unwrap_or_default();
+    let name = unwritten.request.file.file_name().unwrap_or_default();
     claim.check([Path::new(name)])?;
     unwritten.write_to(&folder.join(name))
 }
@@ -234,7 +234,7 @@ mod tests {
         let number = commission.number;
         let name = commission.file.file_name().unwrap().to_owned();
         journal.keep_unsaved(Unwritten {
-            commission,
+            request: commission,
             rows: [[0.0, 0.0, 0.1], [0.001, 1e-4, 0.2]]
                 .map(RecordingRow::from)
                 .into(),

@@ -183,7 +183,7 @@ impl Attempt {
         if !matches!(self.phase, Phase::GoesOn(_)) {
             return;
         }
-        self.has_begun |= row.events.contains(Event::BeginAnew);
+        self.has_begun |= row.events.contains(Event::Restart);
         if !self.has_begun {
             return;
         }
@@ -279,11 +279,11 @@ impl Attempt {
             self.ghosts = tutor.follow(&tips);
         }
         match self.status() {
-            Status::Over { late } => {
+            Status::Ended { late } => {
                 self.end(play, late);
                 true
             }
-            Status::GoesOn { .. } => false,
+            Status::InProgress { .. } => false,
         }
     }
 

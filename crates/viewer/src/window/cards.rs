@@ -243,7 +243,7 @@ fn goes_on(
         });
     });
     gauge(ui, attempt);
-    if let Status::GoesOn {
+    if let Status::InProgress {
         part: Some(part), ..
     } = attempt.status()
     {
@@ -290,7 +290,7 @@ fn gauge(ui: &mut Ui, attempt: &Attempt) {
                 tolerance_n,
                 ..
             },
-            Status::GoesOn { advice, .. },
+            Status::InProgress { advice, .. },
         ) => {
             let (force, cue) = advice.map_or((0.0, Cue::More), |own| (own.force, own.cue));
             let band = [force_n - tolerance_n, force_n + tolerance_n, 2.0 * force_n];
@@ -298,7 +298,7 @@ fn gauge(ui: &mut Ui, attempt: &Attempt) {
         }
         (
             Goal::Touch(touch),
-            Status::GoesOn {
+            Status::InProgress {
                 advice: Some(own), ..
             },
         ) => {

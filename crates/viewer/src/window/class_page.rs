@@ -240,7 +240,7 @@ mod tests {
 
     use super::super::training::{TraineeProgress, TraineeStanding};
     use super::*;
-    use crate::window::seen::Seen;
+    use crate::window::test_page::Seen;
 
     /// Judge: the accessibility tree.
     #[test]

@@ -45,7 +45,7 @@ mod tests {
     use eframe::egui::accesskit::Role;
 
     use super::*;
-    use crate::window::seen::Seen;
+    use crate::window::test_page::Seen;
 
     /// Judge: the accessibility tree that the window gives, and what a person clicks in it.
     #[test]

@@ -11,8 +11,8 @@ use eframe::{App, CreationContext, Frame};
 use palpate_files::scene::Task;
 use palpate_files::{Language, Scene, Settings};
 
-use super::seen::Seen;
 use super::settings::{CacheUse, NamedFolder, SettingsKeeper, WindowSettings};
+use super::test_page::Seen;
 use super::texts::text;
 use super::training::{
     Assigned, Class, NewAssignment, OfferedTask, PastResult, TaskPicture, TaskProgress,

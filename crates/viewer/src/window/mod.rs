@@ -10,7 +10,6 @@
 //!
 //! [`Interaction`]: palpate_simulate::interactive::Interaction
 
-mod absence;
 mod actions;
 mod attempt;
 mod cards;
@@ -32,20 +31,21 @@ mod overlay;
 mod page;
 mod panel;
 mod picture;
+mod placeholder;
 mod play;
 mod preparation;
 mod rates;
 mod render_quality;
 mod results;
-#[cfg(test)]
-mod seen;
 pub mod settings;
 mod settings_page;
 mod shown_picture;
 mod source;
+#[cfg(test)]
+mod test_page;
 mod texts;
 mod timeline;
-mod trained;
+mod trainer;
 pub mod training;
 
 use std::path::PathBuf;

@@ -405,7 +405,7 @@ impl OrganView {
             .filter_map(|((tool, seen), model)| {
                 let pose = seen.pose?;
                 let picture = ToolPicture::new(tool, pose.position_m, seen.orientation)
-                    .looking_like(model.look.as_ref())
+                    .looking_like(model.display_mesh.as_ref())
                     .gripping(pose.grip);
                 Some(match seen.contact {
                     Some(contact) => picture.touching(contact.point),
@@ -432,7 +432,7 @@ impl OrganView {
             }
             None => play
                 .organ
-                .deform(gpu, &snapshot.vertices, snapshot.whole.as_ref()),
+                .deform(gpu, &snapshot.vertices, snapshot.organ_field.as_ref()),
         }
         let bodies: Vec<&Body> = play.organ.bodies().chain(&play.neighbours).collect();
         if let Some((target, _)) = &self.target {

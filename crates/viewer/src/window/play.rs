@@ -13,8 +13,8 @@ use super::PlayedSession;
 use super::covered::is_covered;
 use super::hands::Hand;
 use super::source::{Playback, Source};
+use crate::displayed_organ::SeenOrgan;
 use crate::render::{Body, Tint};
-use crate::seen_organ::SeenOrgan;
 use crate::{Error, Gpu};
 
 /// Request of a key to the model.

@@ -199,7 +199,7 @@ mod tests {
 
     use super::super::settings::SettingsKeeper;
     use super::*;
-    use crate::window::seen::Seen;
+    use crate::window::test_page::Seen;
 
     /// Keeps settings in memory, until the disk is full.
     struct Memory {

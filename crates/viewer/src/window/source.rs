@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use palpate_files::SessionRow;
 use palpate_simulate::interactive::{
-    Interaction, ModelCommand, ModelReport, Quality, Snapshot, Unwritten,
+    Interaction, ModelCommand, ModelReport, Quality, RecordingFailure, Snapshot,
 };
 use palpate_simulate::{Replay, SessionFolderWriter, Simulation};
 
@@ -121,9 +121,9 @@ impl Source {
     }
 
     /// Why the rows of the recording can no longer be written, if they cannot.
-    pub(super) fn unwritten(&self) -> Option<Unwritten> {
+    pub(super) fn unwritten(&self) -> Option<RecordingFailure> {
         match self {
-            Self::Touched(interaction) => interaction.unwritten(),
+            Self::Touched(interaction) => interaction.recording_failure(),
             Self::Again(_) => None,
         }
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::igor::{DEFLECTIONS, POSITIONS, VOLTS};
 use super::igor_wave::columns;
-use crate::whole_file::{MOST_OF_TABLE, read_bytes};
+use crate::atomic_write::{MOST_OF_TABLE, read_bytes};
 
 /// The file with the position of the base that belongs to the file of a deflection; none where there is no such file.
 pub fn position_beside(deflection: &Path) -> Option<PathBuf> {

@@ -23,7 +23,7 @@ use std::path::Path;
 pub use igor_pair::{deflection_beside, position_beside};
 
 use super::{ForeignColumns, Origin, Recording, RecordingHeader, Samples};
-use crate::whole_file::{MOST_OF_TABLE, read_bytes};
+use crate::atomic_write::{MOST_OF_TABLE, read_bytes};
 use crate::{Domain, Error};
 
 /// Samples of all curves of one file that are read at most [-].
@@ -78,7 +78,7 @@ impl Recording {
         }
         let recording = match columns.names_any() || !Self::states_format(text) {
             true => Self::parse_foreign(text, path, columns)?,
-            false => Self::parse(&crate::whole_file::text(bytes.to_vec(), path)?, path)?,
+            false => Self::parse(&crate::atomic_write::text(bytes.to_vec(), path)?, path)?,
         };
         Ok(vec![recording])
     }

@@ -6,7 +6,7 @@ mod of_recordings;
 
 pub(crate) use of_recordings::all_samples;
 
-use palpate_characterize::inverse::SoughtLaw;
+use palpate_characterize::inverse::CandidateLaw;
 use palpate_characterize::lumped::PieceTest;
 use palpate_files::quantity::quantity;
 use palpate_files::recording::RecordingHeader;
@@ -161,7 +161,7 @@ fn spread(from: f64, to: f64) -> impl Iterator<Item = f64> {
 }
 
 /// The key of a law in the answer.
-fn key(law: SoughtLaw) -> String {
+fn key(law: CandidateLaw) -> String {
     law.name().word().to_owned()
 }
 

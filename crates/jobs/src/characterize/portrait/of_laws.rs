@@ -1,6 +1,6 @@
 use palpate_characterize::Characterization;
 use palpate_characterize::fit::Fit;
-use palpate_characterize::inverse::{LawDescription, SoughtLaw};
+use palpate_characterize::inverse::{CandidateLaw, LawDescription};
 use palpate_characterize::lumped::UniaxialFit;
 
 use super::{DrawnLaw, key};
@@ -33,7 +33,7 @@ fn of_piece(law: &UniaxialFit) -> DrawnLaw {
     described(law.law, &law.fit, way.collect())
 }
 
-fn described(law: SoughtLaw, fit: &Fit, iterations: Vec<Vec<f64>>) -> DrawnLaw {
+fn described(law: CandidateLaw, fit: &Fit, iterations: Vec<Vec<f64>>) -> DrawnLaw {
     let steps = fit.iterations.iter();
     DrawnLaw {
         law: key(law),

@@ -19,7 +19,7 @@ use super::{
 use crate::Error;
 use crate::VERSION;
 use crate::plot::Plot;
-use crate::solve::telling::ProgressReporter;
+use crate::solve::solver_progress::ProgressReporter;
 
 /// Force at each depth, or at each time of a ramp.
 pub(crate) fn solution(

@@ -384,7 +384,7 @@ fn rim_in([a, b, c]: &[Vec3; 3], anchor: &Region, spacing: f64) -> Vec<Vec3> {
             [[from, right], [from, up], [right, up]]
         })
         .filter(|ends| {
-            let [first, last] = ends.map(|end| anchor.holds(end.into()));
+            let [first, last] = ends.map(|end| anchor.contains(end.into()));
             first != last
         })
         .map(|[first, last]| 0.5 * (first + last))

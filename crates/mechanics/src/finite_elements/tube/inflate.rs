@@ -140,11 +140,11 @@ impl Inflation<'_> {
         let half = 0.5 * self.problem.tube.length;
         let nodes = |z: f64| self.model.mesh().nodes_where(|x| x.y == z);
         let mut supports = Supports::none(self.model)
-            .hold(self.model, nodes(0.0), 1, 0.0)
-            .hold(self.model, nodes(half), 1, 0.0)
+            .fix(self.model, nodes(0.0), 1, 0.0)
+            .fix(self.model, nodes(half), 1, 0.0)
             .press(self.cavity, pressure);
         if self.problem.ends == Ends::Fixed {
-            supports = supports.hold(self.model, nodes(half), 0, 0.0);
+            supports = supports.fix(self.model, nodes(half), 0, 0.0);
         }
         supports
     }

@@ -29,7 +29,6 @@ mod cholesky;
 mod curvature;
 mod facet;
 mod gradient;
-mod judged;
 mod kernel;
 mod load;
 mod near;
@@ -37,6 +36,7 @@ mod plate;
 mod shell;
 mod spring;
 mod traction;
+mod warnings;
 
 use palpate_geometry::TriangleId;
 
@@ -49,8 +49,8 @@ use facet::Facet;
 pub use facet::{CutBody, SlitFacet};
 use gradient::{Gradient, MOST};
 pub use load::{SlitJumps, SlitLoad};
+pub use traction::{DiscForce, RIM_COMPLIANCE};
 use traction::{Loaded, MODES, Near, Part, triangles_near};
-pub use traction::{RIM_COMPLIANCE, Spot};
 
 /// Near triangles that are known to a facet at most.
 const MOST_NEAR: usize = 320;
@@ -127,11 +127,11 @@ impl<T: Precision> Slit<T> {
     /// changed then.
     pub fn open(&mut self, body: &CutBody<'_, T>, asked: &SlitFacet) -> Result<(), Error> {
         if self.facets.len() == self.most {
-            return Err(Error::SlitIsFull { most: self.most });
+            return Err(Error::SlitTooLarge { most: self.most });
         }
         let triangles = body.response.parts().triangles;
         if 3 * triangles != self.width || body.surface.mesh().triangles().len() != triangles {
-            return Err(Error::UnsoundSlit {
+            return Err(Error::InvalidSlit {
                 fault: "its organ has another number of triangles",
             });
         }

@@ -41,7 +41,7 @@ pub(super) const MODES: usize = 5;
 
 /// A force that is spread over a disc, wherever its triangles are.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Spot {
+pub struct DiscForce {
     /// Its middle, at rest [m].
     pub place: Vec3,
     /// Outward unit normal there [-].
@@ -171,7 +171,7 @@ impl Facet {
         &self,
         medium: Medium<'_>,
         reach: f64,
-        spot: &Spot,
+        spot: &DiscForce,
     ) -> Option<(f64, [Vec3; MODES])> {
         let seen = self.sees(reach, &spot.place, &spot.normal)?;
         let [x, y] = seen.at;
@@ -220,7 +220,7 @@ impl Facet {
 
     /// The facet's part of a spot's rim [-], and the compliance that a deep slit adds there along the axes of
     /// space [1/m].
-    pub(super) fn rim_of(&self, reach: f64, spot: &Spot) -> Option<(f64, Matrix3<f64>)> {
+    pub(super) fn rim_of(&self, reach: f64, spot: &DiscForce) -> Option<(f64, Matrix3<f64>)> {
         let seen = self.sees(reach, &spot.place, &spot.normal)?;
         let through = matches!(self.geometry, CrackGeometry::Wall { part, .. } if part >= 1.0);
         if seen.face < 0.0 && !through {

@@ -4,7 +4,7 @@ mod report;
 mod table;
 
 use clap::Args;
-use palpate_files::write_whole;
+use palpate_files::write_atomically;
 use palpate_jobs::analyze::analyze;
 use palpate_jobs::json_text;
 use std::path::PathBuf;
@@ -60,11 +60,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     drop(progress);
     let unbroken = Unbroken::begin();
     if let Some(out) = &arguments.out {
-        write_whole(out, json_text(&analyzed)?.as_bytes())?;
+        write_atomically(out, json_text(&analyzed)?.as_bytes())?;
     }
     if let Some(page) = &arguments.report {
         let html = report::html(&analyzed, &recordings.said());
-        write_whole(page, html.as_bytes())?;
+        write_atomically(page, html.as_bytes())?;
     }
     drop(unbroken);
     if arguments.json {

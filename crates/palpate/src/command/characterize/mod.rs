@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use palpate_files::tissue::LawName;
-use palpate_files::{Tissue, write_whole};
+use palpate_files::{Tissue, write_atomically};
 use palpate_jobs::Error;
 use palpate_jobs::characterize::{Choice, StudyFolder, characterize};
 
@@ -145,7 +145,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     arguments.write(found.tissues)?;
     if let Some(path) = &arguments.report {
         let page = report::html(&answer, &found.portraits, &arguments.settings());
-        write_whole(path, page.as_bytes())?;
+        write_atomically(path, page.as_bytes())?;
     }
     drop(unbroken);
     if arguments.json {
@@ -216,13 +216,13 @@ impl Arguments {
         })?;
         let text = only?;
         if let Some(path) = &self.out {
-            write_whole(path, text.as_bytes())?;
+            write_atomically(path, text.as_bytes())?;
         }
         let card = |to_card: fn(&Tissue) -> Result<String, palpate_files::card::NoCard>,
                     path: &PathBuf| {
             let tissue = Tissue::parse(&text, path)?;
             let card = to_card(&tissue)?;
-            write_whole(path, card.as_bytes()).map_err(Failure::from)
+            write_atomically(path, card.as_bytes()).map_err(Failure::from)
         };
         if let Some(path) = &self.abaqus {
             card(Tissue::to_abaqus, path)?;

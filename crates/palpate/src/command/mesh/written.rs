@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use palpate_files::write_whole;
+use palpate_files::write_atomically;
 use palpate_geometry::{LengthUnit, ReadError, Repairs, TriangleMesh, WriteFormat};
 use serde::Serialize;
 
@@ -43,7 +43,7 @@ impl Output {
     pub(super) fn write(self, mesh: &TriangleMesh) -> Result<Written, Failure> {
         let bytes = self.format.bytes(mesh, self.unit);
         let _unbroken = Unbroken::begin();
-        write_whole(&self.path, &bytes)?;
+        write_atomically(&self.path, &bytes)?;
         Ok(Written {
             file: self.path,
             unit: self.unit.symbol(),

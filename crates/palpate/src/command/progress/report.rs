@@ -1,7 +1,7 @@
 //! `--report`: trainees' progress as a page for people.
 
-use super::course::{JudgedAttempt, LearningCurve, Trainee};
 use super::curves::{self, TRAINEES};
+use super::learning_curves::{JudgedAttempt, LearningCurve, Trainee};
 use super::table::{NONE, proficient, shown, standing, truth, valued};
 use crate::date;
 use crate::report::{Markup, Page, Table, count, figure, provenance, quantity, warning_list};

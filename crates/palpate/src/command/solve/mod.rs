@@ -140,7 +140,7 @@ fn write(arguments: &Arguments, answer: &Answer) -> Result<(), Failure> {
         solution.plot.write(path)?;
     }
     if let (Some(path), Some(bytes)) = (&arguments.vtu, &solution.vtu) {
-        palpate_files::write_whole(path, bytes)?;
+        palpate_files::write_atomically(path, bytes)?;
     }
     if let (Some(path), Some(recording)) = (&arguments.recording, &solution.recording) {
         recording.write(path)?;
@@ -150,7 +150,7 @@ fn write(arguments: &Arguments, answer: &Answer) -> Result<(), Failure> {
     }
     if let Some(path) = &arguments.out {
         let json = json_text(answer)? + "\n";
-        palpate_files::write_whole(path, json.as_bytes())?;
+        palpate_files::write_atomically(path, json.as_bytes())?;
     }
     Ok(())
 }

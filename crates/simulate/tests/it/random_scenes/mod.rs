@@ -112,7 +112,7 @@ fn played(number: u64, scene: &Scene, simulation: &Simulation) -> Played {
                 *events.entry(event.word()).or_default() += 1;
             }
         }
-        Ok(Flow::GoOn)
+        Ok(Flow::Continue)
     });
     let summary = summary.unwrap_or_else(|error| panic!("scene {number}: {error}"));
     let tools: Vec<_> = scene.tools.iter().map(|tool| tool.kind.word()).collect();

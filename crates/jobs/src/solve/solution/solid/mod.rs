@@ -24,7 +24,7 @@ use super::figures::{
 };
 use super::{Solution, Wanted, plots, warnings};
 use crate::Error;
-use crate::solve::telling::ProgressReporter;
+use crate::solve::solver_progress::ProgressReporter;
 
 /// Displacement over the length of a body above which a linear law gets a warning [-].
 const LARGE_WAY: f64 = 0.05;

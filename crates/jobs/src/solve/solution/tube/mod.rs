@@ -11,7 +11,7 @@ use super::super::table::Table;
 use super::figures::TubeFigures;
 use super::{Figures, Solution, Wanted, plots};
 use crate::Error;
-use crate::solve::telling::ProgressReporter;
+use crate::solve::solver_progress::ProgressReporter;
 
 /// Widening of the tube under each pressure.
 pub(crate) fn solution(

@@ -11,12 +11,12 @@ use crate::partial::Partial;
 ///
 /// # Errors
 /// When the operating system refuses; a file at `path` is then unchanged, and no other file is left.
-pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), Error> {
-    write_whole_by(path, |file| file.write_all(bytes))
+pub fn write_atomically(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), Error> {
+    write_atomically_with(path, |file| file.write_all(bytes))
 }
 
-/// As [`write_whole`], with the output of `put`.
-pub(crate) fn write_whole_by(
+/// As [`write_atomically`], with the output of `put`.
+pub(crate) fn write_atomically_with(
     path: impl AsRef<Path>,
     put: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Error> {
@@ -43,7 +43,7 @@ pub(crate) fn is_replaced(path: &Path) -> io::Result<bool> {
 }
 
 /// The largest document of keys that is read [bytes]: a scene, a tissue, a protocol, a problem.
-pub const MOST_OF_DOCUMENT: u64 = 4 << 20;
+pub const MAX_DOCUMENT_BYTES: u64 = 4 << 20;
 
 /// The largest table of numbers that is read [bytes]: a recording, a motion, a session. An hour of two tools at 1 kHz
 /// has 1.4 GB.
@@ -133,8 +133,8 @@ mod tests {
     fn no_temporary_file_is_left() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("summary.json");
-        write_whole(&path, b"{}").unwrap();
-        write_whole(&path, b"{\"a\": 1}").unwrap();
+        write_atomically(&path, b"{}").unwrap();
+        write_atomically(&path, b"{\"a\": 1}").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"{\"a\": 1}");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
@@ -142,9 +142,9 @@ mod tests {
     #[test]
     fn a_missing_folder_is_the_callers_mistake() {
         let folder = tempfile::tempdir().unwrap();
-        let error = write_whole(folder.path().join("no/such.json"), b"").unwrap_err();
+        let error = write_atomically(folder.path().join("no/such.json"), b"").unwrap_err();
         assert!(error.is_input(), "{error}");
-        assert!(write_whole(folder.path(), b"").is_err());
+        assert!(write_atomically(folder.path(), b"").is_err());
     }
 
     #[test]

@@ -15,7 +15,7 @@ use std::fs;
 use std::path::Path;
 
 use palpate_files::tissue::LawName;
-use palpate_files::{MOST_OF_DOCUMENT, Tissue, read_text, write_whole};
+use palpate_files::{MAX_DOCUMENT_BYTES, Tissue, read_text, write_atomically};
 use palpate_measure::{Error, VirtualSpecimen};
 use palpate_mechanics::IndentationCurve;
 use sha2::{Digest, Sha256};
@@ -58,7 +58,7 @@ fn write(file: &Path, text: &str) {
         && fs::create_dir_all(folder).is_ok()
     {
         // Without it the next run solves for a minute again.
-        let _ = write_whole(file, text.as_bytes());
+        let _ = write_atomically(file, text.as_bytes());
     }
 }
 
@@ -72,7 +72,7 @@ fn print(key: &str, curve: &IndentationCurve) -> String {
 }
 
 fn read(file: &Path, key: &str) -> Option<IndentationCurve> {
-    parse(&read_text(file, MOST_OF_DOCUMENT).ok()?, key)
+    parse(&read_text(file, MAX_DOCUMENT_BYTES).ok()?, key)
 }
 
 /// The curve in `text`; none when it belongs to another key or is incomplete.

@@ -117,7 +117,7 @@ impl HeldWorkspace {
             return;
         }
         self.bounded[number] = Some(Reached {
-            asked: coupling,
+            unbounded: coupling,
             used: MOST_CARRIED,
         });
         let part = MOST_CARRIED / coupling;
@@ -468,7 +468,7 @@ mod tests {
         held.fixes = vec![quarter * 16.0, quarter, quarter.transpose(), quarter * 2.0];
         held.bound(0, 2, &yields);
         held.bound(1, 2, &yields);
-        assert!((held.bounded(0).unwrap().asked - 2.0).abs() < 1e-12);
+        assert!((held.bounded(0).unwrap().unbounded - 2.0).abs() < 1e-12);
         assert!(held.bounded(1).is_none());
         let left = yields - held.fixes(0, 0, 2);
         assert!(left.symmetric_eigenvalues().min() > 0.0);

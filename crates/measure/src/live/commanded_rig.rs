@@ -16,7 +16,7 @@ pub enum RigEvent {
     /// The rig dropped a command from before a stop.
     Dropped(RigCommand),
     /// The rig failed while it waited.
-    Disturbed(Error),
+    Failed(Error),
     /// Forces are off.
     Faulted(Fault),
     /// Forces are on again.
@@ -140,7 +140,7 @@ impl Operated {
             RigCommand::Approach => rig.approach(&mut on_sample),
             RigCommand::Press(trajectory, number) => {
                 let mut is_enough = false;
-                let ended = rig.press_and_tell(&trajectory, &mut |sample| {
+                let ended = rig.press_with_listener(&trajectory, &mut |sample| {
                     let goes_on = on_sample(sample);
                     is_enough = goes_on && switches.is_enough(number);
                     goes_on && !is_enough
@@ -168,7 +168,7 @@ impl Operated {
             true
         });
         if let Err(error) = waited {
-            self.events.add(RigEvent::Disturbed(error));
+            self.events.add(RigEvent::Failed(error));
             self.fail();
         }
     }
@@ -195,7 +195,7 @@ impl Operated {
             self.rig.arm();
         }
         let Self { rig, events, .. } = self;
-        let live = rig.limp(&mut |sample| {
+        let live = rig.tick_without_force(&mut |sample| {
             events.add(RigEvent::Sample(*sample));
             watch(sample);
             true

@@ -17,7 +17,7 @@ const LEAP: f64 = 5.0;
 
 impl NonlinearOrgan {
     /// Whether the force of a tool is more than any tissue withstands, or jumps: the step had no solution.
-    pub(super) fn is_unsound(
+    pub(super) fn is_invalid(
         &self,
         tools: &[Tool],
         body: &Body,

@@ -13,7 +13,7 @@ const PATHS: [&str; 5] = ["mesh", "surface", "tissue", "expert", "picture"];
 ///
 /// # Errors
 /// When the text is no TOML.
-pub fn standing_alone(text: &str, path: impl AsRef<Path>) -> Result<String, Error> {
+pub fn self_contained(text: &str, path: impl AsRef<Path>) -> Result<String, Error> {
     let path = path.as_ref();
     // The name of a file alone has an empty folder, which has no absolute path.
     let folder = path.parent().unwrap_or(Path::new("")).join(".");

@@ -11,7 +11,7 @@ use crate::history::History;
 
 /// State of a running rig.
 #[derive(Debug, Default)]
-pub(super) struct Watch {
+pub(super) struct RigState {
     pub(super) now: Option<RigSample>,
     /// Force, and the way down from where the rig began.
     pub(super) history: History,
@@ -46,7 +46,7 @@ pub(super) struct Shown {
     pub(super) arming: bool,
 }
 
-impl Watch {
+impl RigState {
     pub(super) fn new(stops_at: Option<f64>) -> Self {
         let mut watch = Self::default();
         watch.online.stops_at = stops_at;
@@ -134,7 +134,7 @@ impl Watch {
                 }
             }
             ConsoleEvent::Dropped(command) => self.done_with(command, journal),
-            ConsoleEvent::Disturbed(error) => self.notice = Some(error.to_string()),
+            ConsoleEvent::Failed(error) => self.notice = Some(error.to_string()),
             ConsoleEvent::Faulted(fault) => {
                 self.fault = Some(Shown {
                     sentence: fault.to_string(),
@@ -182,8 +182,10 @@ impl Watch {
             return "starting";
         };
         match (now.phase, self.doing) {
-            (Phase::Limp, _) if self.fault.as_ref().is_some_and(|fault| fault.arming) => "arming",
-            (Phase::Limp, _) => "no force",
+            (Phase::ForceOff, _) if self.fault.as_ref().is_some_and(|fault| fault.arming) => {
+                "arming"
+            }
+            (Phase::ForceOff, _) => "no force",
             (Phase::Jogging, _) => "by hand",
             (Phase::Approaching, _) | (_, Some((RigCommand::Approach, _))) => "approaching",
             (Phase::Withdrawing, _) => "withdrawing",

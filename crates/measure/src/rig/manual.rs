@@ -147,17 +147,20 @@ impl Rig {
         let settings = &self.settings;
         let lowest = match self.contact {
             Some(contact) => contact - settings.depth_limit,
-            None => -settings.approach_way,
+            None => -settings.approach_distance,
         };
         let to_line = Line::through(to, self.line.normal);
         // Where it is already is never out of reach.
-        let along = [lowest.min(self.aim), settings.approach_way.max(self.aim)];
+        let along = [
+            lowest.min(self.aim),
+            settings.approach_distance.max(self.aim),
+        ];
         check_within("along the normal", self.line.height(to), along, ROUNDED)?;
         let sideways = [0.0, settings.lateral_limit.max(self.line.side.norm())];
         check_within("sideways", to_line.side.norm(), sideways, ROUNDED)
     }
 
-    /// Lets forces on again after a fault; until they are, the rig is [`limp`](Self::limp).
+    /// Lets forces on again after a fault; until they are, the rig is [`tick_without_force`](Self::tick_without_force).
     pub fn arm(&self) {
         self.supervisor.arm();
     }
@@ -166,14 +169,14 @@ impl Rig {
     ///
     /// # Errors
     /// When the device does not answer.
-    pub fn limp(&mut self, listener: Listener<'_>) -> Result<bool, Fault> {
+    pub fn tick_without_force(&mut self, listener: Listener<'_>) -> Result<bool, Fault> {
         self.hold_breath(false);
         let reference = Reference {
             position: self.line.at(self.aim),
             velocity: Vec3::zeros(),
             driven: false,
         };
-        let sample = self.exchange(Phase::Limp, reference)?;
+        let sample = self.exchange(Phase::ForceOff, reference)?;
         self.line = Line::through(&sample.position, self.line.normal);
         self.aim = sample.height;
         listener(&sample);

@@ -13,7 +13,8 @@ use palpate_mechanics::surface_response::TouchId;
 use super::enhanced_surface::DisplayedContact;
 use super::{GlobalModel, GlobalWorkspace};
 use crate::grip::{
-    DisplayedHold, Held, HeldPart, HeldPatch, HeldTriangle, Hold, MOST_PARTS, MOST_TRIANGLES, Swept,
+    DisplayedHold, Grasp, Grasped, HeldPart, HeldPatch, HeldTriangle, MOST_PARTS, MOST_TRIANGLES,
+    Swept,
 };
 use crate::simulation::Simulation;
 use crate::state::ToolState;
@@ -63,9 +64,9 @@ impl GlobalModel {
         loop {
             (tools[number].contact, tools[number].site) = (None, None);
             let hold = |patch: &HeldPatch, displayed, tools: &mut [ToolState]| {
-                let held = Held::Patch(patch.clone());
+                let held = Grasped::Patch(patch.clone());
                 tools[number].grip.hold =
-                    Some(Hold::new(&swept, pressed, thickness, held, displayed));
+                    Some(Grasp::new(&swept, pressed, thickness, held, displayed));
             };
             let nowhere =
                 before.map_or_else(|| self.displayed(simulation, &patch), DisplayedHold::of);
@@ -113,7 +114,7 @@ impl GlobalModel {
                 let corners = corners.map(|corner| swept.inside_of_tool(&(corner + by)));
                 let place = corners.iter().sum::<Vec3>() / 3.0;
                 let lies_between = match large {
-                    false => swept.holds(&place),
+                    false => swept.contains(&place),
                     true => swept.reaches(&corners),
                 };
                 if !lies_between || !is_free(touch) {

@@ -3,9 +3,9 @@ use palpate_geometry::{Surface, Vec3};
 use palpate_simulate::interactive::OpenedSnapshot;
 use palpate_simulate::{EnhancedSurface, OrganField, Simulation};
 
+use crate::displayed_cut::{CutLayers, SeenCut};
 use crate::render::ambient_light::ambient_light;
 use crate::render::{Body, Tint, single_precision};
-use crate::seen_cut::{CutLayers, SeenCut};
 use crate::{Error, Gpu};
 
 /// How deep and how wide a cut is that somebody shows on an organ which nothing cuts [m].

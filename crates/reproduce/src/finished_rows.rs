@@ -4,7 +4,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::PathBuf;
 
-use palpate_jobs::Watch;
+use palpate_jobs::ProgressCallback;
 
 use super::Row;
 use crate::Error;
@@ -28,7 +28,7 @@ impl KeptRows {
     ///
     /// # Errors
     /// When the operating system refuses.
-    pub fn keep(&mut self, rows: &[Row], watch: &dyn Watch) -> Result<(), Error> {
+    pub fn keep(&mut self, rows: &[Row], watch: &dyn ProgressCallback) -> Result<(), Error> {
         if rows.is_empty() {
             return Ok(());
         }
@@ -40,7 +40,7 @@ impl KeptRows {
             lines.push('\n');
         }
         let mut written = Ok(());
-        watch.unbroken(&mut || written = self.append(&lines));
+        watch.without_cancellation(&mut || written = self.append(&lines));
         written.map_err(|source| {
             let path = self.path.clone();
             palpate_files::Error::Write { path, source }.into()

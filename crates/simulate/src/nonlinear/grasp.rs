@@ -5,7 +5,7 @@ use super::soft::Piece;
 use super::target::Now;
 use super::{Body, NonlinearOrgan, REACH_IN_RADII, jaws_radius};
 use crate::contact;
-use crate::grip::{DisplayedHold, Held, HeldArea, Hold, Swept};
+use crate::grip::{DisplayedHold, Grasp, Grasped, HeldArea, Swept};
 use crate::simulation::Simulation;
 use crate::state::SimulationState;
 
@@ -46,7 +46,7 @@ impl NonlinearOrgan {
             return false;
         };
         let offset = -(compliance * now.force);
-        let held = Held::Area(HeldArea {
+        let held = Grasped::Area(HeldArea {
             frame,
             offset: swept.turned.inverse() * offset,
             force: swept.turned.inverse() * now.force,
@@ -59,7 +59,7 @@ impl NonlinearOrgan {
         };
         let area = Swept::face(&jaws);
         let own = &mut state.tools[number];
-        own.grip.hold = Some(Hold::new(&swept, area, jaws.opening_m, held, displayed));
+        own.grip.hold = Some(Grasp::new(&swept, area, jaws.opening_m, held, displayed));
         own.displaced = now.mean;
         own.solved = own.elastic;
         true

@@ -13,7 +13,7 @@ pub(crate) const MOST_TRIANGLES: usize = 64;
 
 /// Tissue between jaws: it moves rigidly with the tool, except for its slip.
 #[derive(Debug, Clone)]
-pub(crate) struct Hold {
+pub(crate) struct Grasp {
     /// The tip [m] and the tool's rotation, at the start of the grasp and now.
     began: (Vec3, UnitQuaternion<f64>),
     now: (Vec3, UnitQuaternion<f64>),
@@ -23,7 +23,7 @@ pub(crate) struct Hold {
     pub(crate) area: f64,
     /// Thickness of the tissue between the jaws, uncompressed [m].
     pub(crate) thickness: f64,
-    pub(crate) held: Held,
+    pub(crate) grasped: Grasped,
     pub(crate) displayed: DisplayedHold,
 }
 
@@ -33,7 +33,7 @@ pub(crate) struct Hold {
     clippy::large_enum_variant,
     reason = "a step that takes hold allocates nothing"
 )]
-pub(crate) enum Held {
+pub(crate) enum Grasped {
     /// A patch of the organ-scale model.
     Patch(HeldPatch),
     /// A place of the local model.
@@ -96,12 +96,12 @@ pub(crate) struct DisplayedHold {
     pub(crate) displaced: Vec3,
 }
 
-impl Hold {
+impl Grasp {
     pub(crate) fn new(
         swept: &Swept,
         area: f64,
         thickness: f64,
-        held: Held,
+        held: Grasped,
         displayed: DisplayedHold,
     ) -> Self {
         let began = (swept.tip, swept.turned);
@@ -111,7 +111,7 @@ impl Hold {
             slid: Vec3::zeros(),
             area,
             thickness,
-            held,
+            grasped: held,
             displayed,
         }
     }
@@ -180,9 +180,9 @@ impl Hold {
 
     /// Its patch of the organ-scale model; none in the local model.
     pub(crate) fn patch(&self) -> Option<&HeldPatch> {
-        match &self.held {
-            Held::Patch(patch) => Some(patch),
-            Held::Place(_) | Held::Area(_) => None,
+        match &self.grasped {
+            Grasped::Patch(patch) => Some(patch),
+            Grasped::Place(_) | Grasped::Area(_) => None,
         }
     }
 }

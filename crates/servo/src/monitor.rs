@@ -1,9 +1,9 @@
 //! A thread that monitors the loops of a session from outside, a thousand times a second.
 //!
-//! - A loop whose device has not answered for [`HUNG`] hangs inside a call of the driver. The supervisor takes all
+//! - A loop whose device has not answered for [`HANG_TIMEOUT`] hangs inside a call of the driver. The supervisor takes all
 //!   forces off. The hung device itself is out of reach: its force is unknown, and a person has to cut its power.
 //! - After a request to end the program (Ctrl-C, SIGTERM) all forces are off, whatever its window does.
-//! - The loops monitor the watch in turn: when it is silent, they take their forces off ([`crate::supervisor`]).
+//! - The loops monitor this thread in turn: when it is silent, they take their forces off ([`crate::supervisor`]).
 //!
 //! *How we know*: `watch::…`, and `session_end::…` of the crates `simulate` and `measure`.
 //!
@@ -14,12 +14,12 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use crate::priority::raise_watch_priority;
+use crate::priority::raise_monitor_priority;
 use crate::supervisor::{ForceState, StopReason};
 use crate::{Clock, Fault, Supervisor};
 
 /// Timeout for an answer of a device [s]: many ticks, less than it takes a person to pull a hand away.
-pub const HUNG: f64 = 0.1;
+pub const HANG_TIMEOUT: f64 = 0.1;
 
 /// Additional timeout for the first answer of a device [s].
 const FIRST: f64 = 1.0;
@@ -29,42 +29,42 @@ const PERIOD: Duration = Duration::from_millis(1);
 
 /// Time of the last answer of a loop's device: the loop writes it, the watch reads it.
 #[derive(Debug, Clone)]
-pub struct Pulse(Arc<AtomicU64>);
+pub struct Heartbeat(Arc<AtomicU64>);
 
 /// A loop that is watched.
 #[derive(Debug, Clone)]
-pub struct Watched {
+pub struct MonitoredLoop {
     /// Its name for people, such as the tool and its device.
     pub name: String,
     /// Time of its last tick.
-    pub pulse: Pulse,
+    pub pulse: Heartbeat,
 }
 
 /// The watched loops, and the hung ones.
 #[derive(Debug, Clone)]
-pub struct Watch {
+pub struct LoopMonitor {
     supervisor: Supervisor,
-    loops: Vec<Watched>,
+    loops: Vec<MonitoredLoop>,
     is_ended: fn() -> bool,
     /// Bit mask of the hung loops.
     hung: Arc<AtomicU64>,
 }
 
 /// A watch on its own thread. Dropping it ends the watch, which then takes no force off.
-pub struct WatchThread {
-    watch: Watch,
+pub struct MonitorThread {
+    watch: LoopMonitor,
     stop: Arc<AtomicBool>,
     handle: Option<JoinHandle<()>>,
 }
 
-impl Default for Pulse {
+impl Default for Heartbeat {
     /// For a loop that does not run.
     fn default() -> Self {
         Self(Arc::new(AtomicU64::new(f64::INFINITY.to_bits())))
     }
 }
 
-impl Pulse {
+impl Heartbeat {
     /// The loop ticks at `time` [s].
     pub fn beat(&self, time: f64) {
         self.0.store(time.to_bits(), Ordering::Relaxed);
@@ -85,10 +85,10 @@ impl Pulse {
     }
 }
 
-impl Watch {
+impl LoopMonitor {
     /// A watch over `loops`, 64 at most, of the session of `supervisor`; `is_ended` returns whether the program
     /// received a request to end.
-    pub fn new(supervisor: Supervisor, loops: Vec<Watched>, is_ended: fn() -> bool) -> Self {
+    pub fn new(supervisor: Supervisor, loops: Vec<MonitoredLoop>, is_ended: fn() -> bool) -> Self {
         Self {
             supervisor,
             loops,
@@ -98,22 +98,22 @@ impl Watch {
     }
 
     /// One check at `time` [s] of the loops' clock.
-    pub fn look(&self, time: f64) {
-        let silent = |watched: &Watched| time - watched.pulse.last() > HUNG;
+    pub fn check_loops(&self, time: f64) {
+        let silent = |watched: &MonitoredLoop| time - watched.pulse.last() > HANG_TIMEOUT;
         let bits = self.loops.iter().enumerate();
         let hung = bits.fold(0, |hung, (bit, watched)| {
             hung | u64::from(silent(watched)) << bit
         });
         self.hung.store(hung, Ordering::Relaxed);
-        self.supervisor.report_watch(time);
+        self.supervisor.report_monitor(time);
         if self.supervisor.state() == ForceState::Off {
             return;
         }
         if (self.is_ended)() {
-            self.supervisor.trip_because(StopReason::Signal);
+            self.supervisor.trip_with_reason(StopReason::Signal);
         }
         if hung != 0 {
-            self.supervisor.trip_because(StopReason::HungDevice);
+            self.supervisor.trip_with_reason(StopReason::HungDevice);
         }
     }
 
@@ -137,18 +137,18 @@ impl Watch {
     }
 }
 
-impl WatchThread {
+impl MonitorThread {
     /// Watches on `clock`, which is that of the loops.
     ///
     /// # Errors
     /// When the operating system provides no thread.
-    pub fn start(watch: Watch, clock: Clock) -> Result<Self, Fault> {
+    pub fn start(watch: LoopMonitor, clock: Clock) -> Result<Self, Fault> {
         let stop = Arc::new(AtomicBool::new(false));
         let (stopped, own) = (stop.clone(), watch.clone());
         let run = move || {
-            raise_watch_priority();
+            raise_monitor_priority();
             while !stopped.load(Ordering::Relaxed) {
-                own.look(clock.now());
+                own.check_loops(clock.now());
                 std::thread::sleep(PERIOD);
             }
         };
@@ -162,7 +162,7 @@ impl WatchThread {
     }
 
     /// The watched loops, and the hung ones.
-    pub fn watch(&self) -> &Watch {
+    pub fn watch(&self) -> &LoopMonitor {
         &self.watch
     }
 
@@ -174,12 +174,12 @@ impl WatchThread {
     }
 }
 
-impl Drop for WatchThread {
+impl Drop for MonitorThread {
     fn drop(&mut self) {
         self.stop.store(true, Ordering::Relaxed);
         let ended = self.handle.take().map(JoinHandle::join);
         if matches!(ended, Some(Ok(()))) {
-            self.watch.supervisor.report_watch(f64::INFINITY);
+            self.watch.supervisor.report_monitor(f64::INFINITY);
         }
     }
 }
