@@ -5,7 +5,7 @@ use std::ptr;
 use palpate_geometry::{NodeId, TriangleMesh, Vec3};
 
 use crate::pointers::{self, Answer};
-use crate::simulation::{SimulationHandle, told};
+use crate::simulation::{SimulationHandle, with_simulation};
 use crate::state::{Own, StateHandle};
 use crate::status::{Status, answer};
 
@@ -70,7 +70,7 @@ pub unsafe extern "C" fn palpate_simulation_normals(
 ) -> *const f64 {
     let normals = |own: &SimulationHandle| own.simulation.surface().vertex_normals().as_ptr();
     // SAFETY: the header demands it of who calls.
-    unsafe { told(simulation, ptr::null(), normals) }.cast()
+    unsafe { with_simulation(simulation, ptr::null(), normals) }.cast()
 }
 
 /// The organ as it is deformed and cut now, until the next call that changes the state. Uncut it has the vertices and

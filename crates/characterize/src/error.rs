@@ -55,7 +55,7 @@ pub enum Error {
     #[error(
         "only closed forms were asked for; leave out --closed-forms to fit laws and relaxation"
     )]
-    NotSought,
+    NotFitted,
     /// The force never pulls as the indenter goes back.
     #[error(
         "the force does not fall below zero by more than its noise as the indenter goes back: no adhesion shows"
@@ -300,7 +300,7 @@ impl Error {
             | Self::NoContact { .. }
             | Self::ContactOutside { .. }
             | Self::NotInGuess { .. }
-            | Self::NotSought
+            | Self::NotFitted
             | Self::NoPullOff
             | Self::AdhesionOfSphere
             | Self::NoDesign

@@ -382,8 +382,8 @@ fn half_space_factor(
 impl Characterization {
     fn of_closed_forms(recordings: &[CleanRecording]) -> Self {
         Self {
-            relaxation: Err(Error::NotSought),
-            relaxation_of_steps: Err(Error::NotSought),
+            relaxation: Err(Error::NotFitted),
+            relaxation_of_steps: Err(Error::NotFitted),
             without_geometry: WithoutGeometry::of_closed_forms(recordings),
             laws: Vec::new(),
             uniaxial: Vec::new(),

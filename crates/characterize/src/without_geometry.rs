@@ -58,9 +58,9 @@ impl WithoutGeometry {
             mean_modulus: mean_elastic_modulus(recordings),
             linear_elastic: fit_approach(recordings),
             adhesion: fit_adhesion(recordings),
-            kelvin: Err(Error::NotSought),
-            column: Err(Error::NotSought),
-            springs: Err(Error::NotSought),
+            kelvin: Err(Error::NotFitted),
+            column: Err(Error::NotFitted),
+            springs: Err(Error::NotFitted),
         }
     }
 

@@ -47,7 +47,7 @@ pub const MAX_DOCUMENT_BYTES: u64 = 4 << 20;
 
 /// The largest table of numbers that is read [bytes]: a recording, a motion, a session. An hour of two tools at 1 kHz
 /// has 1.4 GB.
-pub const MOST_OF_TABLE: u64 = 2 << 30;
+pub const MAX_TABLE_BYTES: u64 = 2 << 30;
 
 /// Opens a regular file for reading. A device or a pipe may never end.
 pub(crate) fn open_regular(path: &Path) -> Result<File, Error> {

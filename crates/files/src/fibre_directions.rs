@@ -8,7 +8,7 @@
 
 use std::path::Path;
 
-use crate::atomic_write::{MOST_OF_TABLE, read_text};
+use crate::atomic_write::{MAX_TABLE_BYTES, read_text};
 use crate::table::{Column, Row, TableText};
 use crate::{Domain, Error};
 
@@ -40,7 +40,7 @@ impl FibreDirections {
     /// When the file cannot be read or holds no directions.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        Self::parse(&read_text(path, MOST_OF_TABLE)?, path)
+        Self::parse(&read_text(path, MAX_TABLE_BYTES)?, path)
     }
 
     /// Reads the text of such a table; `path` is its name in errors.

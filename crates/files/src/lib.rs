@@ -55,7 +55,7 @@ pub mod units;
 mod words;
 
 pub use atomic_write::{
-    MAX_DOCUMENT_BYTES, MOST_OF_TABLE, read_bytes, read_text, write_atomically,
+    MAX_DOCUMENT_BYTES, MAX_TABLE_BYTES, read_bytes, read_text, write_atomically,
 };
 pub use claim::{Claim, Overwrite, remove_claims};
 pub use domain::Domain;

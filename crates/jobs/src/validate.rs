@@ -6,7 +6,7 @@ use palpate_files::quantity::plain_quantity;
 use palpate_files::recording::{ForeignColumns, RecordingHeader, StimulusKind};
 use palpate_files::scene::{Goal, Inclusion, Layer, Shape, Task};
 use palpate_files::{
-    Document, Incomplete, MAX_DOCUMENT_BYTES, MOST_OF_TABLE, Motion, Protocol, Recording, Scene,
+    Document, Incomplete, MAX_DOCUMENT_BYTES, MAX_TABLE_BYTES, Motion, Protocol, Recording, Scene,
     Session, Tissue, read_bytes, read_text,
 };
 use palpate_geometry::{
@@ -240,7 +240,7 @@ fn tissue(path: &Path) -> Result<Validated, Error> {
 }
 
 fn table(path: &Path) -> Result<Validated, Error> {
-    let bytes = read_bytes(path, MOST_OF_TABLE)?;
+    let bytes = read_bytes(path, MAX_TABLE_BYTES)?;
     let text = String::from_utf8_lossy(&bytes);
     let names = text
         .lines()

@@ -81,7 +81,7 @@ impl Rig {
             on_tip.force
         };
         let device = VirtualPhantom::with_axes(machine, &Vec3::zeros(), imperfections)
-            .touched_by(Box::new(touch));
+            .with_contact(Box::new(touch));
         let (indenter, reference) = Indenter::new(settings.gains, Reference::at_rest());
         Self::new(Parts {
             device: Box::new(device),

@@ -38,7 +38,7 @@ const PUNCHES: usize = 8;
 const LEAST: f64 = 3e-3;
 
 /// Least stiffness over a soft inclusion, relative to that without it [-].
-const LEAST_STIFFNESS: f64 = 0.1;
+const MIN_STIFFNESS: f64 = 0.1;
 
 /// The inclusions of a body.
 #[derive(Debug, Clone, Default)]
@@ -179,7 +179,7 @@ impl InclusionField {
             let slope = (less[high] - less[low]) / ((high - low) as f64 * step);
             let area = radii[n];
             // The force, over what it would be without inclusions; and the radius that it would have then.
-            let ratio = 1.0 / (1.0 + 5.0 * area * slope / (3.0 * flat)).max(LEAST_STIFFNESS);
+            let ratio = 1.0 / (1.0 + 5.0 * area * slope / (3.0 * flat)).max(MIN_STIFFNESS);
             let alone = area * ratio.cbrt();
             let depth = area * area * (0.2 + ratio * (0.8 - 4.0 / (3.0 * flat) * area * less[n]));
             let found = 0.75 * flat * (alone * alone - depth) / alone.powi(3);
@@ -230,7 +230,7 @@ impl InclusionField {
         }
         let share = (sizes[0] * inclusion.shares[0] + sizes[1] * inclusion.shares[1]) / all;
         let x = x[0] + x[1];
-        x / (1.0 + (1.0 - share) * x).max(LEAST_STIFFNESS)
+        x / (1.0 + (1.0 - share) * x).max(MIN_STIFFNESS)
     }
 }
 

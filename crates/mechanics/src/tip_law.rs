@@ -97,7 +97,7 @@ pub struct TipForce {
 }
 
 /// Newton steps of which none is expected to be needed.
-const MOST_STEPS: usize = 50;
+const MAX_STEPS: usize = 50;
 
 /// Largest stiffness of an organ relative to a half-space [-]: with an anchor right under the tip, whose
 /// distance no model here resolves well.
@@ -304,7 +304,7 @@ impl TipLaw {
         let (mut low, mut high) = (0.0, depth);
         let mut s = depth;
         let (mut force, mut stiffness) = self.on_half_space(s);
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             let value = s + compliance * force - depth;
             if value > 0.0 {
                 high = s;

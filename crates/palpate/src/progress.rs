@@ -12,7 +12,7 @@ use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, P
 use palpate_files::printable;
 use palpate_jobs::ProgressCallback;
 
-use crate::interrupt::{self, Unbroken};
+use crate::interrupt::{self, UninterruptedSection};
 use crate::output;
 
 /// Steps of the bar of one long work.
@@ -212,7 +212,7 @@ impl ProgressCallback for Progress {
     }
 
     fn without_cancellation(&self, write: &mut dyn FnMut()) {
-        let _unbroken = Unbroken::begin();
+        let _unbroken = UninterruptedSection::begin();
         write();
     }
 }

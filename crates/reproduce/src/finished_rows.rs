@@ -14,12 +14,12 @@ use crate::Error;
 pub const KEPT: &str = "rows.jsonl";
 
 /// The file of finished rows; the first row creates it.
-pub struct KeptRows {
+pub struct FinishedRows {
     path: PathBuf,
     file: Option<File>,
 }
 
-impl KeptRows {
+impl FinishedRows {
     pub(super) fn at(path: PathBuf) -> Self {
         Self { path, file: None }
     }
@@ -84,7 +84,7 @@ mod tests {
         let path = folder.path().join(KEPT);
         std::fs::write(&path, "{\"row\":\"a\"}\n{\"ro").unwrap();
         for word in ["b", "c"] {
-            let mut kept = KeptRows::at(path.clone());
+            let mut kept = FinishedRows::at(path.clone());
             kept.append(&format!("{{\"row\":\"{word}\"}}\n")).unwrap();
         }
         let text = std::fs::read_to_string(&path).unwrap();

@@ -35,7 +35,7 @@ mod wire_frame;
 
 pub use error::Error;
 pub use figures::{DrawPlot, Figures};
-pub use finished_rows::{KEPT, KeptRows};
+pub use finished_rows::{FinishedRows, KEPT};
 pub use mark::Mark;
 pub use row::Row;
 pub use select::{Selection, select};

@@ -11,7 +11,7 @@ use crate::row::Rows;
 use crate::wire_frame::wire_frame;
 
 /// A body, and where it is now.
-pub(super) struct Sitter<'a> {
+pub(super) struct RenderedBody<'a> {
     /// At rest.
     pub(super) surface: &'a Surface,
     /// Its vertices [m].
@@ -52,7 +52,7 @@ impl Painter {
     }
 
     /// As a PNG file.
-    pub(super) fn draw(&mut self, sitter: &Sitter<'_>) -> Result<Vec<u8>, Error> {
+    pub(super) fn draw(&mut self, sitter: &RenderedBody<'_>) -> Result<Vec<u8>, Error> {
         let mesh = sitter.surface.mesh();
         let mut body = Body::new(&self.gpu, sitter.surface, Tint::MUSCLE);
         body.deform(&self.gpu, &single_precision(sitter.places));

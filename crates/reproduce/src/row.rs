@@ -111,14 +111,14 @@ impl<'a> Rows<'a> {
     }
 
     /// Reports progress within an item.
-    pub(crate) fn say(&self, what: impl Display) {
+    pub(crate) fn report_step(&self, what: impl Display) {
         self.watch.report_step(&format!("{}: {what}", self.item));
     }
 
     /// The same of a solution on finer and finer meshes.
     pub(crate) fn meshes(&self, what: &str) -> impl FnMut(Progress) {
         move |Progress { mesh, part, .. }| {
-            self.say(format_args!(
+            self.report_step(format_args!(
                 "{what}mesh {}, {:.0} %",
                 mesh + 1,
                 100.0 * part
@@ -298,7 +298,7 @@ impl Figure<'_, '_> {
 /// A job within an item: how far it is says nothing of all items.
 impl ProgressCallback for Rows<'_> {
     fn report_step(&self, doing: &str) {
-        Rows::say(self, doing);
+        Rows::report_step(self, doing);
     }
 
     fn report_fraction(&self, _part: f64) {}

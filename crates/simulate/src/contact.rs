@@ -209,7 +209,7 @@ fn detect_after(
     if tool.slides() || !last.is_pressed {
         contact.place = place(rest, tool, &contact_point, depth, Some(&last.place.frame));
     }
-    match tool.bond {
+    match tool.tip_friction {
         Friction::Frictionless => {}
         Friction::Bonded if tool.slides() => {
             let normal = contact.rest_normal();

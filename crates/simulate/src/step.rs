@@ -161,7 +161,7 @@ fn detect(
     let touched = state.touches();
     let mut events = grip::follow(tool, pose, state);
     state.pose = pose;
-    let tip = tip.filter(|_| !state.holds());
+    let tip = tip.filter(|_| !state.is_grasping());
     state.contact = tip.and_then(|tip| {
         let last = state.contact.as_ref();
         let rest = simulation.rest_surface(tool);
@@ -175,7 +175,7 @@ fn detect(
             // Where a tip begins to stick there is no shear yet, whatever the shear before.
             state.history.project_onto(&contact.normal());
         }
-        (true, None) if !state.holds() => events.insert(Event::Release),
+        (true, None) if !state.is_grasping() => events.insert(Event::Release),
         _ => {}
     }
     let beyond = state.contact.is_some_and(|c| c.depth > TRUSTED_DEPTH);
@@ -308,7 +308,7 @@ fn render_force(
         .advance(&simulation.material.prony, state.elastic, elapsed);
     state.force = Vec3::zeros();
     state.with_pull = Vec3::zeros();
-    let held = state.grip.hold.as_ref().map(|hold| hold.displayed.place);
+    let held = state.grip.grasp.as_ref().map(|hold| hold.displayed.place);
     let Some(here) = held.or(state.contact.map(|contact| contact.point())) else {
         return Events::NONE;
     };
@@ -331,7 +331,7 @@ fn render_force(
     let slides = contact.slides;
     contact.slide(tool, &mut relaxed);
     contact.slides |= slides;
-    state.with_pull = match tool.bond {
+    state.with_pull = match tool.tip_friction {
         Friction::Bonded => relaxed,
         // The history of a slide has other normals in it; nevertheless there is no friction.
         Friction::Frictionless => normal * outward,
@@ -373,7 +373,7 @@ fn record(simulation: &Simulation, tool: &Tool, time: f64, failed: Events, state
         return;
     };
     let tip = Vec3::from(pose.position_m);
-    let turned = match &state.grip.hold {
+    let turned = match &state.grip.grasp {
         Some(hold) => *hold.turned(),
         None => {
             let normal = state.contact.map(|contact| contact.normal());
@@ -381,7 +381,7 @@ fn record(simulation: &Simulation, tool: &Tool, time: f64, failed: Events, state
             orientation::orientation(&tip, trocar, pose.orientation, normal.as_ref())
         }
     };
-    let held_depth = state.holds().then(|| {
+    let held_depth = state.is_grasping().then(|| {
         let (_, signed) = simulation.surface.signed_distance(&simulation.tree, &tip);
         (tool.overhang() - signed).max(0.0)
     });

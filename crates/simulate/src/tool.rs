@@ -26,7 +26,7 @@ pub struct Tool {
     /// Its tip.
     pub tip: Tip,
     /// Whether the surface can slide along the tip.
-    pub bond: Friction,
+    pub tip_friction: Friction,
     /// Coulomb friction coefficient of a tip that sticks [-]; none if it never slides.
     pub friction: Option<f64>,
     /// Its display mesh in its own frame [m], if it differs from that of its kind.
@@ -81,7 +81,7 @@ impl Tool {
             kind: tool.kind,
             display_mesh: display_mesh(tool)?,
             tip,
-            bond,
+            tip_friction: bond,
             friction: tool.tip.friction,
             law: TipLaw::linear(tip, bond, *law),
             jaws: tool.jaws.filter(|_| tool.kind == scene::ToolKind::Grasper),
@@ -115,7 +115,7 @@ impl Tool {
 
     /// Whether its tip can slide along the surface.
     pub(crate) fn slides(&self) -> bool {
-        self.bond == Friction::Frictionless || self.friction.is_some()
+        self.tip_friction == Friction::Frictionless || self.friction.is_some()
     }
 
     /// Radius of the contact area [m] under this force [N] on tissue of this law.

@@ -78,7 +78,7 @@ struct InnerLayer {
 }
 
 /// A cut organ on the adapter.
-pub(crate) struct SeenCut {
+pub(crate) struct DisplayedCut {
     version: u64,
     /// Thickness of the outermost layer [m].
     thickness: f32,
@@ -110,7 +110,7 @@ pub(crate) struct SeenCut {
     below: Vec<[f32; 3]>,
 }
 
-impl SeenCut {
+impl DisplayedCut {
     /// A surface that is not cut yet, of which `layers` will be.
     pub(crate) fn new(gpu: &Gpu, surface: &Surface, layers: &CutLayers, tint: Tint) -> Self {
         let fibres = Fibres::along(surface.mesh());

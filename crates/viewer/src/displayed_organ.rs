@@ -3,7 +3,7 @@ use palpate_geometry::{Surface, Vec3};
 use palpate_simulate::interactive::OpenedSnapshot;
 use palpate_simulate::{EnhancedSurface, OrganField, Simulation};
 
-use crate::displayed_cut::{CutLayers, SeenCut};
+use crate::displayed_cut::{CutLayers, DisplayedCut};
 use crate::render::ambient_light::ambient_light;
 use crate::render::{Body, Tint, single_precision};
 use crate::{Error, Gpu};
@@ -14,10 +14,10 @@ const CUT_WIDTH: f64 = 0.0015;
 
 /// The organ that is touched, as it is drawn: with the simulation's vertices, with finer triangles around
 /// the tips, or with what was cut.
-pub(crate) struct SeenOrgan {
+pub(crate) struct DisplayedOrgan {
     body: Body,
     /// Once there was a cut.
-    cut: Option<SeenCut>,
+    cut: Option<DisplayedCut>,
     /// Layers that cuts go through.
     layers: CutLayers,
     /// Whether the last picture was of a cut organ.
@@ -28,7 +28,7 @@ pub(crate) struct SeenOrgan {
     open: Vec<f32>,
 }
 
-impl SeenOrgan {
+impl DisplayedOrgan {
     /// At rest, as the scene wants it shown.
     ///
     /// # Errors
@@ -73,7 +73,7 @@ impl SeenOrgan {
         let whole = cut.is_none().then_some(&self.body);
         whole
             .into_iter()
-            .chain(cut.into_iter().flat_map(SeenCut::bodies))
+            .chain(cut.into_iter().flat_map(DisplayedCut::bodies))
     }
 
     /// Shows `opening` in place of the uncut surface, whose vertices are at `vertices` [m].
@@ -86,7 +86,7 @@ impl SeenOrgan {
     ) {
         let cut = self
             .cut
-            .get_or_insert_with(|| SeenCut::new(gpu, surface, &self.layers, self.tint));
+            .get_or_insert_with(|| DisplayedCut::new(gpu, surface, &self.layers, self.tint));
         cut.follow(gpu, opening, surface, vertices, &self.open);
         self.is_open = true;
     }

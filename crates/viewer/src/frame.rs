@@ -11,7 +11,7 @@ use palpate_geometry::{Surface, TriangleMesh, Vec3};
 use palpate_simulate::interactive::OpenedSnapshot;
 use palpate_simulate::{Frame, Simulation, SimulationState, read_neighbour};
 
-use crate::displayed_organ::SeenOrgan;
+use crate::displayed_organ::DisplayedOrgan;
 use crate::render::{
     Body, Label, LabelTarget, Labels, Looks, Renderer, Target, Tint, ToolPicture, View,
     single_precision,
@@ -28,16 +28,16 @@ pub struct Studio {
     /// How it is looked at.
     pub view: View,
     renderer: Renderer,
-    organ: SeenOrgan,
+    organ: DisplayedOrgan,
     neighbours: Vec<Body>,
-    tools: Vec<SeenTool>,
+    tools: Vec<DisplayedTool>,
     target: Target,
     /// Once labels were asked for.
     labels: Option<LabelTarget>,
     surface: Surface,
     opened: OpenedSnapshot,
     /// Bodies drawn with the organ, such as its wire frame.
-    pub beside: Vec<Body>,
+    pub other_bodies: Vec<Body>,
 }
 
 impl Studio {
@@ -75,14 +75,14 @@ impl Studio {
         let (low, high) = mesh.bounds();
         Ok(Self {
             renderer: Renderer::new(&gpu),
-            organ: SeenOrgan::new(&gpu, simulation, Tint::of(&scene.organ.shape))?,
+            organ: DisplayedOrgan::new(&gpu, simulation, Tint::of(&scene.organ.shape))?,
             neighbours,
             tools: seen_tools(scene, simulation),
             target: Target::new(&gpu, size, 4),
             labels: None,
             surface: simulation.surface().clone(),
             opened: OpenedSnapshot::default(),
-            beside: Vec::new(),
+            other_bodies: Vec::new(),
             view: View {
                 camera: scene_camera(&scene.view, mesh, None, aspect),
                 shading: scene.view.shading,
@@ -172,7 +172,7 @@ impl Studio {
         let bodies: Vec<&Body> = self
             .organ
             .bodies()
-            .chain(&self.beside)
+            .chain(&self.other_bodies)
             .chain(&self.neighbours)
             .collect();
         let tools = tool_pictures(&self.tools, state);
@@ -183,9 +183,9 @@ impl Studio {
 }
 
 /// A tool of a scene, and what it looks like if not as its kind does.
-pub type SeenTool = (scene::Tool, Option<Arc<TriangleMesh>>);
+pub type DisplayedTool = (scene::Tool, Option<Arc<TriangleMesh>>);
 
-fn seen_tools(scene: &Scene, simulation: &Simulation) -> Vec<SeenTool> {
+fn seen_tools(scene: &Scene, simulation: &Simulation) -> Vec<DisplayedTool> {
     let looks = simulation
         .tools()
         .iter()
@@ -194,7 +194,7 @@ fn seen_tools(scene: &Scene, simulation: &Simulation) -> Vec<SeenTool> {
 }
 
 /// The tools that are there, as a state has them.
-pub fn tool_pictures(tools: &[SeenTool], state: &SimulationState) -> Vec<ToolPicture> {
+pub fn tool_pictures(tools: &[DisplayedTool], state: &SimulationState) -> Vec<ToolPicture> {
     tools
         .iter()
         .zip(&state.tools)

@@ -31,7 +31,7 @@ const RAMPS: [f64; 5] = [1.0, 2.0, 4.0, 8.0, 16.0];
 /// Part of a press that is a ramp, at most [-].
 const RAMP: f64 = 0.25;
 /// Most radii that a depth is trusted to [-]: beyond, elements decide what tissue does at the edge of a punch.
-pub(super) const MOST_RADII: f64 = 5.5;
+pub(super) const MAX_RADII: f64 = 5.5;
 
 /// The protocol within `limits` from which the parameters `wanted` are expected to be known best, of tissue as any of
 /// `guesses`; `at_part` receives the part that is done [-].
@@ -127,7 +127,7 @@ fn candidates(limits: &Limits) -> Vec<Presses> {
                 .iter()
                 .flat_map(|part| least.iter().map(move |l| (part, l)))
             {
-                let deepest = part * limits.depth.min(MOST_RADII * radius);
+                let deepest = part * limits.depth.min(MAX_RADII * radius);
                 let step = (1.0 - least) / (count.max(2) - 1) as f64;
                 let depths: Vec<f64> = (0..count)
                     .map(|i| deepest * (1.0 - step * (count - 1 - i) as f64))

@@ -41,7 +41,7 @@ pub use law::{CandidateLaw, LawParameter, ShapeRange, Terms};
 pub(crate) use law_fit::LawData;
 pub use law_fit::{LawFit, OtherMinimum, law_fit};
 pub use organ::{FarField, Organ};
-pub use repeated::{LEAST_DRAWS, NoiseEffect, Repeated, repeated};
+pub use repeated::{MIN_DRAWS, NoiseEffect, Repeated, repeated};
 pub(crate) use tables::has_curve;
 pub use tables::{PUNCH, SHAPES};
 pub use thickness::{CONE_ON_LAYER, PUNCH_ON_LAYER, THICKNESSES, assumption, sphere_on_layer};

@@ -40,7 +40,7 @@ pub struct NoiseEffect {
 /// Noise that is tried, over the largest force [-].
 const NOISE: [f64; 3] = [0.01, 0.05, 0.1];
 /// Fewest draws from which a spread is computed: the standard deviation of ten values is known to a quarter.
-pub const LEAST_DRAWS: usize = 10;
+pub const MIN_DRAWS: usize = 10;
 /// Correlation times in a block of residuals.
 const BLOCK: f64 = 5.0;
 /// The probability of the profile's interval.
@@ -90,7 +90,7 @@ pub fn repeated(
         .fold(0.0, f64::max);
     // Three times as much is done as for the bootstrap, and less is asked of it.
     let fewer = Draws {
-        count: draws.count.div_ceil(4).max(LEAST_DRAWS),
+        count: draws.count.div_ceil(4).max(MIN_DRAWS),
         ..draws
     };
     let mut noise_effect = |noise: f64| {

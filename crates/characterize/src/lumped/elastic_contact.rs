@@ -26,7 +26,7 @@ use crate::fit::{Parameter, Settings, correlated_uncertainty, least_squares};
 use crate::{CleanRecording, Error};
 
 /// Samples that are fitted at most; of more, every second, third and so on.
-const MOST_SAMPLES: usize = 1500;
+const MAX_SAMPLES: usize = 1500;
 /// Contacts that are tried.
 const CANDIDATES: usize = 200;
 /// How far before the contact samples are fitted, over the deepest press [-].
@@ -111,7 +111,7 @@ impl Branch {
     fn of(recording: &CleanRecording, samples: impl Iterator<Item = usize>) -> Option<Self> {
         let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let samples: Vec<usize> = samples.collect();
-        let every = samples.len().div_ceil(MOST_SAMPLES).max(1);
+        let every = samples.len().div_ceil(MAX_SAMPLES).max(1);
         let of = |values: &[f64]| -> Vec<f64> {
             let thin = samples.iter().step_by(every);
             thin.map(|sample| values[*sample]).collect()

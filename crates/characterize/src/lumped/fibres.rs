@@ -2,7 +2,7 @@
 //!
 //! The stress of two families at ±γ is even in γ, so that its slope with γ is zero at 0 and at 90°; a fit in γ creeps towards
 //! them and knows nothing there. In sin² γ it is smooth, and that is what is fitted; near the ends slopes are those at
-//! [`LEAST_ANGLE`].
+//! [`MIN_ANGLE`].
 
 use nalgebra::DMatrix;
 use palpate_files::recording::RecordingHeader;
@@ -75,7 +75,7 @@ const DISPERSIONS: [f64; 3] = [0.03, 0.15, 0.28];
 const ANGLES: [f64; 4] = [10.0, 30.0, 50.0, 75.0];
 /// From the ends of its range, an angle at which slopes are taken [degrees]: it changes the stress of fibres by its square, 3e-8,
 /// and rounding leaves twelve digits of its slope.
-const LEAST_ANGLE: f64 = 0.01;
+const MIN_ANGLE: f64 = 0.01;
 /// The least C₁₀ over the largest stress [-]: without a matrix the sides of a strip are not determined.
 const LEAST: f64 = 1e-6;
 
@@ -232,7 +232,7 @@ fn angle_deg(squared_sine: f64) -> f64 {
 
 /// Change of sin² γ with γ [1/degree], at the least distance from where it is none.
 fn slope(angle_deg: f64) -> f64 {
-    let angle = angle_deg.clamp(LEAST_ANGLE, 90.0 - LEAST_ANGLE);
+    let angle = angle_deg.clamp(MIN_ANGLE, 90.0 - MIN_ANGLE);
     1_f64.to_radians() * (2.0 * angle.to_radians()).sin()
 }
 
@@ -297,7 +297,7 @@ fn write(
         dispersion: values[3],
         angle_deg: known
             .angle_deg
-            .unwrap_or_else(|| angle_deg(values[ANGLE]).clamp(LEAST_ANGLE, 90.0 - LEAST_ANGLE)),
+            .unwrap_or_else(|| angle_deg(values[ANGLE]).clamp(MIN_ANGLE, 90.0 - MIN_ANGLE)),
     };
     let of_angle = slope(fibres.angle_deg).recip();
     let law = HolzapfelGasserOgden::incompressible(values[0], fibres).ok()?;

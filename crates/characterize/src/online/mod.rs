@@ -5,7 +5,7 @@
 //! ```
 //!
 //! [`OnlineEstimator::add`] takes one sample: it adds to a mean and allocates nothing. The record holds at most
-//! [`MOST_BLOCKS`] blocks, each the mean of equally many samples; when it is full, neighbouring blocks are merged.
+//! [`MAX_BLOCKS`] blocks, each the mean of equally many samples; when it is full, neighbouring blocks are merged.
 //! [`OnlineEstimator::estimate`] fits that record as [`characterize`](crate::characterize) fits a recording: the same
 //! force F(t) = M [f(d) − Σ gᵢ hᵢ], the same covariance of correlated residuals, the same bounds of the model. It starts
 //! from the estimate before, and costs as much after an hour as after seconds. The force over depth is tabulated or solved
@@ -34,7 +34,7 @@ pub use record::OnlineSample;
 use record::Record;
 
 /// Blocks of the record, at most.
-pub const MOST_BLOCKS: usize = 1024;
+pub const MAX_BLOCKS: usize = 1024;
 /// The relative half interval at which a parameter is known well enough by default [-].
 pub const DEFAULT_TARGET: f64 = 0.1;
 /// Depth to which the force is known by default, in radii of the indenter [-]: that of the table.
@@ -119,7 +119,7 @@ impl OnlineEstimator {
             watch: ContactDetector::new(settings.contact, settings.header.indenter_shape),
             curves,
             settings,
-            pressed: Record::new(MOST_BLOCKS),
+            pressed: Record::new(MAX_BLOCKS),
             last: f64::NEG_INFINITY,
             skipped: 0,
             is_released: false,

@@ -69,7 +69,7 @@ impl Characterization {
             .chain(pulled)
             .next()
             .cloned()
-            .unwrap_or(Error::NotSought)
+            .unwrap_or(Error::NotFitted)
     }
 }
 

@@ -54,7 +54,7 @@ pub struct Relaxation {
 /// (`specimen::a_law_is_found_from_a_viscoelastic_run`).
 pub(crate) const QUASI_LINEAR: f64 = 0.02;
 /// Most terms that are tried.
-const MOST_TERMS: usize = 4;
+const MAX_TERMS: usize = 4;
 /// A root mean square of ε below which there is nothing left to fit [-]: elastic force is known no better.
 const NEGLIGIBLE: f64 = 3e-4;
 /// Part of Σ ε² that one more term must gain for yet another to be tried [-].
@@ -151,7 +151,7 @@ pub fn relaxation(
         return Err(Error::NoContactForce);
     }
     let mut fits: Vec<Fit> = Vec::new();
-    for count in settings.terms.map_or(1..=MOST_TERMS, |terms| terms..=terms) {
+    for count in settings.terms.map_or(1..=MAX_TERMS, |terms| terms..=terms) {
         let fit = with_terms(records, count, fits.last())?;
         let gained = fits.last().is_none_or(|before| {
             fit.sum_of_squares() < (1.0 - NOTHING_GAINED) * before.sum_of_squares()

@@ -94,7 +94,7 @@ fn both_generations_take_a_force() {
         );
         let device = open(&service, 0);
         assert_eq!(device.generation(), generation);
-        assert!(device.hears_events());
+        assert!(device.receives_events());
         let mut commanded = Commanded::new(Box::new(device), None);
         let force = Vec3::new(0.1, 0.2, -0.3);
         let state = commanded.exchange(force);
@@ -126,9 +126,9 @@ fn disabling_waits_for_the_zero() {
     let mut device = device.with_timeout(std::time::Duration::from_millis(20));
     assert_eq!(device.disable(), Disabled::NoForce);
     assert_eq!(service.forces(0), [Vec3::zeros()]);
-    service.misbehave(Some(Misbehaviour::Swallows));
+    service.misbehave(Some(Misbehaviour::NoReply));
     assert_eq!(device.disable(), Disabled::Unknown);
-    service.misbehave(Some(Misbehaviour::Drops));
+    service.misbehave(Some(Misbehaviour::Disconnects));
     assert_eq!(device.disable(), Disabled::Unknown);
 }
 

@@ -101,7 +101,7 @@ fn what_is_found_has_its_limits() {
                 assert_eq!((&*device.model, &*device.serial), ("Stand-in Touch", "S-1"));
             }
             _ => {
-                assert_eq!(device.forces, Origin::Ours);
+                assert_eq!(device.forces, Origin::Assumed);
                 assert_eq!(device.model, "stand-in.3");
             }
         }

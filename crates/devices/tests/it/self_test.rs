@@ -40,7 +40,7 @@ fn a_device_that_is_well_passes() {
 fn one_that_is_not_does_not() {
     for (wrong, fault) in [
         (Misbehaviour::NoForce, Some(Fault::Ignored)),
-        (Misbehaviour::Vanishes, Some(Fault::Vanished)),
+        (Misbehaviour::DevicesMissing, Some(Fault::Vanished)),
         // It was never ready, and no force is armed.
         (Misbehaviour::NoCalibration, None),
     ] {

@@ -10,7 +10,7 @@ use std::path::Path;
 pub use pose::{IDENTITY, Pose};
 pub use tool_motion::{Cursor, MotionRow, ToolMotion};
 
-use crate::atomic_write::{MOST_OF_TABLE, read_text};
+use crate::atomic_write::{MAX_TABLE_BYTES, read_text};
 use crate::error::Place;
 use crate::table::{Ended, TableText};
 use crate::{Error, Incomplete};
@@ -63,7 +63,7 @@ impl Motion {
     /// When the file cannot be read or does not hold a motion.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        Self::parse(&read_text(path, MOST_OF_TABLE)?, path)
+        Self::parse(&read_text(path, MAX_TABLE_BYTES)?, path)
     }
 
     /// Reads the text of a motion file; `path` is its name in errors. A session is a motion too: columns that a

@@ -33,7 +33,7 @@ const DEPTH: &[&str] = &[
 ];
 const FORCE: &[&str] = &["force", "load", "f", "kraft", "standardkraft", "last"];
 /// A name with more words, its unit included, is a sentence.
-const MOST_WORDS: usize = 6;
+const MAX_WORDS: usize = 6;
 
 /// A quantity and the names of its column.
 #[derive(Debug, Clone, Copy)]
@@ -110,7 +110,7 @@ impl<'c> Wanted<'c> {
         if let Some(named) = self.named {
             return (own == named).then_some(0);
         }
-        if words(own).count() > MOST_WORDS {
+        if words(own).count() > MAX_WORDS {
             return None;
         }
         let base = base(own).to_lowercase();

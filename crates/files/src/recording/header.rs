@@ -320,11 +320,13 @@ impl RecordingHeader {
     }
 
     /// [`ended`](Self::ended) of a recording with all its samples.
-    pub const WHOLE: &str = "whole";
+    pub const COMPLETE: &str = "whole";
 
     /// Why it ends before its stimulus; none when it is whole, or does not state it.
     pub fn cut_short(&self) -> Option<&str> {
-        self.ended.as_deref().filter(|ended| *ended != Self::WHOLE)
+        self.ended
+            .as_deref()
+            .filter(|ended| *ended != Self::COMPLETE)
     }
 
     /// The same, with missing entries taken from `other`.

@@ -11,8 +11,8 @@ const RIGID_STIFFNESS: f64 = 1000.0;
 const SOFT_NODES: usize = 500;
 
 /// As for `model.nodes`.
-pub(super) const LEAST_NODES: u64 = 200;
-pub(super) const MOST_NODES: u64 = 6_000;
+pub(super) const MIN_NODES: u64 = 200;
+pub(super) const MAX_NODES: u64 = 6_000;
 
 /// A body next to the organ.
 #[derive(Debug, Clone, PartialEq)]
@@ -114,13 +114,13 @@ impl Neighbour {
         Key::table(
             "anchor",
             Region::KEYS,
-            "Where it is held, if it bends: its surface in one of these regions of the scene.",
+            "Where it is fixed, if it bends: its surface in one of these regions of the scene.",
         )
         .optional("", "the attachment of a built-in organ"),
         Key::integer(
             "nodes",
-            LEAST_NODES,
-            MOST_NODES,
+            MIN_NODES,
+            MAX_NODES,
             "About how many nodes carry its mechanics, if it bends.",
         )
         .default("500"),
@@ -230,7 +230,7 @@ impl SoftNeighbour {
         if keys.contains("mesh") && !is_fixed {
             return Err(keys.missing(
                 "anchor",
-                "fixed regions, with `planes`, `boxes` or `spheres`, for a body that bends has to be held somewhere",
+                "fixed regions, with `planes`, `boxes` or `spheres`, for a body that bends has to be fixed somewhere",
             ));
         }
         let nodes = keys

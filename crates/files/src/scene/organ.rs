@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use super::neighbour::{LEAST_NODES, MOST_NODES};
+use super::neighbour::{MAX_NODES, MIN_NODES};
 use super::{
     BodyPart, EstimatedInclusion, Inclusion, Neighbour, PartContent, PartPlace, Region, Shape,
     TissueChoice,
@@ -112,8 +112,8 @@ impl Organ {
         Neighbour::KEYS[6].optional("1.0", OF_FURTHER),
         Key::integer(
             "nodes",
-            LEAST_NODES,
-            MOST_NODES,
+            MIN_NODES,
+            MAX_NODES,
             "A further organ: about how many nodes carry its mechanics; `model.nodes` says it of the first.",
         )
         .optional("500", "500 of a further organ"),

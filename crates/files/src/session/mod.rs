@@ -13,7 +13,7 @@ pub use header::SessionHeader;
 pub use row::SessionRow;
 pub use writer::SessionWriter;
 
-use crate::atomic_write::{MOST_OF_TABLE, read_text};
+use crate::atomic_write::{MAX_TABLE_BYTES, read_text};
 use crate::motion::{Motion, MotionRow, Pose, ToolMotion};
 use crate::table::{Ended, RowDigest, TableText};
 use crate::{Error, Incomplete};
@@ -40,7 +40,7 @@ impl Session {
     /// When the file cannot be read or does not hold a session.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        Self::parse(&read_text(path, MOST_OF_TABLE)?, path)
+        Self::parse(&read_text(path, MAX_TABLE_BYTES)?, path)
     }
 
     /// Reads the text of a session file; `path` is its name in errors.

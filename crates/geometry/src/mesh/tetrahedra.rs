@@ -37,7 +37,7 @@ pub struct TetrahedronMesh {
 
 impl TetrahedronMesh {
     /// More are never made: a solver on one computer could not use them.
-    pub const MOST_TETRAHEDRA: usize = 4_000_000;
+    pub const MAX_TETRAHEDRA: usize = 4_000_000;
 
     /// A mesh of `vertices` [m] and positive `tetrahedra` (vertex numbers). Vertices that none uses
     /// are dropped; the others keep their order. All tetrahedra are of region 0.

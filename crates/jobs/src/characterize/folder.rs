@@ -8,7 +8,7 @@
 use std::path::{Path, PathBuf};
 
 use palpate_characterize::CharacterizeSettings;
-use palpate_files::{Claim, MOST_OF_TABLE, Overwrite, read_bytes, read_text, write_atomically};
+use palpate_files::{Claim, MAX_TABLE_BYTES, Overwrite, read_bytes, read_text, write_atomically};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -115,7 +115,7 @@ impl StudyFolder {
 impl SpecimenFile {
     /// The stored results for the same recordings and settings.
     fn read(&self) -> Option<Finished> {
-        let text = read_text(&self.json, MOST_OF_TABLE).ok()?;
+        let text = read_text(&self.json, MAX_TABLE_BYTES).ok()?;
         let document: Document<Finished> = serde_json::from_str(&text).ok()?;
         let fits = document.digest == self.digest && document.palpate == VERSION;
         fits.then_some(document.finished)
@@ -173,7 +173,7 @@ fn digest(group: &[ReadRecording], settings: &CharacterizeSettings) -> String {
         if let Some(mesh) = read.mesh() {
             // A mesh that cannot be read is an error later, where it is used.
             hash.update(Sha256::digest(
-                read_bytes(&mesh, MOST_OF_TABLE).unwrap_or_default(),
+                read_bytes(&mesh, MAX_TABLE_BYTES).unwrap_or_default(),
             ));
         }
         for samples in [&clean.time, &clean.depth, &clean.force] {

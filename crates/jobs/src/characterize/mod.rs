@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 use palpate_characterize::CharacterizeSettings;
 use palpate_characterize::fit::Draws;
-use palpate_characterize::inverse::{CandidateLaw, LEAST_DRAWS, Terms};
+use palpate_characterize::inverse::{CandidateLaw, MIN_DRAWS, Terms};
 use palpate_characterize::viscoelastic::RelaxationSettings;
 use palpate_files::tissue::LawName;
 
@@ -37,7 +37,7 @@ pub struct Choice {
     pub law: Option<CandidateLaw>,
     /// Terms of the relaxation; none: as many as the recordings can resolve.
     pub terms: Option<usize>,
-    /// Bootstrap samples for the uncertainty of parameters: 0 for none, otherwise [`LEAST_DRAWS`] or more.
+    /// Bootstrap samples for the uncertainty of parameters: 0 for none, otherwise [`MIN_DRAWS`] or more.
     pub draws: usize,
     /// The seed of the bootstrap.
     pub seed: u64,
@@ -91,9 +91,9 @@ impl Choice {
 
     /// Refuses fewer draws than a spread needs.
     fn check(self) -> Result<(), Error> {
-        if (1..LEAST_DRAWS).contains(&self.draws) {
+        if (1..MIN_DRAWS).contains(&self.draws) {
             return Err(Error::input(format!(
-                "{} draws are too few for a spread; ask for {LEAST_DRAWS} or more, or for 0 to repeat no fit",
+                "{} draws are too few for a spread; ask for {MIN_DRAWS} or more, or for 0 to repeat no fit",
                 self.draws
             )));
         }

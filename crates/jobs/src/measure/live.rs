@@ -101,7 +101,7 @@ impl LiveMeasuring {
                     self.live.console.end_press(self.number);
                 }
             }
-            let news = match self.live.news.recv_timeout(LOOK) {
+            let news = match self.live.console_events.recv_timeout(LOOK) {
                 Ok(news) => news,
                 Err(RecvTimeoutError::Timeout) => {
                     self.check_device()?;
@@ -118,7 +118,7 @@ impl LiveMeasuring {
                     recorded = Some(done);
                     continue;
                 }
-                ConsoleEvent::Unwritten(unwritten) => return Err(unwritten.error.into()),
+                ConsoleEvent::WriteFailed(unwritten) => return Err(unwritten.error.into()),
                 ConsoleEvent::Ended(_, Err(error)) | ConsoleEvent::Failed(error) if !is_stopped => {
                     return Err(error.into());
                 }

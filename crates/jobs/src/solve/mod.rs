@@ -9,7 +9,7 @@ mod table;
 pub use answer::Answer;
 pub use problem::Problem;
 pub use solution::{
-    Displacements, Figures, FrictionFigures, PatchFigures, PointFigures, Profile, SolidFigures,
-    Solution, ToolFigures, TubeFigures, Wanted, solve,
+    Displacements, Figures, FrictionFigures, PatchFigures, PointFigures, Profile, RequestedOutputs,
+    SolidFigures, Solution, ToolFigures, TubeFigures, solve,
 };
 pub use table::in_words;

@@ -12,7 +12,7 @@ pub(crate) struct ProgressReporter<'a> {
 }
 
 impl<'a> ProgressReporter<'a> {
-    pub(crate) fn to(watch: &'a dyn ProgressCallback) -> Self {
+    pub(crate) fn new(watch: &'a dyn ProgressCallback) -> Self {
         watch.report_step("preparing the mesh");
         Self {
             watch,

@@ -32,7 +32,7 @@ fn held_in_recordings(seeds: u64, presses: u64) -> [[usize; 2]; 5] {
                     samples.force_n.push(sample.force);
                     true
                 };
-                assert_eq!(rig.press(&trajectory(), listener).unwrap(), Ended::Whole);
+                assert_eq!(rig.press(&trajectory(), listener).unwrap(), Ended::Complete);
                 rig.recover(&mut |_| true).unwrap();
                 let header = rig.describe(&trajectory(), repeat);
                 let recording = Recording::new(header, samples).unwrap();

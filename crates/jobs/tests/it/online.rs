@@ -54,7 +54,7 @@ pub(crate) fn rig(
         seed,
     )
     .unwrap();
-    assert_eq!(rig.approach(&mut |_| true).unwrap(), Ended::Whole);
+    assert_eq!(rig.approach(&mut |_| true).unwrap(), Ended::Complete);
     rig.recover(&mut |_| true).unwrap();
     rig
 }
@@ -108,7 +108,7 @@ fn estimates(
         }
         true
     });
-    assert_eq!(pressed.unwrap(), Ended::Whole);
+    assert_eq!(pressed.unwrap(), Ended::Complete);
     assert!(contact.is_some(), "{seed}: no contact was seen");
     found
 }

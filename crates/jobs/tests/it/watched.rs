@@ -1,7 +1,7 @@
 use std::path::Path;
 use std::sync::Mutex;
 
-use palpate_jobs::solve::{Problem, Wanted, solve};
+use palpate_jobs::solve::{Problem, RequestedOutputs, solve};
 use palpate_jobs::{NoProgress, ProgressCallback, json_text};
 
 const PUNCH: &str = r#"
@@ -36,7 +36,7 @@ fn what_is_answered_does_not_depend_on_who_waits() {
     let problem = Problem::parse(PUNCH, Path::new("punch.toml")).unwrap();
     let listener = Listener::default();
     let of = |watch: &dyn ProgressCallback| {
-        let mut answer = solve(&problem, Wanted::default(), watch).unwrap();
+        let mut answer = solve(&problem, RequestedOutputs::default(), watch).unwrap();
         answer.seconds = 0.0;
         json_text(&answer).unwrap()
     };

@@ -24,7 +24,7 @@ pub enum RigEvent {
 }
 
 /// A rig that carries out commands.
-pub struct Operated {
+pub struct CommandedRig {
     rig: Rig,
     commands: log::Reader<StampedCommand>,
     /// A command that was read while another was carried out.
@@ -41,7 +41,7 @@ const EVENTS: usize = 1 << 15;
 /// Time after which a drive stops unless its command is repeated [s].
 const DRIVE_TIMEOUT: f64 = 0.16;
 
-impl Operated {
+impl CommandedRig {
     /// `rig` as an operated rig, its console and the reader of its events.
     pub fn new(rig: Rig) -> (Self, Console, log::Reader<RigEvent>) {
         let (console, commands, switches) = Console::new(rig.supervisor(), rig.is_real());
@@ -65,7 +65,7 @@ impl Operated {
 
     /// Carries out the next command, or waits for a tick; false when that was the last. `watch` receives every sample
     /// first.
-    pub fn turn(&mut self, watch: &mut dyn FnMut(&RigSample)) -> bool {
+    pub fn process_next(&mut self, watch: &mut dyn FnMut(&RigSample)) -> bool {
         if self.switches.is_ending() {
             // A real device has no force any more and cannot move the indenter.
             if !self.is_force_off && !self.rig.is_real() {
@@ -113,7 +113,7 @@ impl Operated {
         let ended = match command {
             RigCommand::Jog(way) => rig.jog(&way, &mut on_sample),
             RigCommand::GoTo(place) => rig.go_to(&place, &mut on_sample),
-            RigCommand::Face(normal) => rig.face(&normal).map(|()| Ended::Whole),
+            RigCommand::Face(normal) => rig.face(&normal).map(|()| Ended::Complete),
             RigCommand::MeasureNormal => rig.measure_normal(&mut on_sample),
             RigCommand::Drive(direction) => {
                 let mut repeated_at = None;

@@ -8,7 +8,7 @@ use palpate_servo::monitor::{LoopMonitor, MonitorThread};
 use palpate_servo::{Clock, Fault, Supervisor, log};
 
 use super::log_writer::LogWriter;
-use super::{Console, ConsoleEvent, Operated, RecordingRequest, RigCommand};
+use super::{CommandedRig, Console, ConsoleEvent, RecordingRequest, RigCommand};
 use crate::{DepthTrajectory, Error, Rig, RigSample};
 
 /// A running rig with its console, samples and events. Dropping it withdraws the indenter and ends its threads.
@@ -18,7 +18,7 @@ pub struct LiveRig {
     /// Every sample; samples that nobody reads in time are lost.
     pub samples: log::Reader<RigSample>,
     /// Events of the rig and of its recordings.
-    pub news: Receiver<ConsoleEvent>,
+    pub console_events: Receiver<ConsoleEvent>,
     commissions: Sender<RecordingRequest>,
     threads: Vec<JoinHandle<()>>,
     watch: MonitorThread,
@@ -53,22 +53,22 @@ impl LiveRig {
         let clock = rig.clock();
         let watch = MonitorThread::start(watch, clock)?;
         let supervisor = rig.is_real().then(|| rig.supervisor());
-        let (operated, console, events) = Operated::new(rig);
+        let (operated, console, events) = CommandedRig::new(rig);
         let (samples, samples_reader) = log::ring(SAMPLES);
-        let (news, news_reader) = mpsc::channel();
+        let (console_events, console_events_reader) = mpsc::channel();
         let (commissions, commissioned) = mpsc::channel();
         let log_writer = LogWriter {
             events,
             requests: commissioned,
             samples,
-            news,
+            console_events,
             switches: console.switches(),
             open: None,
         };
         let mut live = Self {
             console,
             samples: samples_reader,
-            news: news_reader,
+            console_events: console_events_reader,
             commissions,
             threads: Vec::new(),
             watch,
@@ -130,9 +130,9 @@ impl Drop for LiveRig {
     }
 }
 
-fn run(mut operated: Operated, ended: &AtomicBool) {
+fn run(mut operated: CommandedRig, ended: &AtomicBool) {
     operated.rig().raise_priority();
-    while operated.turn(&mut |_| ()) {}
+    while operated.process_next(&mut |_| ()) {}
     ended.store(true, Ordering::Release);
 }
 

@@ -81,7 +81,7 @@ impl VirtualPhantom {
     }
 
     /// The same, where a function gives the contact force on its handle.
-    pub fn touched_by(mut self, touch: Touch) -> Self {
+    pub fn with_contact(mut self, touch: Touch) -> Self {
         self.touch = touch;
         self
     }

@@ -46,7 +46,7 @@ impl Rig {
         let mut sample = self.tick(Phase::Jogging, [self.aim, 0.0])?;
         loop {
             let Some(direction) = wanted(&sample).try_normalize(0.0) else {
-                return Ok(Ended::Whole);
+                return Ok(Ended::Complete);
             };
             let velocity = self.settings.jog_speed * direction;
             let way = self.settings.period * velocity;
@@ -99,7 +99,7 @@ impl Rig {
         self.retreat = self.retreat.max(self.aim);
         let is_there = (self.line.at(self.aim) - to).norm() <= ROUNDED;
         Ok(if is_there {
-            Ended::Whole
+            Ended::Complete
         } else {
             Ended::Stopped
         })

@@ -6,7 +6,7 @@ use crate::rig_settings::{LEAD, SETTLING_TIME, STANDOFF};
 use crate::{DepthTrajectory, Error, RigSettings};
 
 /// Ticks of an approach that room is made for at once: an hour and more at 1 kHz, 64 MB.
-const MOST_ROOM: usize = 4_000_000;
+const MAX_CAPACITY: usize = 4_000_000;
 
 impl Rig {
     /// Goes down until contact, finds the first contact and waits above it.
@@ -37,7 +37,7 @@ impl Rig {
         let resting = (ZEROING / period) as usize;
         let ticks = resting + (approach_distance / approach_speed / period) as usize;
         // A tick allocates nothing, unless a caller asks for an approach of more than an hour.
-        let room = ticks.min(MOST_ROOM);
+        let room = ticks.min(MAX_CAPACITY);
         let mut heights = Vec::with_capacity(room);
         let mut forces = Vec::with_capacity(room);
         let from = self.aim;
@@ -54,7 +54,7 @@ impl Rig {
             forces.push(sample.force);
             if tick > resting && self.is_met(&forces, resting) {
                 self.contact = contact_height(&heights, &forces);
-                return Ok(Ended::Whole);
+                return Ok(Ended::Complete);
             }
         }
         Err(Error::NoContact {
@@ -119,7 +119,7 @@ impl Rig {
         } = self.settings;
         let mut ended = self.stay(self.settings.settling_time(), listener)?;
         for (above, speed) in [(clearance, withdrawal_speed), (STANDOFF, approach_speed)] {
-            if ended == Ended::Whole {
+            if ended == Ended::Complete {
                 ended = self.go(contact + above, speed, Phase::Waiting, listener)?;
             }
         }
@@ -144,7 +144,7 @@ impl Rig {
                 return Ok(Ended::Stopped);
             }
         }
-        Ok(Ended::Whole)
+        Ok(Ended::Complete)
     }
 
     /// Waits for `time` [s] where it is.
@@ -164,7 +164,7 @@ impl Rig {
         let was_blind = self.sensing.fault.is_some();
         let waited = self.stay(self.settings.period, listener);
         match waited {
-            Err(Error::Sensor(_)) if was_blind => Ok(Ended::Whole),
+            Err(Error::Sensor(_)) if was_blind => Ok(Ended::Complete),
             waited => self.withdraw_unless(waited, listener),
         }
     }
@@ -184,7 +184,7 @@ impl Rig {
                 return Ok(Ended::Stopped);
             }
         }
-        Ok(Ended::Whole)
+        Ok(Ended::Complete)
     }
 
     /// Leaves the tissue: to the clearance above the contact, or to where it was before it looked for one; never down.
@@ -232,7 +232,7 @@ impl Rig {
                 return Ok(Ended::Stopped);
             }
         }
-        Ok(Ended::Whole)
+        Ok(Ended::Complete)
     }
 }
 

@@ -64,7 +64,7 @@ fn felt(frequency: f64, compensation: Option<Compensation>) -> Complex<f64> {
         Vec3::x() * (0.1 * (omega * (time + 0.5 * MECHANICS_STEP)).cos())
     };
     let device = VirtualPhantom::with_axes(machine, &still, Imperfections::none())
-        .touched_by(Box::new(shaken));
+        .with_contact(Box::new(shaken));
     let samples = run(device, compensation, 8000);
     let mut answer = Complex::new(0.0, 0.0);
     for sample in &samples[4000..] {

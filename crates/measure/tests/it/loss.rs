@@ -57,7 +57,7 @@ fn holding(wanted: impl Fn(u64) -> Option<f64>) -> Vec<Sample> {
     let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
     let spring = |_: f64, place: &Vec3, _: &Vec3| Vec3::z() * (-100.0 * place.z).max(0.0);
     let device = VirtualPhantom::with_axes(machine, &Vec3::zeros(), Imperfections::premium())
-        .touched_by(Box::new(spring));
+        .with_contact(Box::new(spring));
     let reference = |height: f64| Reference {
         position: Vec3::z() * height,
         velocity: Vec3::zeros(),

@@ -60,7 +60,7 @@ impl Mechanics for OnTable {
 }
 
 fn pressed(mut rig: Rig) -> Result<Vec<RigSample>, Error> {
-    assert_eq!(rig.approach(&mut |_| true)?, Ended::Whole);
+    assert_eq!(rig.approach(&mut |_| true)?, Ended::Complete);
     let mut samples = Vec::new();
     rig.press(&usual(), &mut |sample| {
         samples.push(*sample);
@@ -145,7 +145,7 @@ fn a_fault_of_a_service_ends_it_with_its_name() {
     let error = rig.approach(&mut |_| {
         ticks += 1;
         if ticks == 1000 {
-            service.misbehave(Some(Misbehaviour::Vanishes));
+            service.misbehave(Some(Misbehaviour::DevicesMissing));
         }
         true
     });

@@ -63,13 +63,13 @@ pub(crate) fn usual() -> DepthTrajectory {
 
 fn pressed(seed: u64) -> Vec<RigSample> {
     let mut rig = rig(soft(), RigSettings::default(), seed);
-    assert_eq!(rig.approach(&mut |_| true).unwrap(), Ended::Whole);
+    assert_eq!(rig.approach(&mut |_| true).unwrap(), Ended::Complete);
     let mut samples = Vec::new();
     let ended = rig.press(&usual(), &mut |sample| {
         samples.push(*sample);
         true
     });
-    assert_eq!(ended.unwrap(), Ended::Whole);
+    assert_eq!(ended.unwrap(), Ended::Complete);
     samples
 }
 

@@ -56,7 +56,7 @@ impl Pressed {
         let device = VirtualPhantom::with_axes(machine, &Vec3::zeros(), Imperfections::none());
         let (force, hangs) = (Arc::<AtomicU64>::default(), Arc::<AtomicBool>::default());
         let device = Heavy {
-            device: device.touched_by(Box::new(weight)),
+            device: device.with_contact(Box::new(weight)),
             force: force.clone(),
             hangs: hangs.clone(),
         };
@@ -135,7 +135,10 @@ fn a_silent_window_of_the_rig_leaves_no_force() {
         }
         println!("zero after {:?}", since.elapsed());
         let why = std::iter::from_fn(|| {
-            let news = pressed.live.news.recv_timeout(Duration::from_millis(100));
+            let news = pressed
+                .live
+                .console_events
+                .recv_timeout(Duration::from_millis(100));
             news.ok()
         });
         if why.filter_map(fault_of).last() == Some(silent) {

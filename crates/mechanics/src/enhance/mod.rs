@@ -34,7 +34,7 @@ pub use carrier::Carrier;
 pub use field::SurfaceField;
 pub use functions::{moving_least_squares, shepard};
 pub use interpolation::{Interpolation, SurfacePoint};
-pub use model::{EnhancementModel, MOST_LEVELS};
+pub use model::{EnhancementModel, MAX_LEVELS};
 pub use neighborhood::Neighborhood;
 pub use patch::EnhancedPatch;
 pub use press::{Press, profile};

@@ -7,7 +7,7 @@ use super::interpolation::{Interpolation, SurfacePoint};
 use crate::{Error, Vec3};
 
 /// More subdivisions would make more than 4096 triangles of one.
-pub const MOST_LEVELS: usize = 6;
+pub const MAX_LEVELS: usize = 6;
 
 /// A coarse surface, the displayed one, and the settings of the enhancement.
 #[derive(Debug, Clone)]
@@ -24,7 +24,7 @@ impl EnhancementModel {
     /// For the coarse `surface`, which is displayed.
     ///
     /// # Errors
-    /// When there are more than [`MOST_LEVELS`].
+    /// When there are more than [`MAX_LEVELS`].
     pub fn new(surface: Surface, settings: Enhancement) -> Result<Self, Error> {
         let normals = CornerNormals::new(&surface);
         let interpolation = Interpolation::new(surface, settings.smoothing);
@@ -34,7 +34,7 @@ impl EnhancementModel {
     /// For a coarse surface that carries `finer`, which is displayed.
     ///
     /// # Errors
-    /// When there are more than [`MOST_LEVELS`].
+    /// When there are more than [`MAX_LEVELS`].
     pub fn carrying(
         finer: Surface,
         surface: Surface,
@@ -49,7 +49,7 @@ impl EnhancementModel {
     /// The same surfaces, enhanced otherwise.
     ///
     /// # Errors
-    /// When there are more than [`MOST_LEVELS`].
+    /// When there are more than [`MAX_LEVELS`].
     pub fn with_settings(&self, settings: Enhancement) -> Result<Self, Error> {
         let interpolation = self.interpolation.with_smoothing(settings.smoothing);
         let (finer, normals) = (self.finer.clone(), self.normals.clone());
@@ -62,7 +62,7 @@ impl EnhancementModel {
         normals: CornerNormals,
         settings: Enhancement,
     ) -> Result<Self, Error> {
-        if settings.levels > MOST_LEVELS {
+        if settings.levels > MAX_LEVELS {
             return Err(Error::TooManyLevels {
                 levels: settings.levels,
             });

@@ -31,7 +31,7 @@ use crate::Vec3;
 use crate::finite_elements::solid::Face;
 
 /// Contacts of a step, at most.
-pub const MOST_CONTACTS: usize = 192;
+pub const MAX_CONTACTS: usize = 192;
 
 /// Points of a face in barycentric coordinates: one of these, and two of the other [-].
 const NEAR: f64 = 2.0 / 3.0;
@@ -46,7 +46,7 @@ pub(super) const ROWS: usize = 3;
 
 /// Nodes of a point or a place of a face, and of both.
 pub(super) const NODES: usize = 6;
-const MOST_NODES: usize = 2 * NODES;
+const MAX_NODES: usize = 2 * NODES;
 const NOWHERE: u32 = u32::MAX;
 
 /// Points of a face that may touch tools: a few, then more in their place where a tool is slender.
@@ -218,7 +218,7 @@ pub(super) struct Contact {
     pub(super) slot: usize,
     /// c [m/N].
     pub(super) compliance: f64,
-    nodes: [(u32, f64); MOST_NODES],
+    nodes: [(u32, f64); MAX_NODES],
     /// Whether the half-space goes with a place of the boundary, whose nodes are the second half.
     pub(super) is_between: bool,
     pub(super) normal: Vec3,
@@ -234,7 +234,7 @@ impl Contact {
             Against::Tool { .. } => model.tool_points(),
         };
         let point = &points[contact.point as usize];
-        let mut nodes = [(0, 0.0); MOST_NODES];
+        let mut nodes = [(0, 0.0); MAX_NODES];
         nodes[..NODES].copy_from_slice(&point.nodes);
         if let Against::Boundary(opposite) = contact.against {
             for (own, (node, weight)) in nodes[NODES..].iter_mut().zip(opposite) {
@@ -257,7 +257,7 @@ impl Contact {
 
     /// With their weights [-].
     pub(super) fn nodes(&self) -> &[(u32, f64)] {
-        let count = if self.is_between { MOST_NODES } else { NODES };
+        let count = if self.is_between { MAX_NODES } else { NODES };
         &self.nodes[..count]
     }
 
@@ -312,11 +312,11 @@ fn tangents(normal: &Vec3) -> [Vec3; 2] {
 impl Contacts {
     pub(super) fn new(nodes: usize) -> Self {
         Self {
-            listed: Vec::with_capacity(ROWS * MOST_CONTACTS),
-            frictional: Vec::with_capacity(MOST_CONTACTS),
-            nodes: Vec::with_capacity(MOST_NODES * MOST_CONTACTS),
+            listed: Vec::with_capacity(ROWS * MAX_CONTACTS),
+            frictional: Vec::with_capacity(MAX_CONTACTS),
+            nodes: Vec::with_capacity(MAX_NODES * MAX_CONTACTS),
             places: vec![NOWHERE; nodes],
-            columns: Vec::with_capacity(MOST_NODES * MOST_CONTACTS * ROWS * MOST_CONTACTS),
+            columns: Vec::with_capacity(MAX_NODES * MAX_CONTACTS * ROWS * MAX_CONTACTS),
         }
     }
 
@@ -325,7 +325,7 @@ impl Contacts {
         self.listed.len() - 2 * self.frictional.len()
     }
 
-    /// Lists the `contacts`, the first [`MOST_CONTACTS`] of them, and finds what a force on each moves.
+    /// Lists the `contacts`, the first [`MAX_CONTACTS`] of them, and finds what a force on each moves.
     pub(super) fn prepare(
         &mut self,
         body: Turned<'_>,
@@ -335,7 +335,7 @@ impl Contacts {
         let Turned { model, rotations } = body;
         self.listed.clear();
         self.frictional.clear();
-        let contacts = &contacts[..contacts.len().min(MOST_CONTACTS)];
+        let contacts = &contacts[..contacts.len().min(MAX_CONTACTS)];
         let listed = contacts.iter().map(|contact| Contact::new(model, contact));
         self.listed.extend(listed);
         for (normal, contact) in contacts.iter().enumerate() {

@@ -19,7 +19,7 @@ use crate::finite_elements::{ElementMesh, Mismatch};
 use crate::{Error, PronySeries, Vec3};
 
 /// Largest memory of the influences of the nodes that can be loaded [bytes].
-pub const MOST_INFLUENCE_BYTES: usize = 1 << 30;
+pub const MAX_INFLUENCE_BYTES: usize = 1 << 30;
 
 /// A node moves at most by this part of a mean edge in a step, in addition to the continued motion
 /// [-].
@@ -61,7 +61,7 @@ impl NonlinearModel {
     /// on, which costs 36 bytes times the square of their number.
     ///
     /// # Errors
-    /// When a list has another length, nothing is fixed, the influences need more than [`MOST_INFLUENCE_BYTES`], or
+    /// When a list has another length, nothing is fixed, the influences need more than [`MAX_INFLUENCE_BYTES`], or
     /// the stiffness at rest is not positive.
     pub fn new(
         mesh: &TetrahedronMesh,
@@ -111,10 +111,10 @@ impl NonlinearModel {
             .filter(|&node| can_be_loaded[node as usize] && !is_fixed[node as usize])
             .collect();
         let needed = 36 * list.len() * places.len();
-        if needed > MOST_INFLUENCE_BYTES {
+        if needed > MAX_INFLUENCE_BYTES {
             return Err(Error::NotEnoughMemory {
                 needed,
-                memory: MOST_INFLUENCE_BYTES,
+                memory: MAX_INFLUENCE_BYTES,
             });
         }
         let exact = Pack::<f64>::all(mesh, &numbers, moduli);

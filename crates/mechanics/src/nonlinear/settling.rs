@@ -12,7 +12,7 @@ use palpate_files::scene::CavityContent;
 /// more than a part of the body's size [-].
 const PARTS: usize = 20;
 const STEPS: usize = 2;
-const MOST_STEPS: usize = 200;
+const MAX_STEPS: usize = 200;
 const SETTLED: f64 = 1e-7;
 
 /// Long enough for every tissue to have relaxed [s].
@@ -102,7 +102,7 @@ impl NonlinearModel {
         let first = self.nodes()[0];
         let size = self.nodes().iter().map(|node| (node - first).norm());
         let farthest = SETTLED * size.fold(0.0, f64::max);
-        for step in 1..=PARTS * STEPS + MOST_STEPS {
+        for step in 1..=PARTS * STEPS + MAX_STEPS {
             at_part(self, (step.div_ceil(STEPS) as f64 / PARTS as f64).min(1.0));
             let ended = advance(self, Conditions::of_tools(&[]), pace, state, workspace);
             if ended.was_reset {

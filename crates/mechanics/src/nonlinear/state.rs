@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Rotation3};
 
-use super::contact::{FrictionState, MOST_CONTACTS, UnilateralContact};
+use super::contact::{FrictionState, MAX_CONTACTS, UnilateralContact};
 use super::coupling::Coupling;
 use super::model::NonlinearModel;
 use super::relaxation::{Relaxation, StressHistory};
@@ -124,7 +124,7 @@ impl NonlinearState {
             cavities: vec![CavityHistory::default(); model.walls.len()],
             pressed: vec![0.0; 2 * model.boundary_points().len()],
             friction_states: vec![FrictionState::default(); 2 * model.boundary_points().len()],
-            on_tools: vec![ContactHistory::default(); MOST_CONTACTS],
+            on_tools: vec![ContactHistory::default(); MAX_CONTACTS],
             stress: model
                 .relaxation
                 .as_ref()

@@ -16,11 +16,11 @@ const SLOPE_LEFT: f64 = 0.3;
 /// A residual that releases so many times less energy than the first is rounding, in numbers of single precision [-].
 const RESOLVED: f64 = 1e14;
 
-/// Conjugate gradients go on, up to [`MOST_TIMES`] as many, until they have reduced the residual's energy so many times [-].
+/// Conjugate gradients go on, up to [`MAX_TIMES`] as many, until they have reduced the residual's energy so many times [-].
 /// Thin walls need it: the residual that is left makes the organ too stiff within a step, and the force under a tip
 /// oscillates with a growing amplitude.
 const REDUCED: f64 = 1e3;
-const MOST_TIMES: usize = 2;
+const MAX_TIMES: usize = 2;
 
 /// Settings of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -316,7 +316,7 @@ impl Workspace {
         let Turned { model, rotations } = body;
         let mut advance = Advance::default();
         let (mut released, mut first) = (0.0, 0.0);
-        let most = MOST_TIMES * iterations;
+        let most = MAX_TIMES * iterations;
         for iteration in 0..most {
             // By the last known residual: the present one would cost a solution.
             if iteration >= iterations && first >= REDUCED * released {

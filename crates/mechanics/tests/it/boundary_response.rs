@@ -309,7 +309,7 @@ fn fields_of_many_forces_are_those_of_each() {
 }
 
 /// Force over E and a unit depth of a bonded patch of a quarter of the edge on a cube of edge 1, its
-/// bottom held.
+/// bottom fixed.
 fn cube_force(triangles: usize, nu: f64) -> f64 {
     let mesh = Organ::Cube.surface_mesh(triangles).unwrap();
     let (low, high) = mesh.bounds();

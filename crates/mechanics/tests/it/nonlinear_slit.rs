@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use nalgebra::Matrix3;
 use palpate_geometry::{NodeId, SlitPoint, SlitTetrahedra, TetrahedronMesh};
 use palpate_mechanics::nonlinear::{
-    Against, Conditions, Coupling, MOST_CONTACTS, Moduli, NonlinearModel, NonlinearState,
+    Against, Conditions, Coupling, MAX_CONTACTS, Moduli, NonlinearModel, NonlinearState,
     SpreadLoad, StateTransfer, StepSettings, TouchingBoundary, TouchingSearch, UnilateralContact,
     advance,
 };
@@ -253,7 +253,7 @@ fn pressed_shut(mesh: &TetrahedronMesh, depth: f64, touch: bool) -> f64 {
                 contacts.len()
             );
         }
-        assert!(contacts.len() <= MOST_CONTACTS, "{}", contacts.len());
+        assert!(contacts.len() <= MAX_CONTACTS, "{}", contacts.len());
         let conditions = Conditions {
             couplings: &[],
             contacts: &contacts,

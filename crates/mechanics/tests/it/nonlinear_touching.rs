@@ -3,7 +3,7 @@
 use palpate_geometry::{NodeId, TetrahedronMesh};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::nonlinear::{
-    Against, Conditions, MOST_CONTACTS, Moduli, NonlinearModel, NonlinearState, StepSettings,
+    Against, Conditions, MAX_CONTACTS, Moduli, NonlinearModel, NonlinearState, StepSettings,
     TouchingBoundary, TouchingPoint, TouchingSearch, UnilateralContact, Workspace, advance,
 };
 
@@ -93,7 +93,7 @@ impl Touching {
             .search
             .find(&self.boundary, &self.model, &self.state, visit);
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        found.truncate(MOST_CONTACTS);
+        found.truncate(MAX_CONTACTS);
         self.contacts
             .extend(found.iter().map(|(_, contact)| *contact));
         assert!(lost == 0.0, "{lost}");

@@ -40,7 +40,7 @@ fn block(cells: usize) -> TetrahedronMesh {
     TetrahedronMesh::block(Vec3::repeat(-HALF), Vec3::repeat(HALF), [cells; 3]).unwrap()
 }
 
-/// A cube of 0.1 m with its bottom held, and a patch of `radius` [m] in the middle of its top that
+/// A cube of 0.1 m with its bottom fixed, and a patch of `radius` [m] in the middle of its top that
 /// moves down by a hundredth of it.
 pub(crate) fn cube(radius: f64, nu: f64, friction: Friction) -> SolidProblem {
     SolidProblem {

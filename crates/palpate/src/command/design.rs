@@ -11,7 +11,7 @@ use palpate_jobs::design::{Answer, Known, PressesAnswer, Request, Within, design
 use super::overwrite::OverwriteOption;
 use super::recordings::Recordings;
 use crate::failure::Failure;
-use crate::interrupt::{self, Unbroken};
+use crate::interrupt::{self, UninterruptedSection};
 use crate::output;
 use crate::progress::{Progress, Reader};
 
@@ -94,7 +94,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let found = design(&request, &progress)?;
     drop(progress);
     if let Some(path) = &arguments.out {
-        let _unbroken = Unbroken::begin();
+        let _unbroken = UninterruptedSection::begin();
         write_atomically(path, found.protocol.as_bytes())?;
     }
     if arguments.json {

@@ -101,7 +101,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
                 Some(Box::new(prepared(&folder, None, false)?))
             }
         };
-        let start = Start::Again(Box::new(own), other);
+        let start = Start::Replay(Box::new(own), other);
         return match window::open(start, None, preparation::resources()) {
             Err(why) if window::is_absent(&why) => Err(Failure::failed(format!(
                 "{why}; --frames N --out DIR and --gif FILE.gif need no window"

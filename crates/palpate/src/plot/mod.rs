@@ -9,7 +9,7 @@ use std::path::Path;
 
 use palpate_files::printable;
 
-pub(crate) use palpate_jobs::plot::{Axis, Band, Plot, Series, Shade, Style, kept};
+pub(crate) use palpate_jobs::plot::{Axis, Band, Plot, Series, Shade, Style, thinned_indices};
 
 use crate::failure::Failure;
 

@@ -7,7 +7,7 @@ use palpate_geometry::Vec3;
 use palpate_simulate::Site;
 use serde::Serialize;
 
-use crate::plot::{Series, Style, kept};
+use crate::plot::{Series, Style, thinned_indices};
 
 /// Difference between simulated and recorded depth without a warning, relative to the largest depth [-].
 const SAME_DEPTH: f64 = 0.02;
@@ -104,7 +104,7 @@ impl Comparison {
     /// Time [s], depth [mm] and force [mN] of the samples that a line needs.
     fn drawn(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
         let [time, depth, force] = &self.recorded;
-        kept(time, depth, force)
+        thinned_indices(time, depth, force)
             .into_iter()
             .map(|i| [time[i], 1e3 * depth[i].max(0.0), 1e3 * force[i]])
     }

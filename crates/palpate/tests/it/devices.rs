@@ -184,7 +184,7 @@ fn a_touch_without_a_window_is_shown() {
         seen.extend(&bytes[..length]);
     }
     // A device that is lost ends it, with its name.
-    service.misbehave(Some(Misbehaviour::Drops));
+    service.misbehave(Some(Misbehaviour::Disconnects));
     assert_eq!(child.wait().unwrap().code(), Some(1));
 }
 

@@ -96,7 +96,7 @@ impl Body {
     fn built_in(organ: Organ, triangles: usize) -> Result<Self, Error> {
         let mesh = organ.surface_mesh(triangles)?;
         let whose = format!(
-            "the built-in {organ}, held on {}",
+            "the built-in {organ}, fixed on {}",
             organ.description().fixed
         );
         Self::fixed(Surface::new(mesh)?, &organ.anchor(), &whose)

@@ -57,7 +57,7 @@ pub(super) fn solve(
             Stage::Columns => (2, "its columns"),
         };
         ends[stage] = start.elapsed().as_secs_f64();
-        rows.say(format!("{words}, {:.0} %", 100.0 * progress.part));
+        rows.report_step(format!("{words}, {:.0} %", 100.0 * progress.part));
         match rows.should_stop() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),

@@ -7,7 +7,7 @@ use palpate_mechanics::enhance::{
 
 use crate::Error;
 use crate::m03::{Body, MODELS, Pressed};
-use crate::portrait::{Painter, Sitter};
+use crate::portrait::{Painter, RenderedBody};
 use crate::row::Rows;
 
 /// A picture of the figure.
@@ -80,7 +80,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let pressed = Pressed::new(&cube, DEPTH)?;
     for shown in PICTURES {
         let (surface, places) = enhanced(&cube.surface, &pressed, &shown)?;
-        let png = painter.draw(&Sitter {
+        let png = painter.draw(&RenderedBody {
             surface: &surface,
             places: &places,
             middle: (pressed.place, pressed.normal),

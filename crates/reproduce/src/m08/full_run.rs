@@ -50,7 +50,7 @@ pub(super) fn full_run(
     let depths: Vec<f64> = times.iter().map(|t| depth * (t / RAMP).min(1.0)).collect();
     let mut forces = Vec::with_capacity(times.len());
     for (&time, &depth) in times.iter().zip(&depths) {
-        rows.say(format!("full viscoelastic run, {time:.2} of {END} s"));
+        rows.report_step(format!("full viscoelastic run, {time:.2} of {END} s"));
         forces.push(run.press(time, depth, |_| {})?.force);
     }
     Ok((History { times, depths }, forces))

@@ -75,7 +75,7 @@ fn add_in_loop(
         in_loop: true,
         closed_forms: false,
     };
-    rows.say(format!("{organ}, finite elements in the loop"));
+    rows.report_step(format!("{organ}, finite elements in the loop"));
     let answer = characterize(&[recording], &settings, &mut |_| ());
     let Some((_, found)) = answer.laws.into_iter().next() else {
         return Ok(());

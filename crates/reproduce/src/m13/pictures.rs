@@ -46,7 +46,7 @@ pub(crate) fn figure_7_12(rows: &mut Rows<'_>) -> Result<(), Error> {
 /// Measures that the film changes, versus those printed of photographs.
 fn add_looks(rows: &mut Rows<'_>, plain: &RgbaImage, [middle, right]: [&RgbaImage; 2]) {
     let tissue = visual_measures::tissue(plain);
-    let unlike = visual_measures::unlike(&tissue, middle, right);
+    let unlike = visual_measures::different_part(&tissue, middle, right);
     rows.add("wet_unlike_textured", 100.0 * unlike);
     for (name, picture) in [("middle", middle), ("right", right)] {
         let highlights = visual_measures::highlights(&tissue, picture);

@@ -20,7 +20,7 @@ pub(super) fn tissue(dull: &RgbaImage) -> Vec<bool> {
 }
 
 /// The part of the pixels in which two pictures differ [-].
-pub(super) fn unlike(tissue: &[bool], a: &RgbaImage, b: &RgbaImage) -> f64 {
+pub(super) fn different_part(tissue: &[bool], a: &RgbaImage, b: &RgbaImage) -> f64 {
     let pairs = a.pixels().zip(b.pixels());
     let differs = pairs.map(|(a, b)| (0..3).any(|c| a[c].abs_diff(b[c]) > UNLIKE));
     part(tissue, differs)

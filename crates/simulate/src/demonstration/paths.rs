@@ -53,7 +53,7 @@ impl RestSurface<'_> {
 }
 
 /// Presses next to a place, and on it.
-pub(super) fn found(rest: &RestSurface<'_>, target: &Vec3) -> Vec<Step> {
+pub(super) fn steps_to_find(rest: &RestSurface<'_>, target: &Vec3) -> Vec<Step> {
     let (_, normal) = rest.at(target);
     let across = normal.cross(&Vec3::z()).try_normalize(1e-6);
     let across = across.unwrap_or(Vec3::x());
@@ -84,14 +84,14 @@ pub(super) fn found(rest: &RestSurface<'_>, target: &Vec3) -> Vec<Step> {
 }
 
 /// Grasps where the surface faces the pull, and pulls.
-pub(super) fn pulled(rest: &RestSurface<'_>, tool: usize, wanted: Vec3) -> Vec<Step> {
+pub(super) fn steps_to_pull(rest: &RestSurface<'_>, tool: usize, wanted: Vec3) -> Vec<Step> {
     let place = rest.facing(&wanted.normalize());
-    let mut steps = grasped(rest, tool, &place);
+    let mut steps = steps_to_grasp(rest, tool, &place);
     steps.push(Step::Pull { tool, wanted });
     steps
 }
 
-pub(super) fn grasped(rest: &RestSurface<'_>, tool: usize, place: &Vec3) -> Vec<Step> {
+pub(super) fn steps_to_grasp(rest: &RestSurface<'_>, tool: usize, place: &Vec3) -> Vec<Step> {
     let to = |height: f64, speed: f64| Step::Move {
         tool,
         to: rest.over(place, height),
@@ -144,7 +144,7 @@ fn hold(rest: &RestSurface<'_>, line: &Polyline) -> (Vec3, Vec3) {
 }
 
 /// Holds the tissue next to a line, if a tool can hold, and cuts along it, once for each depth.
-pub(super) fn cut(
+pub(super) fn steps_to_cut(
     rest: &RestSurface<'_>,
     line: &Polyline,
     depths: &[f64],
@@ -154,7 +154,7 @@ pub(super) fn cut(
     let mut steps = Vec::new();
     if let Some(tool) = grasper {
         let (place, aside) = hold(rest, line);
-        steps.extend(grasped(rest, tool, &place));
+        steps.extend(steps_to_grasp(rest, tool, &place));
         steps.push(Step::Move {
             tool,
             to: rest.over(&place, -BITE) + STRETCH * aside,

@@ -119,7 +119,7 @@ impl GlobalModel {
         for hold in state
             .tools
             .iter()
-            .filter_map(|tool| tool.grip.hold.as_ref())
+            .filter_map(|tool| tool.grip.grasp.as_ref())
         {
             for (part, triangles) in hold.patch().into_iter().flat_map(|patch| patch.parts()) {
                 for one in triangles {

@@ -54,7 +54,7 @@ impl OrganField {
 impl DisplayedContact {
     /// For a tool whose jaws hold the organ: the faces of the jaws move it like a flat tip of their area.
     pub(super) fn of_hold(tool: &Tool, state: &ToolState) -> Option<Self> {
-        let (hold, jaws) = (state.grip.hold.as_ref()?, tool.jaws?);
+        let (hold, jaws) = (state.grip.grasp.as_ref()?, tool.jaws?);
         let radius = (Swept::face(&jaws) / std::f64::consts::PI).sqrt();
         let press = Press {
             at: hold.displayed.at?,

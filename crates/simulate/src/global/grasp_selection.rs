@@ -13,8 +13,8 @@ use palpate_mechanics::surface_response::TouchId;
 use super::enhanced_surface::DisplayedContact;
 use super::{GlobalModel, GlobalWorkspace};
 use crate::grip::{
-    DisplayedHold, Grasp, Grasped, HeldPart, HeldPatch, HeldTriangle, MOST_PARTS, MOST_TRIANGLES,
-    Swept,
+    DisplayedGrasp, Grasp, Grasped, GraspedPart, GraspedPatch, GraspedTriangle, MAX_PARTS,
+    MAX_TRIANGLES, Swept,
 };
 use crate::simulation::Simulation;
 use crate::state::ToolState;
@@ -63,25 +63,25 @@ impl GlobalModel {
         let before = DisplayedContact::of(tool, &tools[number]);
         loop {
             (tools[number].contact, tools[number].site) = (None, None);
-            let hold = |patch: &HeldPatch, displayed, tools: &mut [ToolState]| {
+            let hold = |patch: &GraspedPatch, displayed, tools: &mut [ToolState]| {
                 let held = Grasped::Patch(patch.clone());
-                tools[number].grip.hold =
+                tools[number].grip.grasp =
                     Some(Grasp::new(&swept, pressed, thickness, held, displayed));
             };
             let nowhere =
-                before.map_or_else(|| self.displayed(simulation, &patch), DisplayedHold::of);
+                before.map_or_else(|| self.displayed(simulation, &patch), DisplayedGrasp::of);
             hold(&patch, nowhere, tools);
             self.assemble(tools, workspace);
             self.place(simulation, number, &mut patch, tools, workspace);
             let displayed =
-                before.map_or_else(|| self.displayed(simulation, &patch), DisplayedHold::of);
+                before.map_or_else(|| self.displayed(simulation, &patch), DisplayedGrasp::of);
             hold(&patch, displayed, tools);
             workspace.held.factor(tools.len());
-            if self.hold(simulation, tools, workspace) {
-                self.answer_held(simulation, tools, workspace);
+            if self.prepare_grasps(simulation, tools, workspace) {
+                self.solve_grasped_forces(simulation, tools, workspace);
                 return true;
             }
-            tools[number].grip.hold = None;
+            tools[number].grip.grasp = None;
             (tools[number].contact, tools[number].site) = touched;
             if !patch.halve() {
                 return false;
@@ -115,7 +115,7 @@ impl GlobalModel {
                 let place = corners.iter().sum::<Vec3>() / 3.0;
                 let lies_between = match large {
                     false => swept.contains(&place),
-                    true => swept.reaches(&corners),
+                    true => swept.intersects(&corners),
                 };
                 if !lies_between || !is_free(touch) {
                     continue;
@@ -136,7 +136,7 @@ impl GlobalModel {
     }
 
     /// The patch of the triangles that were divided into parts.
-    fn patch(&self, between: &[Candidate]) -> Option<HeldPatch> {
+    fn patch(&self, between: &[Candidate]) -> Option<GraspedPatch> {
         let of = |part: usize| between.iter().filter(move |one| one.part == part);
         let all: f64 = between.iter().map(|one| self.area(one.touch)).sum();
         let area = |part| -> f64 { of(part).map(|one| self.area(one.touch)).sum() };
@@ -144,20 +144,20 @@ impl GlobalModel {
         let count = between.last().map_or(0, |one| one.part + 1);
         let parts = (0..count).map(|part| {
             let moment = of(part).map(|one| centroid(one.touch) * self.area(one.touch));
-            HeldPart {
+            GraspedPart {
                 rest: moment.sum::<Vec3>() / area(part),
                 share: area(part) / all,
-                ..HeldPart::default()
+                ..GraspedPart::default()
             }
         });
         let triangles = between.iter().map(|one| {
-            let triangle = HeldTriangle {
+            let triangle = GraspedTriangle {
                 touch: one.touch,
                 weight: self.area(one.touch) / area(one.part),
             };
             (one.part, triangle)
         });
-        HeldPatch::new(parts, triangles)
+        GraspedPatch::new(parts, triangles)
     }
 
     /// Positions of the parts of a patch when they bear the force of the tip, in addition to the action of other tools.
@@ -165,7 +165,7 @@ impl GlobalModel {
         &self,
         simulation: &Simulation,
         number: usize,
-        patch: &mut HeldPatch,
+        patch: &mut GraspedPatch,
         tools: &[ToolState],
         workspace: &mut GlobalWorkspace,
     ) {
@@ -181,7 +181,7 @@ impl GlobalModel {
             part.at = part.rest + by * softness;
             for (tool, state) in simulation.tools.iter().zip(tools) {
                 for share in self.load(tool, state).iter().flat_map(|load| load.shares()) {
-                    let tip = HeldTriangle {
+                    let tip = GraspedTriangle {
                         touch: share.triangle,
                         weight: share.weight,
                     };
@@ -198,7 +198,7 @@ impl GlobalModel {
     }
 
     /// The displayed point of a patch that no tip has touched: its middle.
-    fn displayed(&self, simulation: &Simulation, patch: &HeldPatch) -> DisplayedHold {
+    fn displayed(&self, simulation: &Simulation, patch: &GraspedPatch) -> DisplayedGrasp {
         let parts = || patch.parts().map(|(part, _)| part);
         let all: f64 = parts().map(|part| part.share).sum();
         let middle = parts().map(|part| part.rest * part.share).sum::<Vec3>() / all;
@@ -216,7 +216,7 @@ impl GlobalModel {
                 (nearest.triangle, nearest.on.position)
             }
         };
-        DisplayedHold {
+        DisplayedGrasp {
             triangle,
             place,
             at: Some(at),
@@ -225,7 +225,7 @@ impl GlobalModel {
     }
 }
 
-impl DisplayedHold {
+impl DisplayedGrasp {
     fn of(contact: DisplayedContact) -> Self {
         Self {
             triangle: contact.triangle,
@@ -242,7 +242,7 @@ fn divide(between: &mut Vec<Candidate>) {
     let near = |one: &Candidate| one.place.norm_squared();
     let first = between.iter().min_by(|a, b| near(a).total_cmp(&near(b)));
     let mut next = first.map(|one| one.place);
-    for part in 0..MOST_PARTS {
+    for part in 0..MAX_PARTS {
         let Some(place) = next else {
             break;
         };
@@ -260,6 +260,6 @@ fn divide(between: &mut Vec<Candidate>) {
         apart.then(a.touch.cmp(&b.touch))
     };
     between.sort_unstable_by(nearest_first);
-    between.truncate(MOST_TRIANGLES);
+    between.truncate(MAX_TRIANGLES);
     between.sort_unstable_by_key(|one| (one.part, one.touch));
 }

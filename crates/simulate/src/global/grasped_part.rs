@@ -10,7 +10,7 @@
 //! every elastic organ. Collocation on a few large triangles violates that, even if tip and jaws share no triangle
 //! (`random_scenes::…`: the root of the largest eigenvalue of W⁻¹ Tᵀ E Ξ_hh⁻¹ T is 1.2 to 2.4 there, with a thousandth
 //! of the tip's load or none on the held parts), and a tip would move against its force. There T is reduced, so that
-//! this root is [`MOST_CARRIED`], and [`Limit::Carried`] reports it.
+//! this root is [`MAX_CARRIED`], and [`Limit::Carried`] reports it.
 //!
 //! [`Limit::Carried`]: palpate_mechanics::Limit::Carried
 //!
@@ -26,21 +26,21 @@ use palpate_geometry::Vec3;
 use palpate_mechanics::Reached;
 use palpate_mechanics::surface_response::TouchId;
 
-use super::press::MOST_CARRIED;
+use super::press::MAX_CARRIED;
 use super::{GlobalModel, GlobalWorkspace};
-use crate::grip::{HeldTriangle, MOST_PARTS, MOST_TRIANGLES};
+use crate::grip::{GraspedTriangle, MAX_PARTS, MAX_TRIANGLES};
 use crate::simulation::Simulation;
 use crate::state::ToolState;
 
 /// A pivot smaller than this part of its diagonal is rounding [-]: influences have 24 bits.
-const LEAST_PIVOT: f64 = 1e-6;
+const MIN_PIVOT: f64 = 1e-6;
 
 /// The equations of the held parts. They are set up again when the held parts change.
 #[derive(Debug)]
-pub(super) struct HeldWorkspace {
+pub(super) struct GraspWorkspace {
     /// For each part, its tool and the end index of its triangles.
     owners: Vec<(usize, usize)>,
-    triangles: Vec<HeldTriangle>,
+    triangles: Vec<GraspedTriangle>,
     is_solved: bool,
     /// Version of the slit in the equations.
     slit: u64,
@@ -59,12 +59,12 @@ pub(super) struct HeldWorkspace {
     stiffness: Vec<Matrix3<f64>>,
 }
 
-impl HeldWorkspace {
+impl GraspWorkspace {
     pub(super) fn new(tools: usize) -> Self {
-        let most = tools * MOST_PARTS;
+        let most = tools * MAX_PARTS;
         Self {
             owners: Vec::with_capacity(most),
-            triangles: Vec::with_capacity(tools * MOST_TRIANGLES),
+            triangles: Vec::with_capacity(tools * MAX_TRIANGLES),
             is_solved: false,
             slit: 0,
             matrix: vec![0.0; 9 * most * most],
@@ -91,7 +91,7 @@ impl HeldWorkspace {
     }
 
     /// Displacement [m] of the tip of tool `number`, one of so many, due to the forces on the held parts.
-    pub(super) fn carries(&self, number: usize, tools: usize) -> Vec3 {
+    pub(super) fn tip_displacement(&self, number: usize, tools: usize) -> Vec3 {
         let forces = self.forces.iter().take(self.answered()).enumerate();
         forces
             .map(|(k, force)| self.to_tips[k * tools + number].tr_mul(force))
@@ -100,7 +100,12 @@ impl HeldWorkspace {
 
     /// Reduction of the compliance [m/N] of tip `moved` to a force on tip `loaded`, of so many tools, by the held
     /// parts.
-    pub(super) fn fixes(&self, moved: usize, loaded: usize, tools: usize) -> Matrix3<f64> {
+    pub(super) fn compliance_reduction(
+        &self,
+        moved: usize,
+        loaded: usize,
+        tools: usize,
+    ) -> Matrix3<f64> {
         self.fixes[moved * tools + loaded]
     }
 
@@ -112,15 +117,15 @@ impl HeldWorkspace {
     /// Bounds the coupling of a tip, one of so many tools, with the held parts. `yields` is the compliance of its load
     /// without held parts [m/N]: held parts reduce it by less than all of it.
     fn bound(&mut self, number: usize, tools: usize, yields: &Matrix3<f64>) {
-        let coupling = coupling(&self.fixes(number, number, tools), yields);
-        if coupling <= MOST_CARRIED {
+        let coupling = coupling(&self.compliance_reduction(number, number, tools), yields);
+        if coupling <= MAX_CARRIED {
             return;
         }
         self.bounded[number] = Some(Reached {
             unbounded: coupling,
-            used: MOST_CARRIED,
+            used: MAX_CARRIED,
         });
-        let part = MOST_CARRIED / coupling;
+        let part = MAX_CARRIED / coupling;
         for k in 0..self.owners.len() {
             self.to_tips[k * tools + number] *= part;
         }
@@ -167,7 +172,7 @@ impl HeldWorkspace {
     }
 
     /// The triangles of part `k`.
-    fn part(&self, k: usize) -> &[HeldTriangle] {
+    fn part(&self, k: usize) -> &[GraspedTriangle] {
         let start = k.checked_sub(1).map_or(0, |before| self.owners[before].1);
         &self.triangles[start..self.owners[k].1]
     }
@@ -271,7 +276,7 @@ impl HeldWorkspace {
 impl GlobalModel {
     /// Prepares the equations of the parts that `tools` hold, if necessary; returns whether they have a solution, if
     /// anything is held.
-    pub(super) fn hold(
+    pub(super) fn prepare_grasps(
         &self,
         simulation: &Simulation,
         tools: &[ToolState],
@@ -316,8 +321,8 @@ impl GlobalModel {
     /// Displacement of one held part from a unit force on another, times E [1/m].
     pub(super) fn between_parts(
         &self,
-        moved: &[HeldTriangle],
-        loaded: &[HeldTriangle],
+        moved: &[GraspedTriangle],
+        loaded: &[GraspedTriangle],
     ) -> Matrix3<f64> {
         let mut sum = Matrix3::zeros();
         for here in moved {
@@ -357,7 +362,7 @@ impl GlobalModel {
     }
 
     /// The forces on all held parts, in addition to those of the tips.
-    pub(super) fn answer_held(
+    pub(super) fn solve_grasped_forces(
         &self,
         simulation: &Simulation,
         tools: &mut [ToolState],
@@ -369,7 +374,7 @@ impl GlobalModel {
         let right = &mut held.right[..size];
         let mut k = 0;
         for tool in tools.iter() {
-            let Some(hold) = &tool.grip.hold else {
+            let Some(hold) = &tool.grip.grasp else {
                 continue;
             };
             for (part, _) in hold.patch().into_iter().flat_map(|patch| patch.parts()) {
@@ -388,7 +393,7 @@ impl GlobalModel {
             *force = Vec3::from_column_slice(three);
         }
         for (number, state) in tools.iter_mut().enumerate() {
-            if !state.holds() {
+            if !state.is_grasping() {
                 continue;
             }
             let own = held.owners.iter().zip(&held.forces);
@@ -425,7 +430,7 @@ fn cholesky(matrix: &mut [f64], size: usize) -> bool {
         }
         let known: f64 = row[..i].iter().map(|value| value * value).sum();
         let pivot = diagonal - known;
-        if pivot <= LEAST_PIVOT * diagonal || !pivot.is_finite() {
+        if pivot <= MIN_PIVOT * diagonal || !pivot.is_finite() {
             return false;
         }
         row[i] = pivot.sqrt();
@@ -464,17 +469,23 @@ mod tests {
         assert!((coupling(&quarter, &yields) - 0.5).abs() < 1e-12);
         assert_eq!(coupling(&Matrix3::zeros(), &yields), 0.0);
         assert_eq!(coupling(&quarter, &-yields), f64::INFINITY);
-        let mut held = HeldWorkspace::new(2);
+        let mut held = GraspWorkspace::new(2);
         held.fixes = vec![quarter * 16.0, quarter, quarter.transpose(), quarter * 2.0];
         held.bound(0, 2, &yields);
         held.bound(1, 2, &yields);
         assert!((held.bounded(0).unwrap().unbounded - 2.0).abs() < 1e-12);
         assert!(held.bounded(1).is_none());
-        let left = yields - held.fixes(0, 0, 2);
+        let left = yields - held.compliance_reduction(0, 0, 2);
         assert!(left.symmetric_eigenvalues().min() > 0.0);
-        assert!((coupling(&held.fixes(0, 0, 2), &yields) - MOST_CARRIED).abs() < 1e-12);
-        let other = held.fixes(0, 1, 2) - quarter * (0.5 * MOST_CARRIED);
-        assert!(other.norm() < 1e-12 && held.fixes(0, 1, 2) == held.fixes(1, 0, 2).transpose());
+        assert!(
+            (coupling(&held.compliance_reduction(0, 0, 2), &yields) - MAX_CARRIED).abs() < 1e-12
+        );
+        let other = held.compliance_reduction(0, 1, 2) - quarter * (0.5 * MAX_CARRIED);
+        assert!(
+            other.norm() < 1e-12
+                && held.compliance_reduction(0, 1, 2)
+                    == held.compliance_reduction(1, 0, 2).transpose()
+        );
     }
 
     /// Judge: the product. And no factor for a matrix that is not positive definite.

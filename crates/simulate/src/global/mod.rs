@@ -54,9 +54,9 @@ use crate::walls::Walls;
 use crate::{Error, Progress, Resources, fixed_region};
 pub use enhanced_surface::{EnhancedSurface, OrganField};
 use grasp_selection::Candidate;
-use grasped_part::HeldWorkspace;
+use grasped_part::GraspWorkspace;
 use key::Ingredients;
-use method::{MOST_TETRAHEDRA, Method};
+use method::{MAX_TETRAHEDRA, Method};
 use organ_slit::OrganSlit;
 use solve::Found;
 pub(crate) use surroundings::surround;
@@ -97,7 +97,7 @@ pub struct ResponseOrigin {
 pub(crate) struct GlobalWorkspace {
     /// Compliance [m/N] of tool i to a force on tool j, at i tools + j.
     between: Vec<Matrix3<f64>>,
-    held: HeldWorkspace,
+    held: GraspWorkspace,
     /// The effect of cuts on it, if the mechanics follow them.
     slit: Option<OrganSlit>,
     between_jaws: Vec<Candidate>,
@@ -133,7 +133,7 @@ impl GlobalModel {
         let triangles = self.response.parts().triangles;
         GlobalWorkspace {
             between: vec![Matrix3::zeros(); tools * tools],
-            held: HeldWorkspace::new(tools),
+            held: GraspWorkspace::new(tools),
             slit: is_cut.then(|| OrganSlit::new(&self.response, tools)),
             between_jaws: Vec::with_capacity(self.response.touchable().len()),
             sums: vec![0.0; 3 * triangles],
@@ -200,7 +200,7 @@ impl<'a> GlobalProblem<'a> {
                 regions.is_some(),
                 &surface,
                 &walls,
-                MOST_TETRAHEDRA,
+                MAX_TETRAHEDRA,
             ),
             regions: regions.map(OrganRegions::new).transpose()?,
             walls,

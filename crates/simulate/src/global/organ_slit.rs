@@ -18,7 +18,7 @@ use palpate_mechanics::surface_response::{Share, SurfaceResponse};
 
 use super::{GlobalModel, GlobalWorkspace};
 use crate::cutting::{CutPart, Cuts, CuttingModel};
-use crate::grip::{HeldTriangle, MOST_PARTS};
+use crate::grip::{GraspedTriangle, MAX_PARTS};
 use crate::simulation::Simulation;
 use crate::state::ToolState;
 
@@ -77,7 +77,7 @@ impl OrganSlit {
         let loads = |count: usize| (0..count).map(|_| slit.load()).collect();
         Self {
             tips: loads(tools),
-            parts: loads(tools * MOST_PARTS),
+            parts: loads(tools * MAX_PARTS),
             scratch: slit.load(),
             jumps: slit.jumps(),
             slit,
@@ -176,7 +176,7 @@ impl OrganSlit {
         &mut self,
         response: &SurfaceResponse,
         number: usize,
-        part: &[HeldTriangle],
+        part: &[GraspedTriangle],
     ) {
         let load = &mut self.parts[number];
         self.slit.put(response, shares(part), None, load);
@@ -206,7 +206,7 @@ impl OrganSlit {
     pub(super) fn carry(
         &mut self,
         response: &SurfaceResponse,
-        part: &[HeldTriangle],
+        part: &[GraspedTriangle],
         forces: impl Iterator<Item = (usize, Vec3)>,
     ) -> Vec3 {
         self.slit
@@ -266,7 +266,7 @@ impl GlobalWorkspace {
     }
 }
 
-fn shares(part: &[HeldTriangle]) -> impl Iterator<Item = Share> {
+fn shares(part: &[GraspedTriangle]) -> impl Iterator<Item = Share> {
     part.iter().map(|one| Share {
         triangle: one.touch,
         weight: one.weight,

@@ -28,7 +28,7 @@ use crate::walls::Walls;
 const TRIANGLES: usize = 500;
 
 /// More tetrahedra would take longer than acceptable for this model: some seconds.
-const MOST_TETRAHEDRA: f64 = 5_000.0;
+const MAX_TETRAHEDRA: f64 = 5_000.0;
 
 /// Gives every tool the compliance of the organ of `scene` beyond a half-space; the organ is displayed as `shown`;
 /// returns a warning.
@@ -62,7 +62,7 @@ pub(crate) fn surround(
         false,
         &surface,
         &walls,
-        MOST_TETRAHEDRA,
+        MAX_TETRAHEDRA,
     );
     let finite = finite.into_iter().find_map(|method| by(method).ok());
     let (response, warning) = match finite {

@@ -4,12 +4,12 @@ use palpate_geometry::{TriangleId, Vec3};
 use palpate_mechanics::enhance::SurfacePoint;
 use palpate_mechanics::surface_response::TouchId;
 
-use super::{HeldPlace, Swept};
+use super::{GraspedPlace, Swept};
 use crate::tool::Tool;
 
 /// Largest numbers of independently moving parts, and of triangles in all of them, that one tool can hold.
-pub(crate) const MOST_PARTS: usize = 16;
-pub(crate) const MOST_TRIANGLES: usize = 64;
+pub(crate) const MAX_PARTS: usize = 16;
+pub(crate) const MAX_TRIANGLES: usize = 64;
 
 /// Tissue between jaws: it moves rigidly with the tool, except for its slip.
 #[derive(Debug, Clone)]
@@ -24,7 +24,7 @@ pub(crate) struct Grasp {
     /// Thickness of the tissue between the jaws, uncompressed [m].
     pub(crate) thickness: f64,
     pub(crate) grasped: Grasped,
-    pub(crate) displayed: DisplayedHold,
+    pub(crate) displayed: DisplayedGrasp,
 }
 
 /// The held tissue, by model.
@@ -35,16 +35,16 @@ pub(crate) struct Grasp {
 )]
 pub(crate) enum Grasped {
     /// A patch of the organ-scale model.
-    Patch(HeldPatch),
+    Patch(GraspedPatch),
     /// A place of the local model.
-    Place(HeldPlace),
+    Place(GraspedPlace),
     /// An area of the nonlinear model.
-    Area(HeldArea),
+    Area(GraspedArea),
 }
 
 /// Held tissue of an organ that bends, bonded as to a flat tip.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct HeldArea {
+pub(crate) struct GraspedArea {
     /// Two tangents and the normal of the surface at rest there [-].
     pub(crate) frame: Matrix3<f64>,
     /// Offset of the jaws from the held tissue at the start of the grasp, under the tip's force [m], in the tool's
@@ -57,16 +57,16 @@ pub(crate) struct HeldArea {
 /// Held triangles of the mechanical surface, in a few parts: small triangles share a part, and bear its force by their
 /// areas. A part's position is the mean of theirs.
 #[derive(Debug, Clone)]
-pub(crate) struct HeldPatch {
-    parts: [HeldPart; MOST_PARTS],
+pub(crate) struct GraspedPatch {
+    parts: [GraspedPart; MAX_PARTS],
     count: usize,
     /// Sorted by part.
-    triangles: [HeldTriangle; MOST_TRIANGLES],
+    triangles: [GraspedTriangle; MAX_TRIANGLES],
 }
 
 /// A part of a patch.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct HeldPart {
+pub(crate) struct GraspedPart {
     /// The end index of its triangles.
     pub(crate) end: usize,
     /// Its position at rest, and at the start of the grasp [m].
@@ -78,7 +78,7 @@ pub(crate) struct HeldPart {
 
 /// A triangle of a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct HeldTriangle {
+pub(crate) struct GraspedTriangle {
     pub(crate) touch: TouchId,
     /// Share of its part's area [-].
     pub(crate) weight: f64,
@@ -86,7 +86,7 @@ pub(crate) struct HeldTriangle {
 
 /// The point of the displayed surface that represents the held tissue.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct DisplayedHold {
+pub(crate) struct DisplayedGrasp {
     /// Its triangle, and its position at rest [m].
     pub(crate) triangle: TriangleId,
     pub(crate) place: Vec3,
@@ -102,7 +102,7 @@ impl Grasp {
         area: f64,
         thickness: f64,
         held: Grasped,
-        displayed: DisplayedHold,
+        displayed: DisplayedGrasp,
     ) -> Self {
         let began = (swept.tip, swept.turned);
         Self {
@@ -179,7 +179,7 @@ impl Grasp {
     }
 
     /// Its patch of the organ-scale model; none in the local model.
-    pub(crate) fn patch(&self) -> Option<&HeldPatch> {
+    pub(crate) fn patch(&self) -> Option<&GraspedPatch> {
         match &self.grasped {
             Grasped::Patch(patch) => Some(patch),
             Grasped::Place(_) | Grasped::Area(_) => None,
@@ -187,20 +187,20 @@ impl Grasp {
     }
 }
 
-impl HeldPatch {
+impl GraspedPatch {
     /// A patch with these numbers of parts and triangles, to be filled in; none without any.
     pub(crate) fn new(
-        parts: impl Iterator<Item = HeldPart>,
-        triangles: impl Iterator<Item = (usize, HeldTriangle)>,
+        parts: impl Iterator<Item = GraspedPart>,
+        triangles: impl Iterator<Item = (usize, GraspedTriangle)>,
     ) -> Option<Self> {
-        let none = HeldTriangle {
+        let none = GraspedTriangle {
             touch: TouchId(0),
             weight: 0.0,
         };
         let mut patch = Self {
-            parts: [HeldPart::default(); MOST_PARTS],
+            parts: [GraspedPart::default(); MAX_PARTS],
             count: 0,
-            triangles: [none; MOST_TRIANGLES],
+            triangles: [none; MAX_TRIANGLES],
         };
         for (own, part) in patch.parts.iter_mut().zip(parts) {
             *own = part;
@@ -216,7 +216,7 @@ impl HeldPatch {
     }
 
     /// Its parts, with the triangles of each.
-    pub(crate) fn parts(&self) -> impl Iterator<Item = (&HeldPart, &[HeldTriangle])> + Clone {
+    pub(crate) fn parts(&self) -> impl Iterator<Item = (&GraspedPart, &[GraspedTriangle])> + Clone {
         (0..self.count).map(move |number| {
             let start = number
                 .checked_sub(1)
@@ -227,12 +227,12 @@ impl HeldPatch {
     }
 
     /// Its parts, mutable, to set their positions.
-    pub(crate) fn parts_mut(&mut self) -> &mut [HeldPart] {
+    pub(crate) fn parts_mut(&mut self) -> &mut [GraspedPart] {
         &mut self.parts[..self.count]
     }
 
     /// Its triangles.
-    pub(crate) fn triangles(&self) -> &[HeldTriangle] {
+    pub(crate) fn triangles(&self) -> &[GraspedTriangle] {
         let end = self
             .count
             .checked_sub(1)

@@ -36,7 +36,7 @@ impl Swept {
     }
 
     /// The far end of the drawn-in tissue, in the scene [m].
-    pub(crate) fn ahead(&self) -> Vec3 {
+    pub(crate) fn far_end(&self) -> Vec3 {
         self.tip - self.turned * Vec3::z() * AHEAD
     }
 
@@ -46,7 +46,7 @@ impl Swept {
     }
 
     /// Whether a part of a triangle with these corners in the tool's frame lies between the jaws.
-    pub(crate) fn reaches(&self, corners: &[Vec3; 3]) -> bool {
+    pub(crate) fn intersects(&self, corners: &[Vec3; 3]) -> bool {
         // Almost all triangles of an organ fail this test.
         let misses = |axis: usize| {
             let along = corners.map(|corner| corner[axis]);
@@ -120,8 +120,8 @@ mod tests {
         assert!(!inside(Vec3::new(1.0, 0.003, -0.001)));
         // A triangle wider than the jaws has no corner between them.
         let wide = [[-0.1, -0.1], [0.1, -0.1], [0.0, 0.2]].map(|[x, y]| Vec3::new(x, y, 0.004));
-        assert!(swept.reaches(&wide));
+        assert!(swept.intersects(&wide));
         let below = wide.map(|corner| corner + Vec3::z() * 0.01);
-        assert!(!swept.reaches(&below));
+        assert!(!swept.intersects(&below));
     }
 }

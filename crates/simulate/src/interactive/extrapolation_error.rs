@@ -8,7 +8,7 @@ use crate::{Simulation, SimulationState, SimulationWorkspace, step};
 /// The extrapolation error of a tool's servo loop at every tick: replays the `samples` of the device of tool `number`
 /// at `mount` at the loop's own rate, and compares the force of each step with the one that the loop made. It takes as
 /// long as that many steps.
-pub fn judge_samples(
+pub fn measure_extrapolation_error(
     simulation: &Simulation,
     number: usize,
     placement: &DevicePlacement,
@@ -35,7 +35,7 @@ pub fn judge_samples(
         // Before the first answer the loop had no force.
         if sample.age.is_some_and(f64::is_finite) {
             error.add(
-                &made(simulation, placement, sample),
+                &force_on_tool(simulation, placement, sample),
                 &state.tools[number].force,
             );
         }
@@ -44,7 +44,11 @@ pub fn judge_samples(
 }
 
 /// The force on the tool [N] that a loop made at `sample`, in the scene's frame and unscaled.
-pub(super) fn made(simulation: &Simulation, placement: &DevicePlacement, sample: &Sample) -> Vec3 {
+pub(super) fn force_on_tool(
+    simulation: &Simulation,
+    placement: &DevicePlacement,
+    sample: &Sample,
+) -> Vec3 {
     let of_model = (sample.commanded - sample.added) / simulation.force_scale();
     placement.force_on_tip(&sample.state.position, &of_model)
 }

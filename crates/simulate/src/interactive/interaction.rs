@@ -12,7 +12,7 @@ use palpate_servo::{
 
 use super::command::commands;
 use super::endpoints::{DeviceEndpoints, LoopReaders, PlacedDevice, device_endpoints};
-use super::model::{PreparedModel, Replacing, replacement};
+use super::model::{PreparedModel, ReplacementSender, replacement};
 use super::model_loop::{Channels, ModelLoop};
 use super::recorder::{RecordingFailure, SessionRecorder};
 use super::{ModelCommand, ModelReport, Quality, ROWS, Snapshot};
@@ -31,7 +31,7 @@ pub struct Interaction {
     rows: log::Reader<SessionRow>,
     commands: log::Writer<ModelCommand>,
     snapshots: latest::Receiver<Snapshot>,
-    replacing: Replacing,
+    replacing: ReplacementSender,
     supervisor: Supervisor,
     clock: Clock,
 }

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! A [`ModelCommand`] (pause, resume, undo, reset) reaches the model through a ring of its own. The recorder writes a
-//! session that is recorded, and passes its rows on for display. A watch thread detects a loop that hangs and a request
+//! session that is recorded, and passes its rows on for display. A monitor thread detects a loop that hangs and a request
 //! to end the program ([`palpate_servo::monitor`]). Another model can take over while the devices stay open
 //! ([`PreparedModel`]).
 //!
@@ -41,7 +41,7 @@ const ROWS: usize = 24_000;
 pub use command::ModelCommand;
 pub use device_placement::DevicePlacement;
 pub use endpoints::PlacedDevice;
-pub use extrapolation_error::judge_samples;
+pub use extrapolation_error::measure_extrapolation_error;
 pub use force_renderer::ForceRenderer;
 pub use hand_over::affine_force;
 pub use interaction::{Environment, Interaction};
@@ -49,7 +49,7 @@ pub use model::PreparedModel;
 pub use model_loop::CUTS;
 pub(crate) use model_loop::DISPLAY;
 pub use quality::{ExtrapolationError, ModelReport, Quality};
-pub use recorder::{MOST_ROWS_IN_MEMORY, RecordingFailure};
+pub use recorder::{MAX_ROWS_IN_MEMORY, RecordingFailure};
 pub use scene_devices::SceneDevices;
 pub use snapshot::{ContactSnapshot, OpenedPart, OpenedSnapshot, Snapshot, ToolSnapshot};
 pub use virtual_interaction::VirtualInteraction;

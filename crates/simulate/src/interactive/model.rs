@@ -57,7 +57,7 @@ impl PreparedModel {
 }
 
 /// The caller's end of a replacement.
-pub(super) struct Replacing {
+pub(super) struct ReplacementSender {
     next: SyncSender<Box<Model>>,
     replaced: Receiver<Box<Model>>,
     /// The model that runs, or will within a moment.
@@ -78,10 +78,10 @@ pub(super) struct ReplacementReceiver {
 pub(super) fn replacement(
     touched: &Arc<Simulation>,
     supervisor: &Supervisor,
-) -> (Replacing, ReplacementReceiver) {
+) -> (ReplacementSender, ReplacementReceiver) {
     let (next, waiting) = sync_channel(1);
     let (give_back, replaced) = sync_channel(1);
-    let replacing = Replacing {
+    let replacing = ReplacementSender {
         next,
         replaced,
         touched: touched.clone(),
@@ -96,7 +96,7 @@ pub(super) fn replacement(
     (replacing, taking_over)
 }
 
-impl Replacing {
+impl ReplacementSender {
     /// Sends `prepared` to the model thread, and returns the viewer's end of its output.
     pub(super) fn replace(
         &mut self,

@@ -4,7 +4,7 @@ use palpate_files::{Event, Events, Pose, SessionRow};
 use palpate_servo::{AffineForce, Histogram, Priority, Sample, Stage, log};
 
 use super::endpoints::ModelEndpoint;
-use super::extrapolation_error::made;
+use super::extrapolation_error::force_on_tool;
 use super::hand_over::affine_force;
 use super::model::{Model, ReplacementReceiver};
 use super::quality::ExtrapolationError;
@@ -285,7 +285,7 @@ impl ModelLoop {
             };
             // Before the first answer the loop had no force.
             let answered = sample.age.is_some_and(f64::is_finite);
-            let made = made(simulation, &endpoint.placement, sample);
+            let made = force_on_tool(simulation, &endpoint.placement, sample);
             if answered && made.iter().all(|component| component.is_finite()) {
                 self.error.add(&made, &tool.force);
             }

@@ -14,15 +14,15 @@ const PERIOD: Duration = Duration::from_millis(50);
 
 /// Rows of a recording that stay in memory until the next one begins [-], in case the disk fails: 20 minutes of two
 /// tools at 200 Hz, 70 MB.
-pub const MOST_ROWS_IN_MEMORY: usize = 480_000;
+pub const MAX_ROWS_IN_MEMORY: usize = 480_000;
 
-/// A recording whose rows can no longer be written. The rows so far stay in memory, up to [`MOST_ROWS_IN_MEMORY`], and
+/// A recording whose rows can no longer be written. The rows so far stay in memory, up to [`MAX_ROWS_IN_MEMORY`], and
 /// further ones join them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RecordingFailure {
     /// Why, in a sentence.
     pub cause: String,
-    /// Whether every row since the beginning is in memory. Else the first [`MOST_ROWS_IN_MEMORY`] are.
+    /// Whether every row since the beginning is in memory. Else the first [`MAX_ROWS_IN_MEMORY`] are.
     pub is_complete: bool,
 }
 
@@ -80,7 +80,7 @@ impl SessionRecorder {
         from: log::Reader<SessionRow>,
         stops: Option<Supervisor>,
     ) -> Option<(Self, log::Reader<SessionRow>)> {
-        Self::with_memory(from, MOST_ROWS_IN_MEMORY, stops)
+        Self::with_memory(from, MAX_ROWS_IN_MEMORY, stops)
     }
 
     /// With another limit of rows in memory.

@@ -48,7 +48,7 @@ pub struct ToolSnapshot {
     /// Force of each of its jaws on the tissue that it holds [N]; zero without.
     pub grip_force: f64,
     /// Whether its jaws hold tissue.
-    pub holds: bool,
+    pub is_grasping: bool,
     /// Bounds of the models that acted in its steps so far.
     pub limits: LimitCounts,
 }
@@ -126,7 +126,7 @@ impl Snapshot {
             contact: None,
             cuts: false,
             grip_force: 0.0,
-            holds: false,
+            is_grasping: false,
             limits: LimitCounts::default(),
         };
         Self {
@@ -249,7 +249,7 @@ impl ToolSnapshot {
             }),
             cuts: tool.blade.is_some(),
             grip_force: tool.grip_force,
-            holds: tool.holds(),
+            is_grasping: tool.is_grasping(),
             limits: tool.limits,
         }
     }

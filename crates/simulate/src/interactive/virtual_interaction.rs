@@ -5,7 +5,7 @@ use palpate_servo::{Fault, Sample, ServoLoop, ServoSettings, Supervisor, latest,
 
 use super::command::commands;
 use super::endpoints::{LoopReaders, PlacedDevice, device_endpoints};
-use super::model::{PreparedModel, Replacing, replacement};
+use super::model::{PreparedModel, ReplacementSender, replacement};
 use super::model_loop::{Channels, ModelLoop};
 use super::{ModelCommand, Quality, Snapshot};
 use crate::{Error, Simulation};
@@ -20,7 +20,7 @@ pub struct VirtualInteraction {
     rows: log::Reader<SessionRow>,
     commands: log::Writer<ModelCommand>,
     snapshots: latest::Receiver<Snapshot>,
-    replacing: Replacing,
+    replacing: ReplacementSender,
     supervisor: Supervisor,
     period: f64,
     tick: u64,

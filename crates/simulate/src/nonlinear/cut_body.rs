@@ -59,7 +59,7 @@ pub(super) struct FollowedCuts {
 }
 
 impl FollowedCuts {
-    fn is_whole(simulation: &Simulation, organ: &Arc<NonlinearOrgan>) -> bool {
+    fn is_uncut(simulation: &Simulation, organ: &Arc<NonlinearOrgan>) -> bool {
         let whole = simulation.nonlinear.as_ref();
         whole.is_some_and(|whole| Arc::ptr_eq(whole, organ))
     }
@@ -221,7 +221,7 @@ impl NonlinearWorkspace {
             return;
         };
         let own = std::mem::replace(&mut self.own, workspace);
-        if FollowedCuts::is_whole(simulation, &before) {
+        if FollowedCuts::is_uncut(simulation, &before) {
             ready.workspace = self.whole.replace(own);
             ready.discarded_workspace = self.left.take();
         } else {
@@ -234,7 +234,7 @@ impl NonlinearWorkspace {
         if Arc::ptr_eq(&self.of, &body.organ) {
             return;
         }
-        let is_whole = FollowedCuts::is_whole(simulation, &body.organ);
+        let is_whole = FollowedCuts::is_uncut(simulation, &body.organ);
         let own = match self.whole.take_if(|_| is_whole) {
             Some(own) => own,
             None => body.organ.workspace_of(body.loads.len()),
@@ -283,7 +283,7 @@ impl Ready {
         std::mem::swap(&mut body.organ, &mut self.organ);
         std::mem::swap(&mut body.state, &mut state);
         std::mem::swap(&mut body.loads, &mut loads);
-        if FollowedCuts::is_whole(simulation, &self.organ) {
+        if FollowedCuts::is_uncut(simulation, &self.organ) {
             self.body = body.cuts.whole.replace((state, loads));
             self.discarded = body.cuts.left.take();
         } else {
@@ -302,7 +302,7 @@ impl Body {
     /// Jaws keep holding the same tissue, in other elements.
     fn keep_holding(&mut self, simulation: &Simulation, number: usize, own: &mut ToolState) {
         let tool = &simulation.tools[number];
-        let (Some(hold), Some(radius)) = (&mut own.grip.hold, jaws_radius(tool)) else {
+        let (Some(hold), Some(radius)) = (&mut own.grip.grasp, jaws_radius(tool)) else {
             return;
         };
         let turned = *hold.turned();

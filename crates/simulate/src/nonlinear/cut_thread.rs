@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use palpate_geometry::Vec3;
 use palpate_mechanics::nonlinear::{EmbeddedPoints, NonlinearState, SpreadLoad, StateTransfer};
 
-use super::slits::{ASIDE, CutPaths};
+use super::slits::{CLEARANCE, CutPaths};
 use super::{NonlinearOrgan, OrganWorkspace};
 use crate::Error;
 use crate::simulation::Simulation;
@@ -161,7 +161,7 @@ impl Job {
         };
         let places = self.rims.iter();
         let places: Vec<Vec3> = places
-            .map(|(_, place, opens)| place + ASIDE * opens)
+            .map(|(_, place, opens)| place + CLEARANCE * opens)
             .collect();
         let all = 0..organ.model.mesh().tetrahedra().len();
         let rims = Rims {
@@ -210,7 +210,7 @@ impl Job {
             PointBelow {
                 number: *number,
                 place: *place,
-                aside: ASIDE * opens,
+                aside: CLEARANCE * opens,
                 normal: shown.mesh().area_vector(nearest.triangle).normalize(),
             }
         });

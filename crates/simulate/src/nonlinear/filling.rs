@@ -19,11 +19,11 @@ const MORE: usize = 3;
 const OF_EDGE: f64 = 0.6;
 
 /// Where a body is thinner than this number of edges, they are shorter in proportion [-], by a factor of
-/// [`MOST_GRADED`] at most: rims and lobes bend within their thickness. With twice as much grading the bulk becomes too
+/// [`MAX_GRADED`] at most: rims and lobes bend within their thickness. With twice as much grading the bulk becomes too
 /// coarse for a tip. A body that is a wall of one element is not graded, nor are neighbours, whose short edges at a rim
 /// fold where a stiffer organ presses on them.
 const THIN: f64 = 3.0;
-const MOST_GRADED: f64 = 3.0;
+const MAX_GRADED: f64 = 3.0;
 
 /// Part of the work before edges collapse [-].
 const BEFORE_COLLAPSES: f64 = 0.3;
@@ -71,7 +71,7 @@ pub(super) fn grading(surface: &Surface, nodes: usize) -> impl Fn(&Vec3) -> f64 
     let is_wall = thickness.typical() < edge;
     move |place| match is_wall {
         true => 1.0,
-        false => (THIN * edge / thickness.at(place)).clamp(1.0, MOST_GRADED),
+        false => (THIN * edge / thickness.at(place)).clamp(1.0, MAX_GRADED),
     }
 }
 

@@ -5,7 +5,7 @@ use super::soft::Piece;
 use super::target::Now;
 use super::{Body, NonlinearOrgan, REACH_IN_RADII, jaws_radius};
 use crate::contact;
-use crate::grip::{DisplayedHold, Grasp, Grasped, HeldArea, Swept};
+use crate::grip::{DisplayedGrasp, Grasp, Grasped, GraspedArea, Swept};
 use crate::simulation::Simulation;
 use crate::state::SimulationState;
 
@@ -26,7 +26,7 @@ impl NonlinearOrgan {
             return false;
         };
         let ahead = || {
-            let ahead = carry_back_anew(simulation, tool, &swept.ahead(), state)?;
+            let ahead = carry_back_anew(simulation, tool, &swept.far_end(), state)?;
             contact::detect(&simulation.rest_surface(tool), tool, None, &ahead)
         };
         let Some(contact) = own.contact.or_else(ahead) else {
@@ -46,12 +46,12 @@ impl NonlinearOrgan {
             return false;
         };
         let offset = -(compliance * now.force);
-        let held = Grasped::Area(HeldArea {
+        let held = Grasped::Area(GraspedArea {
             frame,
             offset: swept.turned.inverse() * offset,
             force: swept.turned.inverse() * now.force,
         });
-        let displayed = DisplayedHold {
+        let displayed = DisplayedGrasp {
             triangle: contact.place.triangle,
             place: point,
             at: None,
@@ -59,7 +59,7 @@ impl NonlinearOrgan {
         };
         let area = Swept::face(&jaws);
         let own = &mut state.tools[number];
-        own.grip.hold = Some(Grasp::new(&swept, area, jaws.opening_m, held, displayed));
+        own.grip.grasp = Some(Grasp::new(&swept, area, jaws.opening_m, held, displayed));
         own.displaced = now.mean;
         own.solved = own.elastic;
         true

@@ -23,7 +23,7 @@ const SPACING: f64 = 2e-3;
 const PARTED: f64 = 0.4;
 
 /// Points closer to a cut than this count as this far from it [m]: the sides of a slit are not exactly below it.
-pub(super) const ASIDE: f64 = 1.5e-3;
+pub(super) const CLEARANCE: f64 = 1.5e-3;
 
 /// The cuts of an organ as paths of slits.
 #[derive(Debug, Clone, Default)]
@@ -115,9 +115,9 @@ impl CutPaths {
         });
         let nearest = nearest.min_by(|one, other| one.0.total_cmp(&other.0));
         match nearest {
-            Some((distance, off, across)) if distance < ASIDE => {
+            Some((distance, off, across)) if distance < CLEARANCE => {
                 let side = off.dot(&across);
-                place + across * (side.signum() * (ASIDE - side.abs()))
+                place + across * (side.signum() * (CLEARANCE - side.abs()))
             }
             _ => *place,
         }

@@ -38,7 +38,7 @@ use crate::state::{SimulationState, ToolState};
 use crate::tool::Tool;
 
 /// A motion longer than a step allows is divided into several steps, at most this many [-].
-const MOST_PARTS: usize = 8;
+const MAX_PARTS: usize = 8;
 
 /// Displacements below this [m] count as zero: they can be neither seen nor felt.
 const AT_REST: f64 = 1e-6;
@@ -47,17 +47,17 @@ const AT_REST: f64 = 1e-6;
 const SLOWEST_RETURN: f64 = 0.9;
 
 /// After this many such steps in succession it is set to rest: an inverted element may block it elsewhere.
-const MOST_STALLED: u32 = 100;
+const MAX_STALLED: u32 = 100;
 
 /// Largest number of steps for which a released tool is still followed: a fifth of a second, in which tissue recovers
 /// by 4 cm.
-const MOST_RELEASE_STEPS: u32 = 40;
+const MAX_RELEASE_STEPS: u32 = 40;
 
 /// Scenes have no more tools.
-const MOST_TOOLS: usize = 2;
+const MAX_TOOLS: usize = 2;
 
 /// A contact softer than this part of the organ around it does not count yet [-].
-const LEAST_STIFFNESS: f64 = 1e-6;
+const MIN_STIFFNESS: f64 = 1e-6;
 
 /// The result of the steps of a period.
 #[derive(Debug, Clone, Copy, Default)]
@@ -149,7 +149,7 @@ impl NonlinearOrgan {
         let is_held = state.has_friction() || state.has_self_contact() || state.touches_tools();
         let lags = is_free && is_slow && !is_held && (ended.is_inverted || !self.model.relaxes());
         body.stalled = if lags { body.stalled + 1 } else { 0 };
-        if body.stalled > MOST_STALLED {
+        if body.stalled > MAX_STALLED {
             body.state.reset(&self.model);
         } else if lags {
             body.state.shrink(&self.model, SLOWEST_RETURN);
@@ -162,7 +162,7 @@ impl NonlinearOrgan {
                 workspace.own.candidates.report(own);
             }
             own.solved = own.elastic;
-            if let Some(hold) = &own.grip.hold {
+            if let Some(hold) = &own.grip.grasp {
                 own.displaced = hold.displaced();
             }
         }
@@ -179,7 +179,7 @@ impl NonlinearOrgan {
         body: &mut Body,
     ) -> Option<Target> {
         self.turn_history(tool, number, own, body);
-        let mut target = match own.holds() {
+        let mut target = match own.is_grasping() {
             true => self.hold(tool, number, own, body),
             // A tip that touches again during the recovery starts from the present state.
             false if body.release_steps[number] > 0 && own.contact.is_none() => None,
@@ -188,7 +188,7 @@ impl NonlinearOrgan {
         let steps = &mut body.release_steps[number];
         *steps = match (&target, *steps) {
             (Some(_), _) => 0,
-            (None, 0) if body.is_loaded[number] => MOST_RELEASE_STEPS,
+            (None, 0) if body.is_loaded[number] => MAX_RELEASE_STEPS,
             (None, steps) => steps.saturating_sub(1),
         };
         if *steps > 0 {
@@ -213,7 +213,7 @@ impl NonlinearOrgan {
         body.histories[number].turn(by.matrix());
         if own.history == ForceHistory::default() {
             body.histories[number] = ForceHistory::default();
-        } else if own.holds() || tool.friction.is_none() {
+        } else if own.is_grasping() || tool.friction.is_none() {
             // The history of a tip with friction turns with its contact.
             own.history.turn(by.matrix());
         }
@@ -236,8 +236,8 @@ impl NonlinearOrgan {
         let travels = travels.map(|(target, load)| own(target) / farthest(load));
         let asked = travels.chain(shafts().map(ShaftMotion::parts));
         let asked = asked.fold(0.0, f64::max);
-        let parts = (asked.ceil() as usize).clamp(1, MOST_PARTS);
-        let reach = (MOST_PARTS as f64 / asked).min(1.0) / parts as f64;
+        let parts = (asked.ceil() as usize).clamp(1, MAX_PARTS);
+        let reach = (MAX_PARTS as f64 / asked).min(1.0) / parts as f64;
         let travel = targets
             .iter()
             .map(own)
@@ -266,19 +266,19 @@ impl NonlinearOrgan {
                 };
             }
             let left = 1.0 - reach * part as f64;
-            let relaxes: [_; MOST_TOOLS] = std::array::from_fn(|number| {
+            let relaxes: [_; MAX_TOOLS] = std::array::from_fn(|number| {
                 let history = body.histories.get(number);
                 history.map_or((1.0, Vec3::zeros()), |own| {
                     own.predict(series, pace.elapsed)
                 })
             });
-            let couplings: [_; MOST_TOOLS] = std::array::from_fn(|number| {
+            let couplings: [_; MAX_TOOLS] = std::array::from_fn(|number| {
                 let target = targets.get(number)?.as_ref()?;
                 let nodes = &body.loads[number].nodes;
                 Some(target.coupling(nodes, left, reach, relaxes[number]))
             });
             let conditions = Conditions {
-                couplings: &couplings[..targets.len().min(MOST_TOOLS)],
+                couplings: &couplings[..targets.len().min(MAX_TOOLS)],
                 contacts: &workspace.own.candidates.contacts,
             };
             let (state, solver) = (&mut body.state, &mut workspace.own.solver);
@@ -300,7 +300,7 @@ impl NonlinearOrgan {
     /// The forces after tissue has slid in the jaws, by linearization: the next step solves for them.
     pub(crate) fn press_again(&self, tools: &mut [ToolState]) {
         for own in tools {
-            own.elastic = match &own.grip.hold {
+            own.elastic = match &own.grip.grasp {
                 Some(hold) => own.solved - own.stiffness * (hold.displaced() - own.displaced),
                 None if own.contact.is_some() => own.solved,
                 None => Vec3::zeros(),
@@ -369,13 +369,13 @@ impl NonlinearOrgan {
             own.elastic = -goal;
             return None;
         }
-        let (along, stiffness) = match tool.bond {
+        let (along, stiffness) = match tool.tip_friction {
             Friction::Frictionless => (Some(contact.normal()), slippery(&answer.stiffness)),
             Friction::Bonded => (None, answer.stiffness),
         };
         let tip_and_organ = frame * stiffness.try_inverse()? * frame.transpose();
         // A tip with little contact.
-        if now.compliance.trace() < LEAST_STIFFNESS * tip_and_organ.trace() {
+        if now.compliance.trace() < MIN_STIFFNESS * tip_and_organ.trace() {
             return None;
         }
         Some(Target::new(
@@ -389,7 +389,7 @@ impl NonlinearOrgan {
 
     /// The target of jaws that hold.
     fn hold(&self, tool: &Tool, number: usize, own: &mut ToolState, body: &Body) -> Option<Target> {
-        let hold = own.grip.hold.as_ref()?;
+        let hold = own.grip.grasp.as_ref()?;
         let Grasped::Area(area) = &hold.grasped else {
             return None;
         };
@@ -468,7 +468,7 @@ impl ToolState {
             self.row.events.insert(Event::NoEquilibrium);
             self.row.events.insert(Event::Release);
         }
-        if self.grip.hold.take().is_some() {
+        if self.grip.grasp.take().is_some() {
             self.row.events.insert(Event::GripRelease);
         }
         self.contact = None;

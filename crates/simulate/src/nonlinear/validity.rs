@@ -9,7 +9,7 @@ use crate::tool::Tool;
 
 /// Mean pressure of a load, and pressure of a point on a shaft [Young's moduli], beyond which a solution is invalid: a
 /// flat punch eight radii deep in neo-Hookean tissue has a tenth of it.
-const MOST_PRESSURE: f64 = 100.0;
+const MAX_PRESSURE: f64 = 100.0;
 
 /// Largest jump of a tool's force, as a multiple of its old and its expected force together, or of a pressure of
 /// Young's modulus on the tool's area if that is more [-].
@@ -34,7 +34,7 @@ impl NonlinearOrgan {
                 elastic > LEAP * known.max(under_modulus(radius))
             });
             let force = body.state.force(number).norm();
-            body.is_loaded[number] && (leaps || force > MOST_PRESSURE * under_modulus(load.radius))
+            body.is_loaded[number] && (leaps || force > MAX_PRESSURE * under_modulus(load.radius))
         });
         is_loaded_too_hard
             || workspace.own.candidates.contacts.iter().any(|contact| {
@@ -42,7 +42,7 @@ impl NonlinearOrgan {
                     return false;
                 };
                 let (area, piece) = self.shaft_skin.around(contact.point);
-                let most = MOST_PRESSURE * modulus(piece) * area;
+                let most = MAX_PRESSURE * modulus(piece) * area;
                 body.state.force_of(&self.model, contact) > most
             })
     }

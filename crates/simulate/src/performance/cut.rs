@@ -148,7 +148,7 @@ impl CutTracker {
                 tip,
                 along: near.map_or(0.0, |near| near.along),
                 deviation: Deviation {
-                    distance: near.map_or(0.0, |near| aside(&near.aside, row.depth_m)),
+                    distance: near.map_or(0.0, |near| surface_part(&near.offset, row.depth_m)),
                     is_inside: near.and_then(|near| near.is_inside),
                 },
                 layer: row.events.deepest_opened(),
@@ -283,6 +283,6 @@ impl CutTracker {
 }
 
 /// The part of a path [m] at the surface, when `depth` [m] of it is below.
-pub(super) fn aside(path: &Vec3, depth: f64) -> f64 {
+pub(super) fn surface_part(path: &Vec3, depth: f64) -> f64 {
     (path.norm_squared() - depth * depth).max(0.0).sqrt()
 }

@@ -5,7 +5,7 @@ use palpate_files::{Event, SessionRow};
 use palpate_geometry::Vec3;
 
 use super::Errors;
-use super::cut::{CutTracker, aside};
+use super::cut::{CutTracker, surface_part};
 use super::touch::TouchTracker;
 
 /// A pull below this part of the required force does not count yet [-].
@@ -174,7 +174,7 @@ impl GoalTracker {
                 // The first mark counts; if a size is required, it is still missing.
                 Goal::Find { target_m, size, .. } if row.contact && self.beside.is_none() => {
                     let offset = Vec3::from(row.position_m) - Vec3::from(target_m);
-                    self.beside = Some(aside(&offset, row.depth_m));
+                    self.beside = Some(surface_part(&offset, row.depth_m));
                     self.done = size.is_none();
                 }
                 // A mark in the air does not count.

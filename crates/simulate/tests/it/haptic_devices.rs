@@ -238,7 +238,7 @@ fn a_fault_of_the_device_ends_the_touch() {
     let last = interaction.samples(0).last().unwrap();
     assert_eq!(last.output, Vec3::zeros());
     assert_eq!(last.stage, Stage::Faulted(Fault::Unpowered));
-    service.misbehave(Some(Misbehaviour::Drops));
+    service.misbehave(Some(Misbehaviour::Disconnects));
     assert_eq!(interaction.advance(), Err(Fault::Disconnected));
 }
 

@@ -15,7 +15,7 @@ use palpate_geometry::Vec3;
 use palpate_servo::{Fault, Pointer, Sample, ServoSettings, Trajectory, VirtualDevice, Waypoint};
 use palpate_simulate::interactive::{
     CUTS, DevicePlacement, ExtrapolationError, Interaction, PlacedDevice, SceneDevices,
-    VirtualInteraction, judge_samples,
+    VirtualInteraction, measure_extrapolation_error,
 };
 use palpate_simulate::{
     EnhancedSurface, Error, Simulation, SimulationState, SimulationWorkspace, step,
@@ -135,7 +135,7 @@ fn felt_error(simulation: &Arc<Simulation>, frequency: f64) -> ExtrapolationErro
     let mut interaction = virtual_interaction(simulation, frequency);
     advance(&mut interaction, 3000);
     let samples: Vec<Sample> = interaction.samples(0).collect();
-    judge_samples(simulation, 0, &DevicePlacement::default(), &samples)
+    measure_extrapolation_error(simulation, 0, &DevicePlacement::default(), &samples)
 }
 
 /// Judge: the same model at every tick. The flat tip's organ is a spring while it touches, so that only

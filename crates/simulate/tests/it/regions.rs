@@ -125,7 +125,7 @@ impl Press {
 }
 
 /// Longest of graded edges, in the first [-]: a ball is of whole elements.
-const MOST_GRADED: f64 = 4.0;
+const MAX_GRADED: f64 = 4.0;
 
 /// Distances from a fine edge at `from`, ever wider away from it, up to `to` [m].
 fn graded(from: f64, to: f64, first: f64) -> Vec<f64> {
@@ -133,7 +133,7 @@ fn graded(from: f64, to: f64, first: f64) -> Vec<f64> {
     while places[places.len() - 1] + 1.5 * step < to {
         let last = places[places.len() - 1];
         places.push(last + step);
-        step = (1.15 * step).min(MOST_GRADED * first);
+        step = (1.15 * step).min(MAX_GRADED * first);
     }
     places.push(to);
     places

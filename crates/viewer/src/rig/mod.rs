@@ -77,10 +77,10 @@ pub struct Begin {
 }
 
 /// Makes a rig, on a real clock, and reports the part that is done [-].
-pub type Make = dyn Fn(&mut dyn FnMut(f64)) -> Result<MadeRig, String> + Send + Sync;
+pub type Make = dyn Fn(&mut dyn FnMut(f64)) -> Result<PreparedRig, String> + Send + Sync;
 
 /// A rig over a specimen.
-pub struct MadeRig {
+pub struct PreparedRig {
     /// The rig.
     pub rig: Rig,
     /// Warnings about it.

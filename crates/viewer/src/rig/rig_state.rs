@@ -58,7 +58,7 @@ impl RigState {
         for sample in live.samples.drain() {
             self.add_sample(sample);
         }
-        for news in live.news.try_iter() {
+        for news in live.console_events.try_iter() {
             self.handle(news, journal);
         }
         if self.online.is_enough()
@@ -99,12 +99,12 @@ impl RigState {
     }
 
     /// The mean force of the last samples [N].
-    pub(super) fn calm_force(&self) -> f64 {
+    pub(super) fn steady_force(&self) -> f64 {
         self.last_forces.iter().sum::<f64>() / AVERAGED as f64
     }
 
     /// The mean of the last samples on all axes; none for a sensor of one.
-    pub(super) fn calm_axes(&self) -> Option<ForceTorque> {
+    pub(super) fn steady_axes(&self) -> Option<ForceTorque> {
         self.now?.axes?;
         let sum = self
             .last_axes
@@ -149,10 +149,10 @@ impl RigState {
                 journal.enter(number, recorded, &rows)
             }
             // It could not even be begun.
-            ConsoleEvent::Unwritten(unwritten) if unwritten.rows.is_empty() => {
+            ConsoleEvent::WriteFailed(unwritten) if unwritten.rows.is_empty() => {
                 self.notice = Some(unwritten.error.to_string());
             }
-            ConsoleEvent::Unwritten(unwritten) => journal.keep_unsaved(*unwritten),
+            ConsoleEvent::WriteFailed(unwritten) => journal.keep_unsaved(*unwritten),
         }
     }
 

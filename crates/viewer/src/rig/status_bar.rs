@@ -134,7 +134,7 @@ fn force(window: &mut RigWindow, ui: &mut Ui) {
     quantity(
         ui,
         "force, mean of the last 20 ms",
-        format!("{} mN", rounded(1e3 * window.watch.calm_force(), 1)),
+        format!("{} mN", rounded(1e3 * window.watch.steady_force(), 1)),
         FORCE,
         force / limit,
         format!(
@@ -239,11 +239,11 @@ fn unsaved(window: &mut RigWindow, ui: &mut Ui) {
     let Some(unsaved) = &mut window.journal.unsaved else {
         return;
     };
-    let samples = unsaved.unwritten.rows.len();
+    let samples = unsaved.failed.rows.len();
     let (mut saves, mut discards) = (false, false);
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("NOT RECORDED").strong().color(FAULT));
-        ui.label(unsaved.unwritten.error.to_string());
+        ui.label(unsaved.failed.error.to_string());
     });
     ui.horizontal(|ui| {
         ui.label(format!(
@@ -253,7 +253,7 @@ fn unsaved(window: &mut RigWindow, ui: &mut Ui) {
         saves = ui.button("Record there").clicked();
         discards = ui.button("Discard them").clicked();
     });
-    if let Some(trouble) = &unsaved.trouble {
+    if let Some(trouble) = &unsaved.error {
         ui.label(RichText::new(trouble).small().color(FAULT));
     }
     ui.add_space(4.0);

@@ -94,19 +94,19 @@ impl OrganView {
     }
 
     /// Frames the organ anew with the next picture.
-    pub(super) fn frame_anew(&mut self) {
+    pub(super) fn reset_framing(&mut self) {
         self.orbit = None;
         self.drawn = None;
-        self.put_tools_away();
+        self.release_tools();
     }
 
     /// Looks from where another picture looks.
-    pub(super) fn look_as(&mut self, other: &Self) {
+    pub(super) fn copy_view(&mut self, other: &Self) {
         (self.orbit, self.endoscope) = (other.orbit, other.endoscope);
     }
 
     /// All hands let go of their tools.
-    pub(super) fn put_tools_away(&mut self) {
+    pub(super) fn release_tools(&mut self) {
         self.gesture = Gesture::default();
         self.hands.clear();
     }

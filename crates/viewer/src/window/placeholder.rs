@@ -40,7 +40,7 @@ impl SimulatorWindow {
                         ui.colored_label(style::FAULT, fault);
                         ui.add_space(12.0);
                         if ui.button(text!("absence-way-out")).clicked() {
-                            self.choice = Choice::new(self.way_out.clone());
+                            self.choice = Choice::new(self.fallback.clone());
                             self.radius = 1e3 * self.choice.tip.radius_m;
                             self.fault = None;
                             self.reset(&context);

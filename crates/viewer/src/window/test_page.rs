@@ -4,7 +4,7 @@ use eframe::egui::accesskit::{Action, Node, NodeId, Role};
 use eframe::egui::{Context, Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, Ui, Vec2};
 
 /// A page as somebody sees it who reads the accessibility tree.
-pub(crate) struct Seen {
+pub(crate) struct TestPage {
     context: Context,
     nodes: Vec<(NodeId, Node)>,
     events: Vec<Event>,
@@ -15,7 +15,7 @@ pub(crate) struct Seen {
     time: f64,
 }
 
-impl Default for Seen {
+impl Default for TestPage {
     fn default() -> Self {
         let context = Context::default();
         context.enable_accesskit();
@@ -30,7 +30,7 @@ impl Default for Seen {
     }
 }
 
-impl Seen {
+impl TestPage {
     /// Shows the page once, with the presses and keys since the last time.
     pub(crate) fn show(&mut self, page: impl FnMut(&mut Ui)) {
         let input = self.input();

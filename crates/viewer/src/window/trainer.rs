@@ -51,7 +51,7 @@ impl SimulatorWindow {
                     scene
                 }
                 Err(trouble) => {
-                    home.trouble = Some(trouble);
+                    home.error = Some(trouble);
                     return;
                 }
             },
@@ -95,7 +95,7 @@ impl SimulatorWindow {
         if is_left {
             self.settings_page = None;
             if let Some(home) = &mut self.home {
-                home.trouble.clone_from(&self.settings.trouble);
+                home.error.clone_from(&self.settings.error);
             }
         }
     }
@@ -129,11 +129,11 @@ impl SimulatorWindow {
 
     /// Whether organ, tissue and tools may be changed: not within a task or a session.
     pub(super) fn can_choose(&mut self) -> bool {
-        self.attempt.is_none() && !self.looks_again()
+        self.attempt.is_none() && !self.is_replaying()
     }
 
     /// Whether a session is played again.
-    pub(super) fn looks_again(&mut self) -> bool {
+    pub(super) fn is_replaying(&mut self) -> bool {
         let play = self.play.as_mut();
         play.is_some_and(|play| play.source.playback().is_some())
     }
@@ -143,12 +143,12 @@ impl SimulatorWindow {
         let goes_on = matches!(
             &self.attempt,
             Some(Attempt {
-                phase: Phase::GoesOn(_),
+                phase: Phase::Running(_),
                 ..
             })
         );
         if !goes_on && self.awaited.is_none() {
-            let is_wanted = Attempt::is_wanted(&play.scene.task);
+            let is_wanted = Attempt::has_goal(&play.scene.task);
             self.attempt = is_wanted.then(|| Attempt::new(play));
         }
     }
@@ -171,7 +171,7 @@ impl SimulatorWindow {
         else {
             return;
         };
-        let Phase::Over(done) = &attempt.phase else {
+        let Phase::Ended(done) = &attempt.phase else {
             return;
         };
         let trainee = training.trainee.trim();
@@ -192,7 +192,7 @@ impl SimulatorWindow {
             score: &done.score,
         });
         if let Err(trouble) = saved {
-            attempt.trouble = Some(text!("result-not-kept", trouble = trouble));
+            attempt.error = Some(text!("result-not-kept", trouble = trouble));
         }
         attempt.compare_with(earlier);
     }
@@ -225,7 +225,7 @@ impl SimulatorWindow {
             None => {}
             Some(AttemptAction::Show) => {
                 attempt.show(play);
-                self.picture.put_tools_away();
+                self.picture.release_tools();
                 self.picture.lists_keys = false;
                 self.history.clear();
             }
@@ -254,9 +254,9 @@ impl SimulatorWindow {
                 }
             }
             Some(AttemptAction::Home) => self.go_home(),
-            Some(AttemptAction::Again) => {
+            Some(AttemptAction::Replay) => {
                 if let Some(folder) = attempt.folder() {
-                    self.look_again(&folder);
+                    self.replay_session(&folder);
                 }
             }
         }
@@ -266,13 +266,13 @@ impl SimulatorWindow {
     pub(super) fn mark(&mut self) {
         match &self.attempt {
             Some(Attempt {
-                phase: Phase::Reads | Phase::Over(_),
+                phase: Phase::Briefing | Phase::Ended(_),
                 ..
             }) => self.begins_anew = true,
             Some(attempt) if attempt.is_shown() => self.end_attempt(),
             Some(attempt) if attempt.awaits_diameter() => self.state_diameter(),
             Some(Attempt {
-                phase: Phase::GoesOn(_),
+                phase: Phase::Running(_),
                 ..
             })
             | None => {
@@ -321,7 +321,7 @@ impl SimulatorWindow {
             let training = self.training.as_ref();
             let session = training.map(|training| training.record.new_session(&attempt.task));
             attempt.begin(play, session);
-            self.picture.put_tools_away();
+            self.picture.release_tools();
             self.picture.lists_keys = false;
             self.history.clear();
         }
@@ -335,11 +335,11 @@ impl SimulatorWindow {
     }
 
     /// Plays the session of a folder again, on the organ that is there.
-    pub(super) fn look_again(&mut self, session: &Path) {
+    pub(super) fn replay_session(&mut self, session: &Path) {
         let Some(play) = &self.play else { return };
         let again = SessionFolder::read(session)
             .map_err(Error::from)
-            .and_then(|folder| play.again(text!("replay-own"), &folder.session))
+            .and_then(|folder| play.played_session(text!("replay-own"), &folder.session))
             .and_then(|session| Play::of_session(session, &self.gpu));
         self.show_again(again);
     }
@@ -351,7 +351,7 @@ impl SimulatorWindow {
                 self.play = Some(again);
                 self.attempt = None;
                 self.history.clear();
-                self.picture.put_tools_away();
+                self.picture.release_tools();
                 self.picture.lists_keys = false;
             }
             Err(error) => self.notice = Some(error.to_string()),

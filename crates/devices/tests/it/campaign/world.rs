@@ -166,9 +166,9 @@ impl World {
                 Trouble::Late => Misbehaviour::Stalls(Duration::from_millis(40)),
                 Trouble::Doubled => Misbehaviour::Repeats(20),
                 Trouble::NotANumber => Misbehaviour::Coordinate("NaN"),
-                Trouble::Lost => Misbehaviour::Drops,
+                Trouble::Lost => Misbehaviour::Disconnects,
                 Trouble::TakesOff => Misbehaviour::NoPower,
-                _ => Misbehaviour::Swallows,
+                _ => Misbehaviour::NoReply,
             })),
             StandIn::Library(library) => {
                 let (switch, value) = match (trouble, self.driver) {

@@ -8,7 +8,7 @@
 use super::igor_pair::position_named;
 use super::igor_wave::{Wave, columns};
 use super::{Curve, InstrumentFile};
-use crate::atomic_write::{MOST_OF_TABLE, read_bytes};
+use crate::atomic_write::{MAX_TABLE_BYTES, read_bytes};
 use crate::quantity::plain_quantity;
 use crate::recording::{Recording, RecordingHeader};
 use crate::{Domain, Error};
@@ -100,7 +100,7 @@ fn paired(file: &InstrumentFile<'_>, mut wave: Wave) -> Result<Wave, Error> {
              (Concatenate), label the columns (SetDimLabel), and save that wave",
         )
     })?;
-    let bytes = read_bytes(&position, MOST_OF_TABLE)?;
+    let bytes = read_bytes(&position, MAX_TABLE_BYTES)?;
     let other = InstrumentFile {
         bytes: &bytes,
         path: &position,

@@ -49,7 +49,7 @@ pub struct OnSurface {
 }
 
 /// No scene has more neighbours.
-const MOST_NEIGHBOURS: u64 = 1000;
+const MAX_NEIGHBOURS: u64 = 1000;
 
 /// The keys of a draw, of which one says how.
 pub(crate) const KEYS: &[Key] = &[
@@ -103,7 +103,7 @@ impl OnSurface {
         Key::integer(
             "neighbour",
             1,
-            MOST_NEIGHBOURS,
+            MAX_NEIGHBOURS,
             "The surface is that of the `[[neighbour]]` with this number, from 1 in the order of the file.",
         )
         .optional("1", "it is the organ's"),

@@ -4,7 +4,7 @@ use palpate_characterize::{CleanRecording, FittedRecording, FittedRelaxation};
 
 use super::super::finished::Studied;
 use super::{DrawnCurve, DrawnFit, DrawnRecording, DrawnRelaxation, LEVEL, key};
-use crate::plot::kept;
+use crate::plot::thinned_indices;
 
 /// The recordings of a specimen.
 pub(crate) fn drawn(studied: &Studied) -> Vec<DrawnRecording> {
@@ -20,7 +20,7 @@ pub(crate) fn drawn(studied: &Studied) -> Vec<DrawnRecording> {
         DrawnRecording {
             file: file.display().to_string(),
             digest: studied.digests[place].clone(),
-            fitted: own.and_then(|own| drawn_fit(recording, &own, is_piece, kept)),
+            fitted: own.and_then(|own| drawn_fit(recording, &own, is_piece, thinned_indices)),
             ..alone(recording)
         }
     });
@@ -28,7 +28,7 @@ pub(crate) fn drawn(studied: &Studied) -> Vec<DrawnRecording> {
 }
 
 fn alone(recording: &CleanRecording) -> DrawnRecording {
-    let chosen = kept(&recording.time, &recording.depth, &recording.force);
+    let chosen = thinned_indices(&recording.time, &recording.depth, &recording.force);
     let handling = &recording.handling;
     let contact = handling.contact;
     let last = recording.time.len().saturating_sub(1);

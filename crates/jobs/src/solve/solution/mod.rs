@@ -60,7 +60,7 @@ pub struct Solution {
 
 /// Requested outputs in addition to the figures.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Wanted {
+pub struct RequestedOutputs {
     /// A plot that takes extra computation.
     pub plot: bool,
     /// The deformed body.
@@ -73,11 +73,11 @@ pub struct Wanted {
 /// When the solver rejects the problem, or finds no equilibrium.
 pub fn solve(
     problem: &Problem,
-    wanted: Wanted,
+    wanted: RequestedOutputs,
     watch: &dyn ProgressCallback,
 ) -> Result<Answer, Error> {
     let begun = Instant::now();
-    let reporter = &ProgressReporter::to(watch);
+    let reporter = &ProgressReporter::new(watch);
     let mut solution = match &problem.case {
         Case::Indentation(case) => indentation::solution(problem, case, wanted, reporter),
         Case::Hemisphere(case) => hemisphere::solution(problem, case, reporter),

@@ -102,9 +102,9 @@ const FIRST_STEP: f64 = 0.1;
 const LONGEST_STEP: f64 = 0.5;
 const SHORTEST_STEP: f64 = 1e-3;
 /// Rounds of Newton's method and changes of contact at one depth.
-const MOST_CHANGES: usize = 24;
+const MAX_CHANGES: usize = 24;
 /// The same with Coulomb friction, where nodes stick and slip too.
-const MOST_CHANGES_WITH_FRICTION: usize = 60;
+const MAX_CHANGES_WITH_FRICTION: usize = 60;
 /// Longest step with Coulomb friction, in parts of the depth that the mesh is made for [-]: slip depends on the way, and
 /// backward differences of it have an error of the first power of the step.
 const FRICTION_STEP: f64 = 1.0 / 32.0;
@@ -350,8 +350,8 @@ impl IndentationRun {
         let mut controls = first;
         let mut released = vec![false; statuses.len()];
         let most = match self.has_friction {
-            true => MOST_CHANGES_WITH_FRICTION,
-            false => MOST_CHANGES,
+            true => MAX_CHANGES_WITH_FRICTION,
+            false => MAX_CHANGES,
         };
         for _ in 0..most {
             let supports = self.supports(&statuses, depth, relaxing.as_ref());

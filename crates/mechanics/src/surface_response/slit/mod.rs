@@ -53,7 +53,7 @@ pub use traction::{DiscForce, RIM_COMPLIANCE};
 use traction::{Loaded, MODES, Near, Part, triangles_near};
 
 /// Near triangles that are known to a facet at most.
-const MOST_NEAR: usize = 320;
+const MAX_NEAR: usize = 320;
 
 /// Jumps of a facet whose T is smooth far from it: the first.
 const SMOOTH: usize = 3;
@@ -105,12 +105,12 @@ impl<T: Precision> Slit<T> {
             poissons_ratio: response.parts().poissons_ratio,
             facets: Vec::with_capacity(most),
             rows: vec![T::of(0.0); most * SMOOTH * width],
-            near: Vec::with_capacity(MOST_NEAR * most),
+            near: Vec::with_capacity(MAX_NEAR * most),
             h: GrowingCholesky::new(most * MODES),
             curvature: Curvature::new(response.parts().poissons_ratio),
             gradients: [Gradient::new(), Gradient::new()],
             parts: Vec::with_capacity(2 * MOST),
-            found: Vec::with_capacity(MOST_NEAR),
+            found: Vec::with_capacity(MAX_NEAR),
             scratch: [0, 1].map(|_| vec![T::of(0.0); width]),
         }
     }

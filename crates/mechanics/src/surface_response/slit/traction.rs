@@ -21,7 +21,7 @@ use crate::finite_spheres::quartic;
 /// Reach of a facet in radii of its stress on the surface, and in its depths, but no more than the last [-].
 const IN_GRADIENTS: f64 = 0.75;
 const IN_DEPTHS: f64 = 1.0;
-const MOST_GRADIENTS: f64 = 1.2;
+const MAX_GRADIENTS: f64 = 1.2;
 
 /// Beyond two reaches triangles are known as far as the loads of tips there go, in lengths √(2 A) of one [-].
 const OF_LOADS: f64 = 2.2;
@@ -95,7 +95,7 @@ impl Facet {
     /// Distance within which the closed forms have full weight [m].
     pub(super) fn reach(&self, gradient: f64) -> f64 {
         let wanted = (IN_GRADIENTS * gradient).max(IN_DEPTHS * self.depth());
-        wanted.min(MOST_GRADIENTS * gradient)
+        wanted.min(MAX_GRADIENTS * gradient)
     }
 
     /// A force as the facet sees it; none that is too far or on another side.

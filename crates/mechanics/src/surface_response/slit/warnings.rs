@@ -12,7 +12,7 @@ use crate::boundary_elements::Precision;
 
 /// Least radius of the middle of a wall over its thickness [-]: 2.5 was validated, and triangles give a radius to a
 /// fifth.
-const LEAST_RADIUS: f64 = 2.0;
+const MIN_RADIUS: f64 = 2.0;
 /// Greatest of a tube that is cut through [-]: at 4.5 a rim was met within a quarter, at 5.5 it was 36 % too stiff.
 const GREATEST_RADIUS: f64 = 5.0;
 /// Walls with a radius of so many thicknesses are flat [-]: the last table of `curvature`.
@@ -60,7 +60,7 @@ impl<T: Precision> Slit<T> {
         }
         let mut warnings = Vec::new();
         let beyond = "the force at its rim may be off by more than a quarter";
-        if roundest < LEAST_RADIUS {
+        if roundest < MIN_RADIUS {
             warnings.push(format!(
                 "a cut goes into a wall whose radius is {roundest:.1} times its thickness, and finite elements judged \
                  2.5 and more: {beyond}"

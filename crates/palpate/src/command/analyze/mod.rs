@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use super::overwrite::OverwriteOption;
 use super::recordings::Recordings;
 use crate::failure::Failure;
-use crate::interrupt::{self, Unbroken};
+use crate::interrupt::{self, UninterruptedSection};
 use crate::output;
 use crate::progress::{Progress, Reader};
 
@@ -58,12 +58,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let recordings = arguments.recordings.request();
     let analyzed = analyze(&recordings, &progress)?;
     drop(progress);
-    let unbroken = Unbroken::begin();
+    let unbroken = UninterruptedSection::begin();
     if let Some(out) = &arguments.out {
         write_atomically(out, json_text(&analyzed)?.as_bytes())?;
     }
     if let Some(page) = &arguments.report {
-        let html = report::html(&analyzed, &recordings.said());
+        let html = report::html(&analyzed, &recordings.options());
         write_atomically(page, html.as_bytes())?;
     }
     drop(unbroken);

@@ -15,7 +15,7 @@ use palpate_jobs::characterize::{Choice, StudyFolder, characterize};
 use super::overwrite::OverwriteOption;
 use super::recordings::Recordings;
 use crate::failure::Failure;
-use crate::interrupt::{self, Unbroken};
+use crate::interrupt::{self, UninterruptedSection};
 use crate::output;
 use crate::progress::{Progress, Reader};
 
@@ -141,7 +141,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let found = characterize(&recordings, arguments.choice()?, folder.as_ref(), &progress)?;
     let answer = found.answer;
     let warnings = progress.unprinted(warnings::for_people(&answer));
-    let unbroken = Unbroken::begin();
+    let unbroken = UninterruptedSection::begin();
     arguments.write(found.tissues)?;
     if let Some(path) = &arguments.report {
         let page = report::html(&answer, &found.portraits, &arguments.settings());
@@ -195,7 +195,7 @@ impl Arguments {
             add("--closed-forms", String::new());
         }
         add("--draws", self.draws.to_string());
-        settings.extend(self.recordings.request().said());
+        settings.extend(self.recordings.request().options());
         settings
     }
 

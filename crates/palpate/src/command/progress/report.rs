@@ -30,9 +30,9 @@ pub(super) fn html(
     let nothing = provenance(settings, std::iter::empty());
     Page {
         title,
-        lead: Markup::of_class("p", "lead", lead),
+        summary: Markup::of_class("p", "lead", lead),
         body: warning_list("Warnings", warnings).and(each.collect::<Markup>()),
-        foot: nothing.and(Markup::plain("p", super::rule() + CONVENTIONS)),
+        footer: nothing.and(Markup::plain("p", super::rule() + CONVENTIONS)),
     }
     .html()
 }

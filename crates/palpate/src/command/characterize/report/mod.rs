@@ -37,10 +37,10 @@ pub(super) fn html(
         .map(|(place, (own, portrait))| specimen::section(place, own, several, portrait))
         .collect();
     Page {
-        lead: Markup::of_class("p", "lead", lead(answer)),
+        summary: Markup::of_class("p", "lead", lead(answer)),
         title,
         body: overview.and(specimens),
-        foot: foot(portraits, settings),
+        footer: foot(portraits, settings),
     }
     .html()
 }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 /// Lateral force and torque of a six-axis sensor, around the largest force along the approach.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Sideways {
+pub struct LateralLoad {
     /// Along the approach [N].
     pub force_n: f64,
     /// Perpendicular to the indenter's axis [N].
@@ -22,7 +22,7 @@ const BEFORE: usize = 100;
 /// Fraction of lateral force above which the approach gets a warning [-]: a bonded punch at 18 degrees.
 const LARGE_PART: f64 = 0.1;
 
-impl Sideways {
+impl LateralLoad {
     /// Of a recording; none for a sensor of one axis.
     pub(crate) fn of(recording: &Recording) -> Option<Self> {
         let axes = recording.axes()?;
@@ -82,7 +82,7 @@ mod tests {
             Recording::parse(&text, "sideways.csv").unwrap()
         };
         let recording = read("time_s,depth_m,force_n", &three);
-        assert_eq!(Sideways::of(&recording), None);
+        assert_eq!(LateralLoad::of(&recording), None);
         let names = format!("time_s,depth_m,force_n,{}", SensorAxes::COLUMNS.join(","));
         let recording = read(&names, &|i, r| {
             let axes = [0.3 * r + 0.1, 0.1 - 0.4 * r, *r, 0.5, 2e-3 * r - 0.1, 0.0];
@@ -92,7 +92,7 @@ mod tests {
                 axes.map(|axis| axis.to_string()).join(",")
             )
         });
-        let found = Sideways::of(&recording).unwrap();
+        let found = LateralLoad::of(&recording).unwrap();
         // The last of the largest is at the end, where the mean has half of its samples.
         let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
         assert!(
