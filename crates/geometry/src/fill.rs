@@ -53,7 +53,7 @@ impl FillSettings {
     }
 
     /// The edge that fills `surface` with about so many tetrahedra.
-    pub fn with_about(surface: &Surface, tetrahedra: usize) -> Self {
+    pub fn with_tetrahedron_count(surface: &Surface, tetrahedra: usize) -> Self {
         Self::new((12.0 * surface.mesh().volume() / tetrahedra.max(1) as f64).cbrt())
     }
 }

@@ -178,7 +178,7 @@ impl VirtualSpecimen {
 
     /// The same with a surface of another shape.
     #[must_use]
-    pub fn shaped(self, shape: Shape) -> Self {
+    pub fn with_shape(self, shape: Shape) -> Self {
         Self { shape, ..self }
     }
 

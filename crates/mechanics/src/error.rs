@@ -191,7 +191,7 @@ pub enum Error {
     #[error(
         "the tube balloons at {limit} Pa, below the {pressure} Pa asked for; lower the pressure or stiffen the tissue"
     )]
-    Balloons {
+    LimitPointExceeded {
         /// The value given [Pa].
         pressure: f64,
         /// The greatest pressure of an equilibrium [Pa].

@@ -36,12 +36,12 @@ impl ProgressCallback for ProgressMessage {
     }
 
     fn should_stop(&self) -> bool {
-        Self::is_asked_to_stop(self)
+        Self::should_stop(self)
     }
 }
 
 fn break_off_if_asked(told: &ProgressMessage) {
-    if told.is_asked_to_stop() {
+    if told.should_stop() {
         std::panic::resume_unwind(Box::new(Cancelled));
     }
 }

@@ -368,7 +368,7 @@ impl Simulation {
     /// Whether the displayed surface has a mesh of its own, finer than the mechanical one.
     pub fn is_carried(&self) -> bool {
         let global = self.global.as_ref();
-        global.is_some_and(|global| global.enhancement.is_finer())
+        global.is_some_and(|global| global.enhancement.has_finer_display())
     }
 
     /// Length of a step [s].

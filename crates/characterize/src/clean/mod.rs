@@ -29,7 +29,7 @@ pub use contact::Contact;
 pub(crate) use contact::rising_contact;
 pub(crate) use contact_search::Approach;
 pub use filter::LowPass;
-pub(crate) use motion::Moving;
+pub(crate) use motion::MovingTissue;
 use oriented::Oriented;
 pub use ripple::Ripple;
 pub use sampling::Sampling;
@@ -245,8 +245,8 @@ impl CleanRecording {
         self.moving()?.amplitude()
     }
 
-    fn moving(&self) -> Option<Moving<'_>> {
-        Some(Moving {
+    fn moving(&self) -> Option<MovingTissue<'_>> {
+        Some(MovingTissue {
             time: &self.time,
             depth: &self.depth,
             force: &self.force,

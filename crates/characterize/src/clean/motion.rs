@@ -9,7 +9,7 @@ const BEGINNING: f64 = 0.1;
 
 /// A press of tissue that moves by itself.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Moving<'a> {
+pub(crate) struct MovingTissue<'a> {
     /// Times [s], ascending.
     pub(crate) time: &'a [f64],
     /// Depths [m].
@@ -24,7 +24,7 @@ pub(crate) struct Moving<'a> {
     pub(crate) shape: Option<IndenterShape>,
 }
 
-impl Moving<'_> {
+impl MovingTissue<'_> {
     /// The force [N] as if the tissue did not move: without the swing of the hold, which is taken to go on in the ramp before it
     /// as the stiffness of an elastic contact grows with the depth.
     pub(crate) fn force_at_rest(&self) -> Vec<f64> {

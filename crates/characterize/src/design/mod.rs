@@ -20,8 +20,8 @@ use palpate_mechanics::PronySeries;
 
 use crate::inverse::{CandidateLaw, ZeroErrors};
 
-pub use expected::{ExpectedParameter, Expecting};
-pub use search::{Criterion, Designed, design};
+pub use expected::{ExpectedCurve, ExpectedParameter};
+pub use search::{Criterion, OptimizedProtocol, design};
 
 /// A tissue as it may be.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,4 +1,4 @@
-use super::expected::{ExpectedParameter, Expecting};
+use super::expected::{ExpectedCurve, ExpectedParameter};
 use super::{Instrument, Limits, Presses};
 use crate::Error;
 
@@ -13,7 +13,7 @@ pub enum Criterion {
 
 /// A protocol that was found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Designed {
+pub struct OptimizedProtocol {
     /// The protocol.
     pub presses: Presses,
     /// Its expected parameters at the first guess.
@@ -39,13 +39,13 @@ pub(super) const MAX_RADII: f64 = 5.5;
 /// # Errors
 /// When a parameter is not one of the guesses, or no protocol keeps within the limits.
 pub fn design(
-    guesses: &[Expecting],
+    guesses: &[ExpectedCurve],
     instrument: &Instrument,
     limits: &Limits,
     wanted: &[String],
     criterion: Criterion,
     at_part: &mut dyn FnMut(f64),
-) -> Result<Designed, Error> {
+) -> Result<OptimizedProtocol, Error> {
     let all = candidates(limits);
     let mut best: Option<(f64, f64, Presses)> = None;
     let mut compared = 0;
@@ -66,7 +66,7 @@ pub fn design(
     }
     let (_, worst, presses) = best.ok_or(Error::NoDesign)?;
     let first = guesses.first().ok_or(Error::NoDesign)?;
-    Ok(Designed {
+    Ok(OptimizedProtocol {
         expected: first.expected(&presses, instrument)?.0,
         presses,
         worst,
@@ -76,7 +76,7 @@ pub fn design(
 
 /// The score of a protocol and its worst interval; none where it is not below `most`.
 fn score(
-    guesses: &[Expecting],
+    guesses: &[ExpectedCurve],
     presses: &Presses,
     instrument: &Instrument,
     wanted: &[String],

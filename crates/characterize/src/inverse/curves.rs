@@ -174,7 +174,7 @@ impl Curves {
     }
 
     /// How many runs of finite elements it took so far.
-    pub fn solves(&self) -> usize {
+    pub fn solve_count(&self) -> usize {
         self.solves
     }
 

@@ -243,7 +243,7 @@ pub(super) fn found(mut fit: Fit, curves: &Curves, curve: &UnitCurve, data: LawD
         product_error,
         fit,
         forces,
-        solves: curves.solves(),
+        solves: curves.solve_count(),
         discretisation: curve.discretisation,
         curve: curve.clone(),
         others: Vec::new(),

@@ -45,11 +45,11 @@ pub(super) struct Measured {
 
 impl Measured {
     pub(super) fn of(recording: &CleanRecording) -> Result<Self, Error> {
-        let Pulled {
+        let FittedPiece {
             stretches,
             stresses,
             ..
-        } = Pulled::of(recording)?;
+        } = FittedPiece::of(recording)?;
         Ok(Self {
             loading: PieceLoading::of(&recording.header),
             stretches,
@@ -66,7 +66,7 @@ impl Measured {
 
 /// The fitted part of a recording of a piece: from first contact to its largest strain.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Pulled {
+pub struct FittedPiece {
     /// The samples.
     pub samples: Range<usize>,
     /// Their stretches [-], deformed over undeformed length; in simple shear, their amounts of shear.
@@ -75,7 +75,7 @@ pub struct Pulled {
     pub stresses: Vec<f64>,
 }
 
-impl Pulled {
+impl FittedPiece {
     /// # Errors
     /// When the recording does not say area or height.
     pub fn of(recording: &CleanRecording) -> Result<Self, Error> {

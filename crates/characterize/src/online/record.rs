@@ -2,7 +2,7 @@ use palpate_files::recording::IndenterShape;
 
 use super::contact::DetectedContact;
 use super::estimate::FEWEST;
-use crate::clean::{Moving, Ripple, segments};
+use crate::clean::{MovingTissue, Ripple, segments};
 use crate::inverse::ZeroErrors;
 
 /// What is measured at one time.
@@ -141,7 +141,7 @@ impl Samples {
         let Some(ripple) = Ripple::find(&self.time, &self.force, &segments) else {
             return self;
         };
-        let moving = Moving {
+        let moving = MovingTissue {
             time: &self.time,
             depth: &self.depth,
             force: &self.force,

@@ -4,7 +4,7 @@ use super::{Characterization, Pressed, is_piece};
 use crate::CleanRecording;
 use crate::fit::{Fit, correlated_uncertainty, with_systematic};
 use crate::inverse::{CandidateLaw, LawFit};
-use crate::lumped::Pulled;
+use crate::lumped::FittedPiece;
 
 /// A recording versus its fits, sample by sample.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +48,7 @@ impl Characterization {
     pub fn fitted(&self, recordings: &[CleanRecording], level: f64) -> Vec<FittedRecording> {
         let samples = |recording: &CleanRecording| match self.uniaxial.is_empty() {
             true => Pressed::samples(recording),
-            false if is_piece(recording) => Pulled::of(recording).ok().map(|own| own.samples),
+            false if is_piece(recording) => FittedPiece::of(recording).ok().map(|own| own.samples),
             false => None,
         };
         let each = recordings.iter().enumerate();
@@ -74,7 +74,7 @@ impl Characterization {
         {
             let measured = all
                 .iter()
-                .filter_map(|own| Pulled::of(&recordings[own.place]).ok());
+                .filter_map(|own| FittedPiece::of(&recordings[own.place]).ok());
             let measured = measured.flat_map(|own| own.stresses);
             let residuals = &found.fit.residuals;
             let values: Vec<f64> = measured.zip(residuals).map(|(own, r)| own + r).collect();

@@ -136,7 +136,7 @@ impl Specimen<'_> {
                     draws => law(draws)?,
                 };
                 let law = &mut description.found;
-                law.solves = solves + curves.solves();
+                law.solves = solves + curves.solve_count();
                 multiply(&mut law.forces, &factors);
                 let with_force = self.pressed.iter().zip(&factors);
                 let with_force = with_force.filter(|(pressed, _)| pressed.has_force());

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use palpate_characterize::inverse::{CandidateLaw, Terms};
-use palpate_characterize::lumped::{PieceTest, Pulled, UniaxialFit, piece_stress};
+use palpate_characterize::lumped::{FittedPiece, PieceTest, UniaxialFit, piece_stress};
 use palpate_characterize::{
     Characterization, CharacterizeSettings, CleanRecording, CleanSettings, characterize, clean,
 };
@@ -144,7 +144,7 @@ fn ogden_of_a_clot_beside_published_fits() {
     assert!((mu - 2331.0).abs() <= 0.5, "{mu}");
     assert!((alpha - 4.44).abs() <= 0.005, "{alpha}");
     // Least squares of all samples cannot be beaten there by a fit to some.
-    let pulled = Pulled::of(&recording).unwrap();
+    let pulled = FittedPiece::of(&recording).unwrap();
     let squares = |p: [f64; 2]| -> f64 {
         let each = pulled.stretches.iter().zip(&pulled.stresses);
         each.map(|(stretch, known)| {

@@ -3,9 +3,9 @@
 mod answer;
 mod evaluation;
 mod finished;
+mod fit_plots;
 mod folder;
 mod pooled;
-mod portrait;
 mod study;
 mod summary;
 
@@ -22,11 +22,11 @@ pub use answer::{
     Named, Noise, Partner, RelaxationAnswer, Specimen, Steps, Tried,
 };
 pub use evaluation::FoundLaw;
+pub use fit_plots::{
+    DrawnCurve, DrawnFit, DrawnLaw, DrawnRecording, DrawnRelaxation, DrawnSeries, FitPlots, LEVEL,
+};
 pub use folder::StudyFolder;
 pub use pooled::Pooled;
-pub use portrait::{
-    DrawnCurve, DrawnFit, DrawnLaw, DrawnRecording, DrawnRelaxation, DrawnSeries, LEVEL, Portrait,
-};
 
 use crate::{Error, ProgressCallback, Recordings, Unusable, nearest};
 
@@ -136,7 +136,7 @@ pub struct Characterized {
     /// The answer that `--json` prints.
     pub answer: Answer,
     /// Plot data of each specimen.
-    pub portraits: Vec<Portrait>,
+    pub portraits: Vec<FitPlots>,
     /// The fit of each recording of each specimen, with its file: at every sample, or for a study at the samples
     /// stored in its folder.
     pub samples: Vec<Vec<(String, DrawnFit)>>,

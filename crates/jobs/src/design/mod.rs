@@ -8,7 +8,7 @@ mod request_document;
 use std::path::PathBuf;
 
 use palpate_characterize::design::{
-    Criterion, Expecting, Guess, Instrument, Limits, Presses, design as best,
+    Criterion, ExpectedCurve, Guess, Instrument, Limits, Presses, design as best,
 };
 use palpate_characterize::inverse::{CandidateLaw, ZeroErrors};
 use palpate_files::tissue::LawName;
@@ -104,7 +104,7 @@ pub fn design(request: &Request, watch: &dyn ProgressCallback) -> Result<Designe
     };
     let limits = limits(&request.within, &start)?;
     watch.report_step("comparing protocols");
-    let first = Expecting::new(start.guess.clone(), DEEPEST)?;
+    let first = ExpectedCurve::new(start.guess.clone(), DEEPEST)?;
     let guesses = guesses(&first, start.factors)?;
     let wanted = match request.parameters.as_slice() {
         [] => usual(&start.guess),
@@ -133,7 +133,7 @@ fn usual(guess: &Guess) -> Vec<String> {
     own.map(str::to_owned).chain(times).collect()
 }
 
-fn guesses(first: &Expecting, [modulus, time]: [f64; 2]) -> Result<Vec<Expecting>, Error> {
+fn guesses(first: &ExpectedCurve, [modulus, time]: [f64; 2]) -> Result<Vec<ExpectedCurve>, Error> {
     let mut all = vec![first.clone()];
     for (stiffer, slower) in [
         (modulus, 1.0),

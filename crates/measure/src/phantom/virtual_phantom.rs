@@ -96,7 +96,7 @@ impl VirtualPhantom {
         let seen = self
             .mechanics
             .encoded()
-            .map(|place| self.imperfections.encoded(place));
+            .map(|place| self.imperfections.encoder_reading(place));
         DeviceState::at(time, seen)
     }
 
@@ -190,7 +190,7 @@ impl Device for VirtualPhantom {
     }
 
     fn exchange(&mut self, command: &Command) -> Result<DeviceState, Fault> {
-        if command.time >= self.imperfections.lost_at {
+        if command.time >= self.imperfections.disconnect_time {
             return Err(Fault::Silent);
         }
         Ok(self.advance(command.time, &command.force()))

@@ -15,7 +15,7 @@ use crate::rig::{RADIUS, rig_on, tissue, usual};
 fn lost_at(time: f64) -> (Vec<RigSample>, Option<Error>, Option<Error>, Recording) {
     let specimen = VirtualSpecimen::of_tissue(&tissue(), RADIUS, 8e-3, &mut |_| ()).unwrap();
     let imperfections = Imperfections {
-        lost_at: time,
+        disconnect_time: time,
         ..Imperfections::premium()
     };
     let mut rig = rig_on(imperfections, specimen, RigSettings::default(), 1);

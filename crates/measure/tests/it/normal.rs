@@ -28,7 +28,7 @@ fn a_measured_normal_is_that_of_a_plane() {
 #[test]
 fn a_curved_surface_is_approached_along_its_normal() {
     let radius = 0.05;
-    let ball = soft().shaped(Shape {
+    let ball = soft().with_shape(Shape {
         normal: Vec3::z(),
         radius: Some(radius),
     });

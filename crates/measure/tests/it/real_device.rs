@@ -110,7 +110,7 @@ fn displayed_tissue_is_recorded_as_touched_tissue() {
 #[test]
 fn a_loss_ends_it_with_its_name() {
     let lost = Imperfections {
-        lost_at: 3.0,
+        disconnect_time: 3.0,
         ..Imperfections::premium()
     };
     let error = on_table(lost).approach(&mut |_| true).unwrap_err();

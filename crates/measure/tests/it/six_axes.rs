@@ -14,7 +14,7 @@ pub(crate) fn tilted(degrees: f64) -> Vec3 {
 }
 
 pub(crate) fn plane(degrees: f64) -> VirtualSpecimen {
-    soft().shaped(Shape {
+    soft().with_shape(Shape {
         normal: tilted(degrees),
         radius: None,
     })

@@ -30,7 +30,7 @@ mod pn_triangle;
 mod press;
 mod weights;
 
-pub use carrier::Carrier;
+pub use carrier::EmbeddedDisplayPoints;
 pub use field::SurfaceField;
 pub use functions::{moving_least_squares, shepard};
 pub use interpolation::{Interpolation, SurfacePoint};

@@ -1,7 +1,7 @@
 use palpate_files::scene::Enhancement;
 use palpate_geometry::{AabbTree, Surface};
 
-use super::carrier::Carrier;
+use super::carrier::EmbeddedDisplayPoints;
 use super::corner_normals::CornerNormals;
 use super::interpolation::{Interpolation, SurfacePoint};
 use crate::{Error, Vec3};
@@ -35,7 +35,7 @@ impl EnhancementModel {
     ///
     /// # Errors
     /// When there are more than [`MAX_LEVELS`].
-    pub fn carrying(
+    pub fn with_display_mesh(
         finer: Surface,
         surface: Surface,
         settings: Enhancement,
@@ -89,7 +89,7 @@ impl EnhancementModel {
     }
 
     /// Whether the displayed surface is finer than the coarse one.
-    pub fn is_finer(&self) -> bool {
+    pub fn has_finer_display(&self) -> bool {
         self.finer.is_some()
     }
 
@@ -99,10 +99,10 @@ impl EnhancementModel {
     }
 
     /// All displayed vertices.
-    pub fn carrier(&self) -> Carrier {
+    pub fn carrier(&self) -> EmbeddedDisplayPoints {
         match &self.finer {
-            Some((finer, _)) => Carrier::of_surface(&self.interpolation, finer),
-            None => Carrier::of_vertices(&self.interpolation),
+            Some((finer, _)) => EmbeddedDisplayPoints::of_surface(&self.interpolation, finer),
+            None => EmbeddedDisplayPoints::of_vertices(&self.interpolation),
         }
     }
 

@@ -33,7 +33,7 @@ impl Error {
             | Self::Locking { .. }
             | Self::TubeOutOfRange { .. }
             | Self::PressureOutOfRange { .. }
-            | Self::Balloons { .. }
+            | Self::LimitPointExceeded { .. }
             | Self::BlockTooSmall { .. }
             | Self::TissueEntersPunch { .. }
             | Self::SurfaceFolds { .. }

@@ -57,7 +57,7 @@ impl NonlinearModel {
                     CavityContent::Fluid(_) => Some(wall.filling.unwrap_or(volume / wall.at_rest)),
                     CavityContent::Pressure(_) => None,
                 };
-                state.cavities[number].hold(fills(wall).unwrap_or(0.0));
+                state.cavities[number].set_pressure(fills(wall).unwrap_or(0.0));
             }
         }
         let volumes: Vec<f64> = self
@@ -80,7 +80,7 @@ impl NonlinearModel {
         })?;
         for (own, wall) in state.cavities.iter_mut().zip(&self.walls) {
             if let WallLoad::Pressure(pressure) = wall.load {
-                own.hold(pressure);
+                own.set_pressure(pressure);
             }
         }
         state.stop();

@@ -98,7 +98,7 @@ impl CavityHistory {
     }
 
     /// Sets a constant pressure [Pa].
-    pub(super) fn hold(&mut self, pressure: f64) {
+    pub(super) fn set_pressure(&mut self, pressure: f64) {
         (self.pressure, self.before) = (pressure, pressure);
     }
 }
@@ -155,7 +155,7 @@ impl NonlinearState {
             self.rotations.fill(UNTURNED);
             self.stress.fill(StressHistory::default());
             for (own, wall) in self.cavities.iter_mut().zip(&model.walls) {
-                own.hold(wall.content.own_pressure());
+                own.set_pressure(wall.content.own_pressure());
             }
         }
         self.fading.fill(0.0);
@@ -202,7 +202,7 @@ impl NonlinearState {
         self.before.copy_from_slice(&self.displacements);
         self.earlier.copy_from_slice(&self.displacements);
         for own in &mut self.cavities {
-            own.hold(own.pressure);
+            own.set_pressure(own.pressure);
         }
     }
 

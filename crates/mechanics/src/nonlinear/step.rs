@@ -38,7 +38,7 @@ pub struct Advance {
     /// iterations converge.
     pub reduction: f64,
     /// Whether the step was shortened because the force against it had grown.
-    pub was_shortened: bool,
+    pub was_limited: bool,
     /// Whether the stiffness was not positive along a direction, which ended the iterations.
     pub was_unstable: bool,
     /// Whether no finite displacements were found: the body was then reset to rest.
@@ -172,7 +172,7 @@ fn step(
         advance = solve(model, conditions, pace.iterations, state, workspace);
     }
     workspace.bound(model.farthest, &mut advance);
-    advance.was_shortened |= workspace.take(model, couplings, state);
+    advance.was_limited |= workspace.take(model, couplings, state);
     let body = Turned {
         model,
         rotations: &state.rotations,
@@ -180,11 +180,11 @@ fn step(
     let (residual, displacements) = (&workspace.residual, &state.displacements);
     workspace.constraints.finish(body, residual, displacements);
     workspace.constraints.store(model, couplings, state);
-    advance.is_inverted = workspace.end(model, advance.was_shortened, state);
+    advance.is_inverted = workspace.end(model, advance.was_limited, state);
     if advance.was_unstable && !model.relaxes() {
         advance.is_inverted = kernel::are_inverted(&workspace.deformed);
     }
-    state.is_smooth = !advance.was_shortened && !advance.was_unstable;
+    state.is_smooth = !advance.was_limited && !advance.was_unstable;
     advance.was_reset = !state.is_finite();
     if advance.was_reset {
         state.reset(model);
@@ -378,7 +378,7 @@ impl Workspace {
         if largest > farthest {
             let part = farthest / largest;
             self.change.iter_mut().for_each(|by| *by *= part);
-            advance.was_shortened = true;
+            advance.was_limited = true;
         }
     }
 

@@ -60,7 +60,7 @@ impl<T: Precision> SurfaceResponse<T> {
     }
 
     /// Whether a triangle of the mesh is fixed.
-    pub fn holds(&self, triangle: TriangleId) -> bool {
+    pub fn is_fixed(&self, triangle: TriangleId) -> bool {
         self.parts.fixed.binary_search(&triangle).is_ok()
     }
 

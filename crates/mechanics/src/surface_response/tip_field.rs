@@ -340,7 +340,7 @@ fn seen_from<T: Precision>(
         Some((triangle, terms.sum::<f64>() as f32))
     };
     let around = spread.around(surface, 2.0 * spread.reach + spread.size);
-    let free = around.into_iter().filter(|&id| !response.holds(id));
+    let free = around.into_iter().filter(|&id| !response.is_fixed(id));
     free.filter_map(sees).collect()
 }
 
@@ -356,7 +356,7 @@ fn structural_compliance<T: Precision>(
     let tangents = Matrix3::identity() - spread.normal * spread.normal.transpose();
     let known = |&(triangle, weight): &(TriangleId, f64)| {
         let touched = response.find(triangle);
-        if touched.is_none() && !response.holds(triangle) {
+        if touched.is_none() && !response.is_fixed(triangle) {
             return None;
         }
         let panel = Panel::new(surface.mesh().positions(triangle))?;

@@ -223,7 +223,7 @@ impl Simulation {
             let summary = play(&model.prepared, &motion.motion, |frame| {
                 rows.extend(frame.rows().copied());
                 told.at(frame.number as f64 / frame.steps as f64);
-                Ok::<_, Failure>(match told.is_asked_to_stop() {
+                Ok::<_, Failure>(match told.should_stop() {
                     true => Flow::Stop,
                     false => Flow::Continue,
                 })

@@ -1,6 +1,6 @@
 use super::body::{Body, MODELS};
 use crate::Error;
-use crate::portrait::{Painter, RenderedBody};
+use crate::rendered_body::{Painter, RenderedBody};
 use crate::row::Rows;
 
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {

@@ -2,8 +2,8 @@ use palpate_geometry::{SimplifySettings, Surface, TriangleMesh, Vec3, simplify};
 
 use super::section_7_4::esophagus;
 use crate::Error;
-use crate::portrait::{Painter, RenderedBody};
 use crate::published::cell;
+use crate::rendered_body::{Painter, RenderedBody};
 use crate::row::Rows;
 
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {

@@ -36,7 +36,7 @@ impl RestSurface<'_> {
     }
 
     /// At this height above the surface [m], or below it.
-    pub(super) fn over(&self, place: &Vec3, height: f64) -> Vec3 {
+    pub(super) fn above_surface(&self, place: &Vec3, height: f64) -> Vec3 {
         let (point, normal) = self.at(place);
         point + height * normal
     }
@@ -69,7 +69,7 @@ pub(super) fn steps_to_find(rest: &RestSurface<'_>, target: &Vec3) -> Vec<Step> 
         let place = target + aside;
         let to = |height: f64, speed: f64| Step::Move {
             tool: 0,
-            to: rest.over(&place, height),
+            to: rest.above_surface(&place, height),
             speed,
             cuts: false,
         };
@@ -94,7 +94,7 @@ pub(super) fn steps_to_pull(rest: &RestSurface<'_>, tool: usize, wanted: Vec3) -
 pub(super) fn steps_to_grasp(rest: &RestSurface<'_>, tool: usize, place: &Vec3) -> Vec<Step> {
     let to = |height: f64, speed: f64| Step::Move {
         tool,
-        to: rest.over(place, height),
+        to: rest.above_surface(place, height),
         speed,
         cuts: false,
     };
@@ -157,7 +157,7 @@ pub(super) fn steps_to_cut(
         steps.extend(steps_to_grasp(rest, tool, &place));
         steps.push(Step::Move {
             tool,
-            to: rest.over(&place, -BITE) + STRETCH * aside,
+            to: rest.above_surface(&place, -BITE) + STRETCH * aside,
             speed: SLOW,
             cuts: false,
         });
@@ -170,7 +170,7 @@ pub(super) fn steps_to_cut(
         let place = |piece: u32| line.at(start + length * f64::from(piece) / f64::from(pieces));
         let over = |piece: u32, height: f64, speed: f64, cuts: bool| Step::Move {
             tool: blade,
-            to: rest.over(&place(piece), height),
+            to: rest.above_surface(&place(piece), height),
             speed,
             cuts,
         };

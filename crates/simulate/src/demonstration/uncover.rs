@@ -74,7 +74,7 @@ pub(super) fn touched(
         steps.extend(steps_to_grasp(&rest, holder, &rim.place));
         steps.push(Step::Move {
             tool: holder,
-            to: rest.over(&rim.place, -BITE) + rim.lift,
+            to: rest.above_surface(&rim.place, -BITE) + rim.lift,
             speed: SLOW,
             cuts: false,
         });

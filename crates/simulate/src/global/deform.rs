@@ -36,7 +36,8 @@ impl GlobalModel {
         }
         state.shown_deformed = touched;
         self.find_field(simulation, state, workspace);
-        self.carrier.carry(&workspace.field, &mut workspace.shown);
+        self.carrier
+            .interpolate(&workspace.field, &mut workspace.shown);
         let rest = simulation.surface.mesh();
         for (number, (from, by)) in rest.vertices().iter().zip(&workspace.shown).enumerate() {
             let to = moved(from, by);

@@ -209,7 +209,7 @@ impl GlobalModel {
         let interpolation = self.enhancement.interpolation();
         let at = interpolation.nearest_facing(&self.tree, &middle, &facing);
         let place = interpolation.place(&at);
-        let (triangle, place) = match self.enhancement.is_finer() {
+        let (triangle, place) = match self.enhancement.has_finer_display() {
             false => (at.triangle, place),
             true => {
                 let nearest = simulation.tree.nearest(simulation.surface.mesh(), &place);

@@ -100,12 +100,7 @@ impl GraspWorkspace {
 
     /// Reduction of the compliance [m/N] of tip `moved` to a force on tip `loaded`, of so many tools, by the held
     /// parts.
-    pub(super) fn compliance_reduction(
-        &self,
-        moved: usize,
-        loaded: usize,
-        tools: usize,
-    ) -> Matrix3<f64> {
+    pub(super) fn reduction(&self, moved: usize, loaded: usize, tools: usize) -> Matrix3<f64> {
         self.fixes[moved * tools + loaded]
     }
 
@@ -117,7 +112,7 @@ impl GraspWorkspace {
     /// Bounds the coupling of a tip, one of so many tools, with the held parts. `yields` is the compliance of its load
     /// without held parts [m/N]: held parts reduce it by less than all of it.
     fn bound(&mut self, number: usize, tools: usize, yields: &Matrix3<f64>) {
-        let coupling = coupling(&self.compliance_reduction(number, number, tools), yields);
+        let coupling = coupling(&self.reduction(number, number, tools), yields);
         if coupling <= MAX_CARRIED {
             return;
         }
@@ -475,16 +470,12 @@ mod tests {
         held.bound(1, 2, &yields);
         assert!((held.bounded(0).unwrap().unbounded - 2.0).abs() < 1e-12);
         assert!(held.bounded(1).is_none());
-        let left = yields - held.compliance_reduction(0, 0, 2);
+        let left = yields - held.reduction(0, 0, 2);
         assert!(left.symmetric_eigenvalues().min() > 0.0);
+        assert!((coupling(&held.reduction(0, 0, 2), &yields) - MAX_CARRIED).abs() < 1e-12);
+        let other = held.reduction(0, 1, 2) - quarter * (0.5 * MAX_CARRIED);
         assert!(
-            (coupling(&held.compliance_reduction(0, 0, 2), &yields) - MAX_CARRIED).abs() < 1e-12
-        );
-        let other = held.compliance_reduction(0, 1, 2) - quarter * (0.5 * MAX_CARRIED);
-        assert!(
-            other.norm() < 1e-12
-                && held.compliance_reduction(0, 1, 2)
-                    == held.compliance_reduction(1, 0, 2).transpose()
+            other.norm() < 1e-12 && held.reduction(0, 1, 2) == held.reduction(1, 0, 2).transpose()
         );
     }
 

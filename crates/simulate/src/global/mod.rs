@@ -43,7 +43,7 @@ use palpate_files::Scene;
 use palpate_files::scene::{Organ, Smoothing};
 use palpate_geometry::{AabbTree, Surface, TriangleId, Vec3};
 use palpate_mechanics::LinearElastic;
-use palpate_mechanics::enhance::{Carrier, EnhancementModel, Press, SurfaceField};
+use palpate_mechanics::enhance::{EmbeddedDisplayPoints, EnhancementModel, Press, SurfaceField};
 use palpate_mechanics::finite_elements::condensed::RegionLaws;
 use palpate_mechanics::regions::RegionMap;
 use palpate_mechanics::surface_response::{SurfaceResponse, TipField};
@@ -70,7 +70,7 @@ pub(crate) struct GlobalModel {
     /// How displacements of its triangles are interpolated on it, and on the displayed surface.
     pub(crate) enhancement: EnhancementModel,
     /// The displayed vertices.
-    pub(crate) carrier: Carrier,
+    pub(crate) carrier: EmbeddedDisplayPoints,
     /// The boxes around the mechanical surface.
     pub(crate) tree: AabbTree,
 }
@@ -239,7 +239,7 @@ impl<'a> GlobalProblem<'a> {
         }
         let enhancement = match same {
             true => EnhancementModel::new(self.surface, settings)?,
-            false => EnhancementModel::carrying(shown.clone(), self.surface, settings)?,
+            false => EnhancementModel::with_display_mesh(shown.clone(), self.surface, settings)?,
         };
         let model = GlobalModel {
             response: found.response,

@@ -45,7 +45,7 @@ impl GlobalModel {
     ) -> Option<SurfacePoint> {
         let contact = state.contact.as_ref()?;
         let place = contact.place;
-        if !self.enhancement.is_finer() {
+        if !self.enhancement.has_finer_display() {
             let corners = simulation.surface.mesh().positions(place.triangle);
             return Some(SurfacePoint {
                 triangle: place.triangle,
@@ -183,8 +183,7 @@ impl GlobalModel {
             .filter(|(other, _)| *other != number)
         {
             let place = number * tools.len() + other;
-            let by = (between[place] - held.compliance_reduction(number, other, tools.len()))
-                * state.elastic;
+            let by = (between[place] - held.reduction(number, other, tools.len())) * state.elastic;
             let most = MAX_CARRIED * state.self_displacement;
             if by.norm() <= most {
                 carried -= by;
@@ -204,7 +203,7 @@ impl GlobalModel {
             let slit = workspace.slit.as_ref();
             let more = slit.map_or(Matrix3::zeros(), |slit| slit.further(number));
             let free = (load.structural_compliance() + more) * softness;
-            frame.tr_mul(&(free - held.compliance_reduction(number, number, tools.len()))) * frame
+            frame.tr_mul(&(free - held.reduction(number, number, tools.len()))) * frame
         });
         let exchange = load.and_then(|load| {
             let place = &contact.place;

@@ -34,7 +34,12 @@ const FILLINGS: usize = 5;
 /// A mesh of about `wanted` tetrahedra, or of more if walls are lost. If it has other holes than `surface`, for example
 /// across a thin wall, one finer mesh is tried.
 fn filled(surface: &Surface, mut wanted: usize) -> Result<TetrahedronMesh, TetrahedronError> {
-    let of = |wanted| fill(surface, &FillSettings::with_about(surface, wanted));
+    let of = |wanted| {
+        fill(
+            surface,
+            &FillSettings::with_tetrahedron_count(surface, wanted),
+        )
+    };
     let mut filling = of(wanted);
     for _ in 1..FILLINGS {
         if filling.is_ok() {
@@ -66,7 +71,7 @@ fn has_topology_of(surface: &Surface, filling: &TetrahedronMesh) -> bool {
 
 /// The factor by which edges are shorter where the body within `surface` is thin, if it has so many nodes [-].
 pub(super) fn grading(surface: &Surface, nodes: usize) -> impl Fn(&Vec3) -> f64 {
-    let edge = FillSettings::with_about(surface, nodes).edge;
+    let edge = FillSettings::with_tetrahedron_count(surface, nodes).edge;
     let thickness = Thickness::new(surface);
     let is_wall = thickness.typical() < edge;
     move |place| match is_wall {
@@ -85,7 +90,7 @@ pub(super) fn tetrahedra(
     finer: impl Fn(&Vec3) -> f64,
     on_progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<(TetrahedronMesh, Vec<String>), Error> {
-    let edge = FillSettings::with_about(surface, nodes).edge;
+    let edge = FillSettings::with_tetrahedron_count(surface, nodes).edge;
     let longest = |place: &Vec3| regions.longest_edge(place).min(edge);
     let mut filling = filled(surface, TETRAHEDRA_PER_NODE * nodes);
     if regions.has_inclusions() {

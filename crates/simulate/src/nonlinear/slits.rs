@@ -139,7 +139,7 @@ impl NonlinearOrgan {
                 let mut parted = slit.clone();
                 let stays = open(&mut parted, path);
                 // An unfixed piece has no equilibrium; a fluid would leave an opened cavity.
-                let is_held = parted.is_fixed(|place| anchors[number].fixes(place));
+                let is_held = parted.is_fixed(|place| anchors[number].is_fixed(place));
                 if is_held && encloses_cavities(&parted, whole, &composition.pieces[number]) {
                     slit = parted;
                     closed += stays;

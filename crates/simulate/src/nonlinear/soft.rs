@@ -70,7 +70,7 @@ impl SoftBody {
                 laws: Vec::new(),
             };
             let mut vertices = body.surface.mesh().vertices().iter();
-            if !vertices.any(|vertex| body.holds(vertex)) {
+            if !vertices.any(|vertex| body.is_fixed(vertex)) {
                 return Err(Error::LooseNeighbour { number: number + 1 });
             }
             all.push(body);
@@ -100,7 +100,7 @@ impl SoftBody {
     }
 
     /// Whether a `place` of it [m] is fixed.
-    pub(super) fn holds(&self, place: &Vec3) -> bool {
+    pub(super) fn is_fixed(&self, place: &Vec3) -> bool {
         let place = match &self.location {
             Some(location) => back(location, place),
             None => *place,

@@ -304,10 +304,15 @@ fn goals_are_reached() {
     marked.depth_m = 0.005;
     performance.add(&marked);
     assert_eq!(performance.status(), Status::Ended { late: false });
-    let Outcome::Find { beside, found, .. } = performance.score().outcome else {
+    let Outcome::Find {
+        target_distance,
+        found,
+        ..
+    } = performance.score().outcome
+    else {
         panic!("{:?}", performance.score().outcome)
     };
-    assert!(found && (beside.unwrap() - 0.003).abs() < 1e-12);
+    assert!(found && (target_distance.unwrap() - 0.003).abs() < 1e-12);
 
     let pull = Task {
         time_limit_s: Some(60.0),

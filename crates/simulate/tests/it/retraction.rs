@@ -301,12 +301,18 @@ fn a_touch_counts_while_the_organ_is_out_of_the_way() {
     let grasps = [Some(Event::Grip), Some(Event::ShaftContact)];
     let (status, outcome) = second(grasps, touches, 0.3);
     assert_eq!(part(status), (0.0, Cue::Lift));
-    assert!(matches!(outcome, Outcome::Touch { beside: None, .. }));
+    assert!(matches!(
+        outcome,
+        Outcome::Touch {
+            target_distance: None,
+            ..
+        }
+    ));
     let lifted = [None, Some(Event::ShaftRelease)];
     let far = second(lifted, right(0.006, 0.15, false), 0.3);
     assert_eq!(part(far.0), (0.0, Cue::Reach));
     assert!(
-        matches!(far.1, Outcome::Touch { beside: Some(beside), .. } if (beside - 0.006).abs() < 1e-12)
+        matches!(far.1, Outcome::Touch { target_distance: Some(beside), .. } if (beside - 0.006).abs() < 1e-12)
     );
     assert_eq!(
         part(second(none, right(0.004, 0.04, false), 0.3).0).1,

@@ -363,7 +363,7 @@ fn triangles(body: &Body) -> Vec<[Vec3; 3]> {
 fn filling(surface: &Surface) -> Result<(TetrahedronMesh, f64), Error> {
     let mut about = FILLING;
     loop {
-        let settings = FillSettings::with_about(surface, about);
+        let settings = FillSettings::with_tetrahedron_count(surface, about);
         match fill(surface, &settings) {
             Err(TetrahedronError::TooCoarse { .. }) if about < FINEST_FILLING => about *= 2,
             done => return Ok((follow_sharp_edges(done?, surface)?, settings.edge)),

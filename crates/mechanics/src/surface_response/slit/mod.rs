@@ -232,7 +232,7 @@ impl<T: Precision> Slit<T> {
         let size = self.gradients[0].size;
         triangles_near(body.surface, facet, reach, size, &mut self.found);
         for &triangle in &self.found {
-            if body.response.holds(triangle) {
+            if body.response.is_fixed(triangle) {
                 continue;
             }
             let centroid = mesh.positions(triangle).iter().sum::<Vec3>() / 3.0;

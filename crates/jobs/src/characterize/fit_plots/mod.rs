@@ -19,7 +19,7 @@ pub const LEVEL: f64 = 0.95;
 
 /// Plot data of one specimen.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct Portrait {
+pub struct FitPlots {
     /// Facts on specimen and indenter from the headers: names and values.
     pub facts: Vec<(String, String)>,
     /// Of the specimen.
@@ -124,7 +124,7 @@ pub struct DrawnLaw {
     pub sums_of_squares: Vec<f64>,
 }
 
-impl Portrait {
+impl FitPlots {
     /// The fit of each recording, with its file, at the drawn samples.
     pub(crate) fn fitted(&self) -> Vec<(String, DrawnFit)> {
         let each = self.recordings.iter();

@@ -1,5 +1,5 @@
 use palpate_characterize::clean::SegmentKind;
-use palpate_characterize::lumped::{PieceLoading, Pulled};
+use palpate_characterize::lumped::{FittedPiece, PieceLoading};
 use palpate_characterize::{CleanRecording, FittedRecording, FittedRelaxation};
 
 use super::super::finished::Studied;
@@ -89,7 +89,7 @@ fn drawn_fit(
     let of = |values: &[f64]| values.get(fitted.samples.clone()).map(<[f64]>::to_vec);
     let time = of(&recording.time)?;
     let (course, measured) = match is_piece {
-        true => Pulled::of(recording)
+        true => FittedPiece::of(recording)
             .ok()
             .map(|own| (own.stretches, own.stresses))?,
         false => (of(&recording.depth)?, of(&recording.force)?),
