@@ -3,7 +3,7 @@
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
 use palpate_characterize::clean::{CleanSettings, clean};
-use palpate_characterize::{CharacterizeSettings, characterize, inverse::SoughtLaw};
+use palpate_characterize::{CharacterizeSettings, characterize, inverse::CandidateLaw};
 use palpate_files::{BuiltinTissue, Recording, Scene, Tissue, protocol, recording::Samples, scene};
 use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass};
 use palpate_measure::{DepthTrajectory, Rig, RigSettings, VirtualSpecimen};
@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // The specimen is linear, the fitted law is not.
     let mut settings = CharacterizeSettings::default();
-    (settings.laws, settings.draws) = (vec![SoughtLaw::NeoHookean], None);
+    (settings.laws, settings.draws) = (vec![CandidateLaw::NeoHookean], None);
     let found = characterize(std::slice::from_ref(&recorded), &settings, &mut |_| ());
     let block = "format = 1\norgan = { builtin = \"cube\", builtin_tissue = \"pig-liver\" }";
     let mut block = Scene::parse(block, "block.toml")?;
@@ -53,7 +53,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let force = recorded.filtered_force[sample.min(recorded.time.len() - 1)];
         largest = largest.max(force);
         off = off.max((frame.state.tools[0].force.z - force).abs());
-        Ok(Flow::GoOn)
+        Ok(Flow::Continue)
     })?;
     println!("{:.1} % off at most", 100.0 * off / largest);
     assert!(off < 0.15 * largest);

@@ -69,15 +69,15 @@ fn cube(law: Arc<dyn Law>, how: &str, amount: f64) {
     let mut supports = Supports::none(&model);
     if how == "stretch" {
         for axis in 0..3 {
-            supports = supports.hold(&model, nodes(axis, 0.0), axis, 0.0);
+            supports = supports.fix(&model, nodes(axis, 0.0), axis, 0.0);
         }
-        supports = supports.hold(&model, nodes(2, 1.0), 2, amount - 1.0);
+        supports = supports.fix(&model, nodes(2, 1.0), 2, amount - 1.0);
     } else {
         let surface = |x: &Vec3| x.iter().any(|&x| x == 0.0 || x == 1.0);
         for node in model.mesh().nodes_where(surface) {
             let z = model.mesh().nodes[node].z;
             for (axis, way) in [amount * z, 0.0, 0.0].into_iter().enumerate() {
-                supports = supports.hold(&model, [node], axis, way);
+                supports = supports.fix(&model, [node], axis, way);
             }
         }
     }
@@ -124,11 +124,11 @@ fn punch(law: Arc<dyn Law>, halvings: i32, depth: f64) {
     for step in 1..=steps {
         let way = depth * radius * f64::from(step) / f64::from(steps);
         let supports = Supports::none(model)
-            .hold(model, nodes(&|x| x.x == 0.0), 0, 0.0)
-            .hold(model, bottom.iter().copied(), 0, 0.0)
-            .hold(model, bottom.iter().copied(), 1, 0.0)
-            .hold(model, face.iter().copied(), 0, 0.0)
-            .hold(model, face.iter().copied(), 1, -way);
+            .fix(model, nodes(&|x| x.x == 0.0), 0, 0.0)
+            .fix(model, bottom.iter().copied(), 0, 0.0)
+            .fix(model, bottom.iter().copied(), 1, 0.0)
+            .fix(model, face.iter().copied(), 0, 0.0)
+            .fix(model, face.iter().copied(), 1, -way);
         equilibrate(model, &supports, &mut state, &mut workspace).unwrap();
     }
     let each = face.iter().map(|&node| workspace.reaction(model, node).y);

@@ -79,7 +79,7 @@ impl Body {
     fn supports(&self) -> Supports<'_> {
         let none = Supports::none(&self.model);
         self.held.iter().fold(none, |supports, (nodes, axis)| {
-            supports.hold(&self.model, nodes.iter().copied(), *axis, 0.0)
+            supports.fix(&self.model, nodes.iter().copied(), *axis, 0.0)
         })
     }
 }

@@ -59,7 +59,7 @@ fn bit(event: Event) -> u32 {
         Event::ShaftContact => PALPATE_EVENT_SHAFT_CONTACT,
         Event::DepthBeyondTrust => PALPATE_EVENT_DEPTH_BEYOND_TRUST,
         Event::NonFiniteForce => PALPATE_EVENT_NON_FINITE_FORCE,
-        Event::Mark | Event::Lifted | Event::BeginAnew => 0,
+        Event::Mark | Event::Lifted | Event::Restart => 0,
         Event::UndoCut => PALPATE_EVENT_UNDO_CUT,
         Event::Jump => PALPATE_EVENT_JUMP,
         Event::EnergyGain => PALPATE_EVENT_ENERGY_GAIN,

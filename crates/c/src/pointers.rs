@@ -8,7 +8,7 @@ use crate::refused::Refused;
 fn checked<T>(pointer: *const T, name: &'static str) -> Result<*const T, Refused> {
     match (pointer.is_null(), pointer.is_aligned()) {
         (true, _) => Err(Refused::Null { name }),
-        (_, false) => Err(Refused::Crooked { name }),
+        (_, false) => Err(Refused::NotAUnitVector { name }),
         _ => Ok(pointer),
     }
 }

@@ -67,7 +67,7 @@ pub(crate) unsafe fn prepare(
     })?;
     // Some work cannot be cancelled, and ends all the same.
     match cancelled {
-        true => Err(Error::Model(palpate_mechanics::Error::BrokenOff).into()),
+        true => Err(Error::Model(palpate_mechanics::Error::Cancelled).into()),
         false => Ok(simulation),
     }
 }

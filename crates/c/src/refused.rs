@@ -13,7 +13,7 @@ pub(crate) enum Refused {
     #[error(
         "`{name}` does not lie where its type can; give a pointer to a variable or an array of that type"
     )]
-    Crooked {
+    NotAUnitVector {
         /// The parameter.
         name: &'static str,
     },
@@ -116,7 +116,7 @@ impl Refused {
             Self::Simulation(error) => error.is_input(),
             Self::Broken | Self::Panicked { .. } => false,
             Self::Null { .. }
-            | Self::Crooked { .. }
+            | Self::NotAUnitVector { .. }
             | Self::NotText { .. }
             | Self::OtherTools { .. }
             | Self::NoPosition { .. }

@@ -100,7 +100,7 @@ pub unsafe extern "C" fn palpate_simulation_free(simulation: *mut SimulationHand
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn palpate_tool_count(simulation: *const SimulationHandle) -> usize {
     // SAFETY: the header demands it of who calls.
-    unsafe { told(simulation, 0, |own| own.tools.len()) }
+    unsafe { with_simulation(simulation, 0, |own| own.tools.len()) }
 }
 
 /// The name of a tool, counted from 0 in the scene's order, for as long as the simulation lives; null where there is
@@ -111,14 +111,14 @@ pub unsafe extern "C" fn palpate_tool_name(
     tool: usize,
 ) -> *const c_char {
     // SAFETY: the header demands it of who calls.
-    unsafe { told(simulation, ptr::null(), |own| text_of(&own.tools, tool)) }
+    unsafe { with_simulation(simulation, ptr::null(), |own| text_of(&own.tools, tool)) }
 }
 
 /// The number of warnings about this scene; 0 for a null pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn palpate_warning_count(simulation: *const SimulationHandle) -> usize {
     // SAFETY: the header demands it of who calls.
-    unsafe { told(simulation, 0, |own| own.warnings.len()) }
+    unsafe { with_simulation(simulation, 0, |own| own.warnings.len()) }
 }
 
 /// A warning, counted from 0, one sentence; valid for as long as the simulation lives; null where there is none.
@@ -129,7 +129,7 @@ pub unsafe extern "C" fn palpate_warning(
 ) -> *const c_char {
     // SAFETY: the header demands it of who calls.
     unsafe {
-        told(simulation, ptr::null(), |own| {
+        with_simulation(simulation, ptr::null(), |own| {
             text_of(&own.warnings, number)
         })
     }
@@ -139,7 +139,7 @@ pub unsafe extern "C" fn palpate_warning(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn palpate_step_length(simulation: *const SimulationHandle) -> f64 {
     // SAFETY: the header demands it of who calls.
-    unsafe { told(simulation, 0.0, |own| own.simulation.step()) }
+    unsafe { with_simulation(simulation, 0.0, |own| own.simulation.step()) }
 }
 
 /// The factor [-] by which the scene wants forces felt, `model.force_scale`; the forces of a step are without it. 0 for
@@ -147,7 +147,7 @@ pub unsafe extern "C" fn palpate_step_length(simulation: *const SimulationHandle
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn palpate_force_scale(simulation: *const SimulationHandle) -> f64 {
     // SAFETY: the header demands it of who calls.
-    unsafe { told(simulation, 0.0, |own| own.simulation.force_scale()) }
+    unsafe { with_simulation(simulation, 0.0, |own| own.simulation.force_scale()) }
 }
 
 fn text_of(texts: &[CString], number: usize) -> *const c_char {
@@ -158,7 +158,7 @@ fn text_of(texts: &[CString], number: usize) -> *const c_char {
 ///
 /// # Safety
 /// As of [`pointers::borrowed`].
-pub(crate) unsafe fn told<T>(
+pub(crate) unsafe fn with_simulation<T>(
     simulation: *const SimulationHandle,
     otherwise: T,
     tell: impl FnOnce(&SimulationHandle) -> T,

@@ -32,14 +32,14 @@ pub(crate) fn or_else<T>(otherwise: T, call: impl FnOnce() -> Result<T, Refused>
         Ok(Ok(answer)) => return (answer, Status::PalpateOk),
         Ok(Err(refused)) => refused,
         Err(payload) => Refused::Panicked {
-            said: said(payload.as_ref()).to_owned(),
+            said: panic_message(payload.as_ref()).to_owned(),
         },
     };
     message::keep(&refused);
     (otherwise, refused.status())
 }
 
-fn said(payload: &(dyn Any + Send)) -> &str {
+fn panic_message(payload: &(dyn Any + Send)) -> &str {
     let owned = payload.downcast_ref::<String>().map(String::as_str);
     owned
         .or_else(|| payload.downcast_ref::<&str>().copied())

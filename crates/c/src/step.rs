@@ -183,7 +183,7 @@ fn touch(simulation: &Simulation, number: usize, state: &SimulationState, time: 
         .contact
         .map(|contact| (contact.point(), contact.normal()));
     let (point, normal) = at.unwrap_or((Vec3::zeros(), Vec3::zeros()));
-    let contact = own.contact.is_some() || own.holds();
+    let contact = own.contact.is_some() || own.is_grasping();
     ToolTouch {
         force_n: own.force.into(),
         with_pull_n: near.force.into(),
@@ -197,6 +197,6 @@ fn touch(simulation: &Simulation, number: usize, state: &SimulationState, time: 
         torque_nm: own.torque.into(),
         events: events::bits(own.row.events),
         contact: contact.into(),
-        holds: own.holds().into(),
+        holds: own.is_grasping().into(),
     }
 }

@@ -5,7 +5,7 @@ use std::ptr;
 use palpate_geometry::{NodeId, TriangleMesh, Vec3};
 
 use crate::pointers::{self, Answer};
-use crate::simulation::{SimulationHandle, told};
+use crate::simulation::{SimulationHandle, with_simulation};
 use crate::state::{Own, StateHandle};
 use crate::status::{Status, answer};
 
@@ -70,7 +70,7 @@ pub unsafe extern "C" fn palpate_simulation_normals(
 ) -> *const f64 {
     let normals = |own: &SimulationHandle| own.simulation.surface().vertex_normals().as_ptr();
     // SAFETY: the header demands it of who calls.
-    unsafe { told(simulation, ptr::null(), normals) }.cast()
+    unsafe { with_simulation(simulation, ptr::null(), normals) }.cast()
 }
 
 /// The organ as it is deformed and cut now, until the next call that changes the state. Uncut it has the vertices and
@@ -94,7 +94,7 @@ pub unsafe extern "C" fn palpate_state_surface(
 impl Own {
     fn surface(&self) -> SurfaceView {
         let state = &self.course.state;
-        match state.cuts.as_ref().filter(|cuts| cuts.are_there()) {
+        match state.cuts.as_ref().filter(|cuts| cuts.has_openings()) {
             Some(cuts) => {
                 // A restored state may have cut other triangles under the same number.
                 let version = u64::from(self.restored) << 32 | cuts.version() & 0xffff_ffff;

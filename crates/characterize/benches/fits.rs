@@ -15,7 +15,7 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use palpate_characterize::fit::Random;
-use palpate_characterize::inverse::{Body, Curves, Indentation, PUNCH, SoughtLaw, law_fit};
+use palpate_characterize::inverse::{Body, CandidateLaw, Curves, Indentation, PUNCH, law_fit};
 use palpate_characterize::online::{OnlineContact, OnlineEstimator, OnlineSample, OnlineSettings};
 use palpate_characterize::viscoelastic::{RelaxationRecord, RelaxationSettings, relaxation};
 use palpate_files::recording::{RecordingHeader, Samples};
@@ -69,9 +69,9 @@ fn of_laws(criterion: &mut Criterion) {
         .sample_size(10)
         .measurement_time(Duration::from_secs(5));
     for (law, name) in [
-        (SoughtLaw::NeoHookean, "neo-Hookean (budget 0.1 s)"),
-        (SoughtLaw::MooneyRivlin, "Mooney-Rivlin (budget 5 s)"),
-        (SoughtLaw::Exponential, "exponential (budget 30 s)"),
+        (CandidateLaw::NeoHookean, "neo-Hookean (budget 0.1 s)"),
+        (CandidateLaw::MooneyRivlin, "Mooney-Rivlin (budget 5 s)"),
+        (CandidateLaw::Exponential, "exponential (budget 30 s)"),
     ] {
         group.bench_function(name, |b| {
             b.iter(|| {

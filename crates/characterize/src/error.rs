@@ -55,7 +55,7 @@ pub enum Error {
     #[error(
         "only closed forms were asked for; leave out --closed-forms to fit laws and relaxation"
     )]
-    NotSought,
+    NotFitted,
     /// The force never pulls as the indenter goes back.
     #[error(
         "the force does not fall below zero by more than its noise as the indenter goes back: no adhesion shows"
@@ -161,7 +161,7 @@ pub enum Error {
     #[error(
         "no force that grows with depth is found in the recording; check the signs and the units of depth and force"
     )]
-    NothingFelt,
+    NoContactForce,
     /// The recordings do not say something.
     #[error(
         "the recording does not say `{key}`; add the line `# {key} = ...` at its top, or state it with --set"
@@ -300,7 +300,7 @@ impl Error {
             | Self::NoContact { .. }
             | Self::ContactOutside { .. }
             | Self::NotInGuess { .. }
-            | Self::NotSought
+            | Self::NotFitted
             | Self::NoPullOff
             | Self::AdhesionOfSphere
             | Self::NoDesign
@@ -315,7 +315,7 @@ impl Error {
             | Self::PressedWhereFixed
             | Self::NoHold
             | Self::NoStart { .. }
-            | Self::NothingFelt
+            | Self::NoContactForce
             | Self::Unknown { .. }
             | Self::ColumnUnknown
             | Self::TubeLaw { .. }

@@ -9,12 +9,12 @@
 //!
 //! ```
 //! use palpate_characterize::clean::{CleanSettings, clean};
-//! use palpate_characterize::{CharacterizeSettings, characterize, inverse::SoughtLaw};
+//! use palpate_characterize::{CharacterizeSettings, characterize, inverse::CandidateLaw};
 //! use palpate_files::{Recording, recording::ForeignColumns};
 //!
 //! let recording = Recording::read_foreign("../../assets/first/liver-4mm.csv", &ForeignColumns::default())?;
 //! let cleaned = clean(&recording, &CleanSettings::default())?;
-//! let settings = CharacterizeSettings { laws: vec![SoughtLaw::NeoHookean], ..Default::default() };
+//! let settings = CharacterizeSettings { laws: vec![CandidateLaw::NeoHookean], ..Default::default() };
 //! let found = characterize(&[cleaned], &settings, &mut |_| ());
 //! let tissue = found.tissue(None)?; // law, Prony series and the standard error of each number
 //! println!("{}", tissue.to_toml());

@@ -16,8 +16,8 @@ use palpate_files::recording::{RecordingHeader, StimulusKind};
 use crate::clean::SegmentKind;
 use crate::fit::{Draws, simplest};
 use crate::inverse::{
-    Body, Curves, FarField, Indentation, LawDescription, Organ, SoughtLaw, UnitCurve, ZeroErrors,
-    assumption, law_fit, repeated,
+    Body, CandidateLaw, Curves, FarField, Indentation, LawDescription, Organ, UnitCurve,
+    ZeroErrors, assumption, law_fit, repeated,
 };
 use crate::lumped::{Contact, UniaxialFit, fit_uniaxial_recordings, mean_modulus};
 use crate::viscoelastic::{
@@ -32,8 +32,8 @@ pub use fitted::{FittedLaw, FittedRecording, FittedRelaxation};
 pub struct CharacterizeSettings {
     /// How relaxation is sought.
     pub relaxation: RelaxationSettings,
-    /// The laws that are sought; with [`SoughtLaw::USUAL`] also the law with fibres, of pieces that state how they lie.
-    pub laws: Vec<SoughtLaw>,
+    /// The laws that are sought; with [`CandidateLaw::DEFAULT`] also the law with fibres, of pieces that state how they lie.
+    pub laws: Vec<CandidateLaw>,
     /// How often their fits are made again to see how well they are known.
     pub draws: Option<Draws>,
     /// Whether full viscoelastic runs of finite elements are solved in the loop of the fit, of one law.
@@ -47,7 +47,7 @@ impl Default for CharacterizeSettings {
     fn default() -> Self {
         Self {
             relaxation: RelaxationSettings::default(),
-            laws: SoughtLaw::USUAL.to_vec(),
+            laws: CandidateLaw::DEFAULT.to_vec(),
             draws: Some(Draws {
                 count: 100,
                 seed: 1,
@@ -68,9 +68,9 @@ pub struct Characterization {
     /// What needs no geometry.
     pub without_geometry: WithoutGeometry,
     /// The laws that were sought, in their order.
-    pub laws: Vec<(SoughtLaw, Result<LawDescription, Error>)>,
+    pub laws: Vec<(CandidateLaw, Result<LawDescription, Error>)>,
     /// The same from pieces that were pressed or pulled along one axis; empty without any.
-    pub uniaxial: Vec<(SoughtLaw, Result<UniaxialFit, Error>)>,
+    pub uniaxial: Vec<(CandidateLaw, Result<UniaxialFit, Error>)>,
     /// Warnings about the relaxation.
     pub relaxation_warnings: Vec<String>,
     /// Which parameters of relaxation and laws can be distinguished, in plain sentences.
@@ -110,7 +110,7 @@ pub fn characterize_organ(
     });
     let far = far.transpose();
     let mut curves = body.clone().and_then(|body| {
-        let curves = Curves::new(body, SoughtLaw::NeoHookean, deepest);
+        let curves = Curves::new(body, CandidateLaw::NeoHookean, deepest);
         Ok(match far.clone()? {
             Some(far) => curves.in_organ(far),
             None => curves,
@@ -189,7 +189,7 @@ fn sought(
     draws: Option<Draws>,
 ) -> Result<LawDescription, Error> {
     let law = curves.law();
-    if matches!(curves.body(), Body::Tube { .. }) && law != SoughtLaw::NeoHookean {
+    if matches!(curves.body(), Body::Tube { .. }) && law != CandidateLaw::NeoHookean {
         return Err(Error::TubeLaw { law: law.name() });
     }
     let indentations: Vec<Indentation<'_>> = pressed.iter().map(Pressed::indentation).collect();
@@ -201,14 +201,17 @@ fn sought(
 
 /// The laws that are sought of these recordings: with those that are sought unless others are asked for also the law with
 /// fibres, where pieces state how they lie; and the sentence on an angle that none of the laws uses.
-fn laws_of(asked: &[SoughtLaw], recordings: &[CleanRecording]) -> (Vec<SoughtLaw>, Option<String>) {
+fn laws_of(
+    asked: &[CandidateLaw],
+    recordings: &[CleanRecording],
+) -> (Vec<CandidateLaw>, Option<String>) {
     let mut laws = asked.to_vec();
     let states = |own: &CleanRecording| own.header.fibre_axis_angle_deg.is_some();
     let key = recordings.iter().find_map(|own| fibre_key(&own.header));
     let mut pieces = recordings.iter().filter(|own| is_piece(own)).peekable();
     let are_pieces = pieces.peek().is_some();
-    if are_pieces && asked == SoughtLaw::USUAL && pieces.all(states) {
-        laws.push(SoughtLaw::HolzapfelGasserOgden);
+    if are_pieces && asked == CandidateLaw::DEFAULT && pieces.all(states) {
+        laws.push(CandidateLaw::HolzapfelGasserOgden);
     }
     let is_used = laws.iter().any(|law| law.name().has_fibres()) && are_pieces;
     let said = key.filter(|_| !is_used).map(|key| match are_pieces {
@@ -318,7 +321,7 @@ fn records(pressed: &[Pressed], curve: Option<&UnitCurve>) -> Vec<RelaxationReco
 
 /// The indented body, the same in all recordings.
 fn body(recordings: &[CleanRecording], deepest: f64) -> Result<Body, Error> {
-    let first = recordings.first().ok_or(Error::NothingFelt)?;
+    let first = recordings.first().ok_or(Error::NoContactForce)?;
     Body::of(&first.header, deepest)
 }
 
@@ -379,8 +382,8 @@ fn half_space_factor(
 impl Characterization {
     fn of_closed_forms(recordings: &[CleanRecording]) -> Self {
         Self {
-            relaxation: Err(Error::NotSought),
-            relaxation_of_steps: Err(Error::NotSought),
+            relaxation: Err(Error::NotFitted),
+            relaxation_of_steps: Err(Error::NotFitted),
             without_geometry: WithoutGeometry::of_closed_forms(recordings),
             laws: Vec::new(),
             uniaxial: Vec::new(),
@@ -415,7 +418,7 @@ impl Characterization {
     }
 
     /// The law to be preferred, however it was found.
-    pub fn preferred_law(&self) -> Option<SoughtLaw> {
+    pub fn preferred_law(&self) -> Option<CandidateLaw> {
         let pressed = self.preferred().map(|law| law.found.law);
         pressed.or_else(|| self.preferred_uniaxial().map(|law| law.law))
     }

@@ -36,7 +36,7 @@ const SAMPLES: usize = 1500;
 impl WithoutGeometry {
     /// Of the recordings of one specimen, and of the same as they are fitted.
     pub fn of(recordings: &[CleanRecording], indentations: &[Indentation<'_>]) -> Self {
-        let first = recordings.first().ok_or(Error::NothingFelt);
+        let first = recordings.first().ok_or(Error::NoContactForce);
         let contact = first.and_then(|recording| Contact::of(&recording.header));
         let holds: Vec<Hold> = recordings
             .iter()
@@ -58,9 +58,9 @@ impl WithoutGeometry {
             mean_modulus: mean_elastic_modulus(recordings),
             linear_elastic: fit_approach(recordings),
             adhesion: fit_adhesion(recordings),
-            kelvin: Err(Error::NotSought),
-            column: Err(Error::NotSought),
-            springs: Err(Error::NotSought),
+            kelvin: Err(Error::NotFitted),
+            column: Err(Error::NotFitted),
+            springs: Err(Error::NotFitted),
         }
     }
 
@@ -90,7 +90,7 @@ fn kelvin(indentations: &[Indentation<'_>]) -> Result<KelvinFit, Error> {
     let most = indentations
         .iter()
         .max_by(|a, b| deepest(a).total_cmp(&deepest(b)));
-    let most = most.ok_or(Error::NothingFelt)?;
+    let most = most.ok_or(Error::NoContactForce)?;
     fit_kelvin(most.time, most.depth, most.force, DepthHistory::Recorded)
 }
 

@@ -4,27 +4,27 @@ use std::time::Duration;
 #[derive(Debug, Clone, PartialEq)]
 pub enum Misbehaviour {
     /// The connection is cut.
-    Drops,
+    Disconnects,
     /// Answers come so much later.
     Stalls(Duration),
     /// No answer comes.
-    Swallows,
+    NoReply,
     /// This is sent instead of a state.
-    Says(String),
+    SendsText(String),
     /// Bytes that are no text are sent instead.
-    SaysBytes(Vec<u8>),
+    SendsBinary(Vec<u8>),
     /// These bytes are sent instead, without so much as the frame of a message.
-    SaysRaw(Vec<u8>),
+    SendsRaw(Vec<u8>),
     /// A state is cut off after so many bytes.
-    CutsOff(usize),
+    Truncates(usize),
     /// A state comes in fragments of so many bytes.
     Fragments(usize),
     /// The bytes of a state come one by one, so far apart.
-    Dribbles(Duration),
+    SendsBytewise(Duration),
     /// There are so many more states than were asked for.
     Repeats(usize),
     /// The devices are not in the states any more.
-    Vanishes,
+    DevicesMissing,
     /// The states have no position.
     NoPosition,
     /// The first coordinate is this instead of a number.

@@ -82,7 +82,7 @@ impl NetFtStandIn {
     }
 
     /// What it feels, from somewhere else.
-    pub fn feeler(&self) -> impl Fn(ForceTorque) + Send + Sync + use<> {
+    pub fn force_setter(&self) -> impl Fn(ForceTorque) + Send + Sync + use<> {
         let state = self.state.clone();
         move |felt| locked(&state).felt = felt
     }

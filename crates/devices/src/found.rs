@@ -6,7 +6,7 @@ pub enum Origin {
     /// The device reports it.
     Device,
     /// It is our conservative assumption: neither the device nor its documentation states it.
-    Ours,
+    Assumed,
 }
 
 /// A device that was found.

@@ -108,7 +108,7 @@ pub fn self_test(device: Box<dyn Device>, clock: Clock) -> Result<SelfTest, Faul
         let [least, greatest] = test.reached.unwrap_or([place, place]);
         test.reached = Some([least.inf(&place), greatest.sup(&place)]);
         test.live = sample.stage == Stage::Live;
-        test.sent = test.sent.max(sample.sent.norm());
+        test.sent = test.sent.max(sample.output.norm());
         if let Some(force) = sample.state.displayed {
             test.displayed = Some(test.displayed.unwrap_or(0.0).max(force.norm()));
         }

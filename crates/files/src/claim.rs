@@ -4,7 +4,7 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use crate::whole_file::is_replaced;
+use crate::atomic_write::is_replaced;
 use crate::{Error, unfinished};
 
 /// The file that is locked in a claimed folder; its text is the number of the process.

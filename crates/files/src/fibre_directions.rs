@@ -8,8 +8,8 @@
 
 use std::path::Path;
 
+use crate::atomic_write::{MAX_TABLE_BYTES, read_text};
 use crate::table::{Column, Row, TableText};
-use crate::whole_file::{MOST_OF_TABLE, read_text};
 use crate::{Domain, Error};
 
 /// Directions of fibres in a body.
@@ -40,7 +40,7 @@ impl FibreDirections {
     /// When the file cannot be read or holds no directions.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        Self::parse(&read_text(path, MOST_OF_TABLE)?, path)
+        Self::parse(&read_text(path, MAX_TABLE_BYTES)?, path)
     }
 
     /// Reads the text of such a table; `path` is its name in errors.
@@ -77,7 +77,7 @@ impl FibreDirections {
             if let (Some(second), Some(columns)) = (direction.across, &across)
                 && sine(direction.axis, second) < PARALLEL
             {
-                return Err(row.bad(&columns[0], "a direction that is not that of the axis"));
+                return Err(row.invalid(&columns[0], "a direction that is not that of the axis"));
             }
             read.push(direction);
         }
@@ -98,7 +98,7 @@ fn numbers(row: &Row<'_>, columns: &[Column; 3], domain: Domain) -> Result<[f64;
 fn direction(row: &Row<'_>, columns: &[Column; 3]) -> Result<[f64; 3], Error> {
     let found = numbers(row, columns, COMPONENT)?;
     match found.iter().all(|part| *part == 0.0) {
-        true => Err(row.bad(&columns[0], "a direction, of which a component is not zero")),
+        true => Err(row.invalid(&columns[0], "a direction, of which a component is not zero")),
         false => Ok(found),
     }
 }

@@ -31,6 +31,7 @@
 //! # Ok::<(), palpate_files::Error>(())
 //! ```
 
+mod atomic_write;
 pub mod card;
 mod claim;
 mod domain;
@@ -51,9 +52,11 @@ mod table;
 pub mod tissue;
 mod toml_document;
 pub mod units;
-mod whole_file;
 mod words;
 
+pub use atomic_write::{
+    MAX_DOCUMENT_BYTES, MAX_TABLE_BYTES, read_bytes, read_text, write_atomically,
+};
 pub use claim::{Claim, Overwrite, remove_claims};
 pub use domain::Domain;
 pub use error::{Error, Place, names_wrong_path};
@@ -69,5 +72,4 @@ pub use session::{Event, Events, Session, SessionHeader, SessionRow, SessionWrit
 pub use settings::{Language, MouseHand, Settings};
 pub use table::{Incomplete, unfinished};
 pub use tissue::{BuiltinTissue, Elasticity, PronyTerm, Tissue};
-pub use toml_document::{Document, Holds, Key, Keys, Omitted, Word};
-pub use whole_file::{MOST_OF_DOCUMENT, MOST_OF_TABLE, read_bytes, read_text, write_whole};
+pub use toml_document::{Document, Key, Keys, Omitted, ValueType, Word};

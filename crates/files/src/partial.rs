@@ -122,7 +122,7 @@ mod tests {
         for left in [".a.csv.1.partial", ".a.csv.2.partial", ".b.csv.1.partial"] {
             fs::write(at(left), "half").unwrap();
         }
-        crate::write_whole(at("a.csv"), b"whole").unwrap();
+        crate::write_atomically(at("a.csv"), b"whole").unwrap();
         assert_eq!(names(folder.path()), [".b.csv.1.partial", "a.csv"]);
     }
 
@@ -141,7 +141,7 @@ mod tests {
         assert_eq!(fs::read(&path).unwrap(), b"second");
         assert_eq!(names(folder.path()), ["a.csv"]);
         let write =
-            |text: [u8; 1]| (0..100).for_each(|_| crate::write_whole(&path, &text).unwrap());
+            |text: [u8; 1]| (0..100).for_each(|_| crate::write_atomically(&path, &text).unwrap());
         std::thread::scope(|scope| {
             for letter in *b"abcd" {
                 scope.spawn(move || write([letter]));
@@ -154,7 +154,7 @@ mod tests {
     fn what_fails_leaves_nothing() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.csv");
-        let full = crate::whole_file::write_whole_by(&path, |file| {
+        let full = crate::atomic_write::write_atomically_with(&path, |file| {
             file.write_all(b"half")?;
             Err(ErrorKind::StorageFull.into())
         });
@@ -167,8 +167,8 @@ mod tests {
     #[test]
     fn a_device_stays_and_a_full_one_is_a_failure() {
         use std::os::unix::fs::FileTypeExt;
-        crate::write_whole("/dev/null", b"whole").unwrap();
-        let full = crate::write_whole("/dev/full", b"whole").unwrap_err();
+        crate::write_atomically("/dev/null", b"whole").unwrap();
+        let full = crate::write_atomically("/dev/full", b"whole").unwrap_err();
         assert!(!full.is_input(), "{full}");
         for device in ["/dev/null", "/dev/full"] {
             assert!(fs::metadata(device).unwrap().file_type().is_char_device());

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::toml_document::{Document, quoted, toml_number};
 use crate::words::words;
-use crate::{Domain, Error, Key, Keys, write_whole};
+use crate::{Domain, Error, Key, Keys, write_atomically};
 
 words! {
     /// Whose tool the mouse moves at first.
@@ -142,7 +142,7 @@ impl Settings {
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder).map_err(|source| Error::write(folder, source))?;
         }
-        write_whole(path, self.print().as_bytes())
+        write_atomically(path, self.print().as_bytes())
     }
 }
 

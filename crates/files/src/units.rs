@@ -176,7 +176,7 @@ pub(crate) fn accepted_instead(given: &str, expected: &str) -> Option<String> {
             .alternatives()
             .map(|unit| format!("`{base}_{}`", unit.suffix))
             .collect();
-        crate::words::either(&names)
+        crate::words::or_list(&names)
     })
 }
 

@@ -72,7 +72,7 @@ pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
 }
 
 /// "a", "a or b", "a, b or c".
-pub(crate) fn either(names: &[impl AsRef<str>]) -> String {
+pub(crate) fn or_list(names: &[impl AsRef<str>]) -> String {
     let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
     match names.as_slice() {
         [] => "nothing".to_owned(),
@@ -129,7 +129,7 @@ mod tests {
 
     #[test]
     fn lists_read_like_english() {
-        assert_eq!(either(&["a"]), "a");
-        assert_eq!(either(&["a", "b", "c"]), "a, b or c");
+        assert_eq!(or_list(&["a"]), "a");
+        assert_eq!(or_list(&["a", "b", "c"]), "a, b or c");
     }
 }

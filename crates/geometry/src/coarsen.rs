@@ -30,7 +30,7 @@ use crate::{Surface, TetrahedronError, TetrahedronMesh, Vec3};
 const FLATTEST: f64 = 0.2;
 
 /// Cosine of the angle by which a face of the boundary may turn at once [-].
-const MOST_TURNED: f64 = 0.5;
+const MAX_TURNED: f64 = 0.5;
 
 /// Weight of a distance from the planes of the boundary relative to the same length of an edge [-].
 const OFF_SURFACE: f64 = 5.0;
@@ -285,7 +285,7 @@ impl Net {
             .all(|face| {
                 let normal = |[x, y, z]: [Vec3; 3]| (y - x).cross(&(z - x));
                 let (old, new) = (normal(face.map(now)), normal(face.map(then)));
-                old.dot(&new) > MOST_TURNED * old.norm() * new.norm()
+                old.dot(&new) > MAX_TURNED * old.norm() * new.norm()
             })
     }
 

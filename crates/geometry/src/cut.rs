@@ -24,12 +24,12 @@
 //! rest: the caller maps the blade from a deformed surface back to it, and lifts a blade that has
 //! left it.
 
+mod crossing;
 mod cut_path;
 pub(crate) mod error;
 pub(crate) mod net;
 mod snap;
 mod split;
-mod walk;
 
 use cut_path::CutPath;
 use error::CutError;
@@ -39,7 +39,7 @@ use split::Limits;
 use crate::{NodeId, Surface, TriangleId, TriangleMesh, Vec3};
 
 /// No triangle is made whose height is less, in units of its longest edge [-].
-const LEAST_SHAPE: f64 = 0.05;
+const MIN_SHAPE: f64 = 0.05;
 
 /// A blade nearer to the end of an edge than this part of it passes through the end [-].
 const NEAR: f64 = 0.1;
@@ -48,18 +48,18 @@ const NEAR: f64 = 0.1;
 const SHORTEST: f64 = 0.1;
 
 /// Splitting ends at this many triangles per triangle of the surface.
-const MOST_GROWTH: usize = 8;
+const MAX_GROWTH: usize = 8;
 
 /// Spare capacity for vertices and triangles, as a part of the surface's [-] and at least: beyond it, a cut may
 /// allocate.
-const ROOM: f64 = 0.25;
-const LEAST_ROOM: usize = 2048;
+const SPARE: f64 = 0.25;
+const MIN_CAPACITY: usize = 2048;
 
 /// Most change of area of the triangles around a vertex that is moved [-].
-const MOST_AREA_CHANGE: f64 = 0.01;
+const MAX_AREA_CHANGE: f64 = 0.01;
 
 /// More edges than this in one step are cut in the next one.
-const MOST_CROSSED_EDGES: usize = 256;
+const MAX_CROSSED_EDGES: usize = 256;
 
 /// How a cut gets its vertices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -112,17 +112,17 @@ impl CutSurface {
             method,
             limits: Limits {
                 edge: SHORTEST * sum / (3 * triangles) as f64,
-                triangles: MOST_GROWTH * triangles,
+                triangles: MAX_GROWTH * triangles,
             },
             uncut: net.mark(),
             net,
             cut_path: None,
-            cuts: Vec::with_capacity(LEAST_ROOM),
+            cuts: Vec::with_capacity(MIN_CAPACITY),
         }
     }
 
     /// Vertices and triangles that it has room for without an allocation.
-    pub fn room(&self) -> [usize; 2] {
+    pub fn capacity(&self) -> [usize; 2] {
         [self.net.nodes.capacity(), self.net.facets.capacity()]
     }
 
@@ -203,7 +203,7 @@ impl CutSurface {
                 triangles,
             });
         }
-        let (triangle, on) = walk::nearest_of_net(&self.net, near, at);
+        let (triangle, on) = crossing::nearest_of_net(&self.net, near, at);
         let distance_m = (on.position - at).norm();
         let [a, b, c] = self.net.mesh.positions(triangle);
         let edge_m = (b - a).norm().max((c - b).norm()).max((a - c).norm());
@@ -230,7 +230,7 @@ impl CutSurface {
         let mut cut_path = self.cut_path.ok_or(CutError::NotBegun)?;
         let before = cut_path.opened;
         self.turn(surface, &mut cut_path, to);
-        for _ in 0..MOST_CROSSED_EDGES {
+        for _ in 0..MAX_CROSSED_EDGES {
             if !self.pass(surface, &mut cut_path, to) {
                 break;
             }
@@ -252,7 +252,7 @@ impl CutSurface {
         let mut cut_path = self.cut_path.take().ok_or(CutError::NotBegun)?;
         self.finish(surface, &mut cut_path);
         if cut_path.opened == 0 {
-            self.net.go_back(cut_path.before);
+            self.net.restore(cut_path.before);
         } else {
             self.cuts.push(cut_path.before);
         }
@@ -269,7 +269,7 @@ impl CutSurface {
         }
         let last = self.cuts.pop();
         if let Some(mark) = last {
-            self.net.go_back(mark);
+            self.net.restore(mark);
         }
         Ok(last.is_some())
     }
@@ -278,6 +278,6 @@ impl CutSurface {
     pub fn close_all(&mut self) {
         self.cut_path = None;
         self.cuts.clear();
-        self.net.go_back(self.uncut);
+        self.net.restore(self.uncut);
     }
 }

@@ -31,7 +31,7 @@ use self::stencil::Filling;
 use crate::{AabbTree, Surface, TetrahedronError, TetrahedronMesh, Vec3};
 
 /// Part of the volume that may be lost in fragments [-].
-const MOST_LOST: f64 = 0.01;
+const MAX_LOST: f64 = 0.01;
 
 /// How to fill a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,12 +48,12 @@ impl FillSettings {
     pub fn new(edge: f64) -> Self {
         Self {
             edge,
-            most_tetrahedra: TetrahedronMesh::MOST_TETRAHEDRA,
+            most_tetrahedra: TetrahedronMesh::MAX_TETRAHEDRA,
         }
     }
 
     /// The edge that fills `surface` with about so many tetrahedra.
-    pub fn with_about(surface: &Surface, tetrahedra: usize) -> Self {
+    pub fn with_tetrahedron_count(surface: &Surface, tetrahedra: usize) -> Self {
         Self::new((12.0 * surface.mesh().volume() / tetrahedra.max(1) as f64).cbrt())
     }
 }
@@ -103,8 +103,7 @@ impl FillSettings {
         }
         // A twelfth of a cell each.
         let expected = 12.0 * surface.mesh().volume() / edge_m.powi(3);
-        if expected > self.most() as f64 || Lattice::points(surface, edge_m) > lattice::MOST_POINTS
-        {
+        if expected > self.most() as f64 || Lattice::points(surface, edge_m) > lattice::MAX_POINTS {
             return Err(self.too_many(expected));
         }
         let (low, high) = surface.mesh().bounds();
@@ -119,7 +118,7 @@ impl FillSettings {
     }
 
     fn most(&self) -> usize {
-        self.most_tetrahedra.min(TetrahedronMesh::MOST_TETRAHEDRA)
+        self.most_tetrahedra.min(TetrahedronMesh::MAX_TETRAHEDRA)
     }
 
     fn too_many(&self, expected: f64) -> TetrahedronError {
@@ -146,7 +145,7 @@ fn stuffed(
         return Err(settings.too_many(tetrahedra.len() as f64));
     }
     let (tetrahedra, lost) = repair::largest_component(&vertices, tetrahedra);
-    if tetrahedra.is_empty() || lost > MOST_LOST * volume {
+    if tetrahedra.is_empty() || lost > MAX_LOST * volume {
         let filled: f64 = repair::volume(&vertices, &tetrahedra);
         return Err(TetrahedronError::TooCoarse {
             edge_m: settings.edge,

@@ -29,7 +29,7 @@ use crate::{
 
 /// Triangles that the surface of the voxels may have before it is simplified. The liver in a whole-body scan has a
 /// million; four take 2.5 GB, and minutes.
-pub const MOST_VOXEL_TRIANGLES: usize = 4_000_000;
+pub const MAX_VOXEL_TRIANGLES: usize = 4_000_000;
 
 /// How [`isosurface`] works.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,7 +80,7 @@ pub enum IsosurfaceError {
     },
     /// More triangles than are simplified: noise, a sponge, or very small voxels.
     #[error(
-        "the surface of the label {label} has more than {MOST_VOXEL_TRIANGLES} triangles before it is simplified; take larger voxels, or remove noise from the segmentation"
+        "the surface of the label {label} has more than {MAX_VOXEL_TRIANGLES} triangles before it is simplified; take larger voxels, or remove noise from the segmentation"
     )]
     TooLarge {
         /// The label.
@@ -107,7 +107,7 @@ const FOUND: f64 = 0.1;
 /// The surface of `label` in `map`: closed, manifold and in one piece.
 ///
 /// # Errors
-/// When no voxel has the label, its surface has more than [`MOST_VOXEL_TRIANGLES`], or fewer than four triangles are
+/// When no voxel has the label, its surface has more than [`MAX_VOXEL_TRIANGLES`], or fewer than four triangles are
 /// requested.
 pub fn isosurface(
     map: &LabelMap,
@@ -141,7 +141,7 @@ pub fn isosurface_with_progress(
     let other_pieces = block.keep_largest();
     let kept = block.count();
     at(0.4 * FOUND)?;
-    let filled_voxels = block.fill_hollows();
+    let filled_voxels = block.fill_voids();
     at(0.7 * FOUND)?;
     let voxel_volume = (kept + filled_voxels) as f64 * map.voxel_volume();
     let fine = smooth_surface(map, &block, settings.smoothing, voxel_volume);
@@ -192,7 +192,7 @@ fn smooth_surface(
     rounds: usize,
     volume: f64,
 ) -> Option<TriangleMesh> {
-    let (mut vertices, mut triangles) = contour::contour(block, MOST_VOXEL_TRIANGLES)?;
+    let (mut vertices, mut triangles) = contour::contour(block, MAX_VOXEL_TRIANGLES)?;
     smooth::smooth(&mut vertices, &triangles, rounds);
     let first = Vec3::from(block.first.map(|index| index as f64));
     for vertex in &mut vertices {

@@ -64,7 +64,7 @@ pub use io::vtk;
 pub use io::write::WriteFormat;
 pub use io::{ImportedMesh, read_mesh};
 pub use isosurface::{
-    Isosurface, IsosurfaceError, IsosurfaceSettings, MOST_VOXEL_TRIANGLES, isosurface,
+    Isosurface, IsosurfaceError, IsosurfaceSettings, MAX_VOXEL_TRIANGLES, isosurface,
     isosurface_with_progress,
 };
 pub use label_map::{Label, LabelMap};

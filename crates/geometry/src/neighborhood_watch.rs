@@ -34,7 +34,7 @@ pub struct ContactPoint {
 }
 
 /// More triangles than this in one step is a leap, not a slide: the caller searches anew.
-const MOST_CROSSED_TRIANGLES: usize = 256;
+const MAX_CROSSED_TRIANGLES: usize = 256;
 
 /// Fastest turn of the contact's normal per travel of the tip [rad/m]: 0.03 rad, or 3 % of the force, in
 /// a tenth of a millimetre.
@@ -113,7 +113,7 @@ pub fn project_contact_point(
         along: from.depth,
     };
     let mut before = None;
-    for _ in 0..MOST_CROSSED_TRIANGLES {
+    for _ in 0..MAX_CROSSED_TRIANGLES {
         let solved = solve_in_triangle(surface, normals, &at, tip)?;
         let (lowest, weight) = lowest(&solved.barycentric);
         if weight >= -1e-10 {
@@ -224,7 +224,7 @@ fn nearest_among_neighbors(
     let mut triangle = start;
     let mut on = closest_on_triangle(&mesh.positions(triangle), tip);
     let mut distance = (on.position - tip).norm();
-    for _ in 0..MOST_CROSSED_TRIANGLES {
+    for _ in 0..MAX_CROSSED_TRIANGLES {
         let mut better = None;
         for node in mesh.corners(triangle) {
             for &other in surface.adjacency().around(node) {

@@ -111,9 +111,9 @@ impl PatchField {
     }
 }
 
-/// A triangle of a mean has this many rows of parts per radius, and no more than [`MOST_ROWS`] in all.
+/// A triangle of a mean has this many rows of parts per radius, and no more than [`MAX_ROWS`] in all.
 const ROWS_PER_RADIUS: f64 = 6.0;
-const MOST_ROWS: f64 = 6.0;
+const MAX_ROWS: f64 = 6.0;
 
 /// Collects the vertices of a patch, edge by edge, with their weights.
 struct Walk {
@@ -198,7 +198,7 @@ impl Walk {
         let [a, b, c] = mesh.positions(triangle);
         let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
         let rows = (ROWS_PER_RADIUS * longest / self.radius).ceil();
-        let rows = rows.clamp(1.0, MOST_ROWS) as usize;
+        let rows = rows.clamp(1.0, MAX_ROWS) as usize;
         let mut sum = 0.0;
         for_each_middle(mesh, triangle, rows, |place| {
             let ratio = (place - origin).norm() / self.radius;

@@ -28,5 +28,5 @@ pub use level::{Level, Resolved, resolve_levels};
 pub use near::refine_to;
 pub(crate) use relax::{FLAT, SWEEPS, open_around};
 pub use sharp::follow_sharp_edges;
-pub(crate) use shell::{dihedral_quality, move_if_sound};
+pub(crate) use shell::{dihedral_quality, move_if_valid};
 pub(crate) use split::SplitNet;

@@ -6,7 +6,7 @@ use crate::{Adjacency, MeshError, NodeId, TriangleMesh, Vec3};
 pub const SHARP_EDGE: f64 = 0.64;
 
 /// A mesh that bounds a solid: closed, manifold, oriented outward, in one piece unless several were put
-/// [together](Self::together), without triangles that have no area and without vertices that no triangle uses.
+/// [merged](Self::merged), without triangles that have no area and without vertices that no triangle uses.
 ///
 /// That it does not pass through itself is not checked here: the check takes seconds on a large
 /// organ (see [`crate::inspect`]), and code that takes a `Surface` does not depend on it.
@@ -37,7 +37,7 @@ impl Surface {
     ///
     /// # Errors
     /// When there is none.
-    pub fn together(bodies: &[&Self]) -> Result<Self, MeshError> {
+    pub fn merged(bodies: &[&Self]) -> Result<Self, MeshError> {
         let (mut vertices, mut triangles, mut vertex_normals) = (vec![], vec![], vec![]);
         for body in bodies {
             let first = vertices.len() as u32;
@@ -89,7 +89,7 @@ fn check(mesh: &TriangleMesh, adjacency: &Adjacency) -> Result<(), MeshError> {
     }
     if !topology.manifold() {
         return Err(MeshError::NotManifold {
-            edges: topology.crowded_edges,
+            edges: topology.non_manifold_edges,
             vertices: topology.split_vertices,
         });
     }
@@ -98,9 +98,9 @@ fn check(mesh: &TriangleMesh, adjacency: &Adjacency) -> Result<(), MeshError> {
             edges: topology.boundary_edges,
         });
     }
-    if topology.twisted_edges > 0 {
+    if topology.misoriented_edges > 0 {
         return Err(MeshError::NotOriented {
-            edges: topology.twisted_edges,
+            edges: topology.misoriented_edges,
         });
     }
     if topology.components > 1 {

@@ -31,7 +31,7 @@ use grid::Grid;
 use openings::Openings;
 
 /// Voxels that a grid may have; they take up to 17 bytes each.
-const MOST_VOXELS: f64 = 3e8;
+const MAX_VOXELS: f64 = 3e8;
 
 /// The edge of a voxel over the asked distance [-]. A voxel's surface is off by half of it and by half its diagonal at
 /// most, and its vertices are then moved to the triangles.
@@ -127,7 +127,7 @@ pub enum WrapError {
     },
     /// A grid too large for memory.
     #[error(
-        "a distance of {distance} m takes {voxels:.1e} voxels, and {MOST_VOXELS:.0e} are the most; ask for {least:.1e} m or more"
+        "a distance of {distance} m takes {voxels:.1e} voxels, and {MAX_VOXELS:.0e} are the most; ask for {least:.1e} m or more"
     )]
     TooFine {
         /// What was asked [m].
@@ -197,11 +197,11 @@ pub fn wrap_with_progress(
     let spacing = SPACING * distance;
     let mut radius = (0.5 * width).max(spacing);
     let grid = Grid::around(&capped.mesh, spacing, radius);
-    if grid.voxels() > MOST_VOXELS {
+    if grid.voxels() > MAX_VOXELS {
         return Err(WrapError::TooFine {
             distance,
             voxels: grid.voxels(),
-            least: distance * (grid.voxels() / MOST_VOXELS).cbrt(),
+            least: distance * (grid.voxels() / MAX_VOXELS).cbrt(),
         });
     }
     let mut closing = Closing::new(&grid, &capped.mesh);
@@ -210,7 +210,7 @@ pub fn wrap_with_progress(
     if !closing.encloses(radius) {
         let found = Openings::find(&capped.mesh, spacing).ok_or(WrapError::Open)?;
         at(0.15)?;
-        found.shut(&mut closing, radius);
+        found.close(&mut closing, radius);
         opening = Some(found.width);
     } else if let Gaps::CloseIfNeeded(_) = settings.gaps {
         map = closing.same_body(spacing, radius);
@@ -270,7 +270,7 @@ pub fn wrap_with_progress(
 }
 
 /// Cosine of the angle by which a triangle may turn when its corners move to the input.
-const LEAST_TURN: f64 = 0.5;
+const MIN_TURN: f64 = 0.5;
 
 /// `envelope` with its vertices on the nearest triangles of `input`, where one is within `distance` [m] and no triangle
 /// turns over or crosses another by it. They are searched from a place that lies outside of the vertex by `from` [m].
@@ -305,7 +305,7 @@ fn fit(
             .filter(|&triangle| {
                 let (then, now) = (before.area_vector(triangle), fitted.area_vector(triangle));
                 let turn = then.normalize().dot(&now.normalize());
-                !(turn >= LEAST_TURN && now.norm() > 0.1 * then.norm())
+                !(turn >= MIN_TURN && now.norm() > 0.1 * then.norm())
             })
             .collect();
         bad.extend(self_intersecting(&fitted));

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use palpate_geometry::{TriangleMesh, WrapSettings, Wrapped, wrap_with_progress};
 
-use crate::{Error, Watch};
+use crate::{Error, ProgressCallback};
 
 /// An envelope, and warnings about it.
 #[derive(Debug, Clone)]
@@ -25,12 +25,12 @@ const WIDE_RIM: f64 = 0.25;
 pub fn envelope(
     mesh: &TriangleMesh,
     settings: &WrapSettings,
-    watch: &dyn Watch,
+    watch: &dyn ProgressCallback,
 ) -> Result<Envelope, Error> {
-    watch.say("making the envelope");
+    watch.report_step("making the envelope");
     let wrapped = wrap_with_progress(mesh, settings, &mut |part| {
-        watch.at(part);
-        match watch.is_asked_to_stop() {
+        watch.report_fraction(part);
+        match watch.should_stop() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }

@@ -24,26 +24,26 @@ pub mod documents;
 pub mod envelope;
 mod error;
 pub mod label;
+mod lateral_load;
 mod lossy;
 pub mod measure;
 pub mod memory;
 mod nearest;
 pub mod plot;
 pub mod preparation;
+mod progress;
 mod recordings;
-mod sideways;
 pub mod solve;
 pub mod validate;
-mod watch;
 
 #[doc(hidden)]
 pub use error::carried;
 pub use error::{Error, exit_status};
+pub use lateral_load::LateralLoad;
 pub use lossy::{LossyPath, lossy};
 pub use nearest::{builtin_organ, nearest};
+pub use progress::{NoProgress, ProgressCallback};
 pub use recordings::{ReadRecording, Recordings, Unusable, hexadecimal};
-pub use sideways::Sideways;
-pub use watch::{Nobody, Watch};
 
 /// The version, which every machine-readable answer has as `palpate`.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

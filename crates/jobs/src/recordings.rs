@@ -9,11 +9,11 @@ use palpate_characterize::clean::{CleanSettings, clean};
 use palpate_files::recording::{
     ForeignColumns, RecordingHeader, deflection_beside, position_beside,
 };
-use palpate_files::{MOST_OF_TABLE, Recording, read_bytes};
+use palpate_files::{MAX_TABLE_BYTES, Recording, read_bytes};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use crate::{Error, Sideways, nearest};
+use crate::{Error, LateralLoad, nearest};
 
 /// A selection of recordings, with facts that the files do not state.
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -34,7 +34,8 @@ pub struct Recordings {
     /// The unit of the force, where its name does not state it: N, mN, uN, nN.
     pub force_unit: Option<String>,
     /// Header entries that the files do not state, by the keys of a recording: `indenter_radius_m=0.001`.
-    pub said: Vec<String>,
+    #[serde(rename = "said")]
+    pub header_entries: Vec<String>,
 }
 
 /// A recording that was read.
@@ -45,7 +46,7 @@ pub struct ReadRecording {
     /// Its samples, from first contact on.
     pub clean: CleanRecording,
     /// Lateral force and torque of its sensor; none for a sensor of one axis.
-    pub sideways: Option<Sideways>,
+    pub lateral_load: Option<LateralLoad>,
     /// SHA-256 of the file, and of the number of the curve in it where it has several.
     pub digest: String,
 }
@@ -121,7 +122,7 @@ impl Recordings {
     }
 
     /// The options for the recordings, by name and value.
-    pub fn said(&self) -> Vec<(String, String)> {
+    pub fn options(&self) -> Vec<(String, String)> {
         let columns = [
             ("--time", &self.time),
             ("--depth", &self.depth),
@@ -133,7 +134,7 @@ impl Recordings {
             .into_iter()
             .filter_map(|(name, value)| Some((name, value.as_ref()?)));
         columns
-            .chain(self.said.iter().map(|entry| ("--set", entry)))
+            .chain(self.header_entries.iter().map(|entry| ("--set", entry)))
             .map(|(name, value)| (name.to_owned(), value.clone()))
             .collect()
     }
@@ -167,11 +168,11 @@ impl Recordings {
     ) -> Result<Vec<NamedRecording>, Error> {
         let bytes = match text {
             Some(text) => Cow::Borrowed(text.as_bytes()),
-            None => read_bytes(path, MOST_OF_TABLE)?.into(),
+            None => read_bytes(path, MAX_TABLE_BYTES)?.into(),
         };
         let mut digest = Sha256::new_with_prefix(&bytes);
         if let Some(position) = position_beside(path) {
-            digest.update(read_bytes(position, MOST_OF_TABLE)?);
+            digest.update(read_bytes(position, MAX_TABLE_BYTES)?);
         }
         let digest = digest.finalize();
         let all = Recording::parse_all(&bytes, path, &self.columns(), stated)?;
@@ -184,12 +185,13 @@ impl Recordings {
                 ),
                 false => (path.to_owned(), digest),
             };
-            let read = ready(recording, &own.0, stated).map(|(clean, sideways)| ReadRecording {
-                path: own.0.clone(),
-                clean,
-                sideways,
-                digest: hexadecimal(&own.1),
-            });
+            let read =
+                ready(recording, &own.0, stated).map(|(clean, lateral_load)| ReadRecording {
+                    path: own.0.clone(),
+                    clean,
+                    lateral_load,
+                    digest: hexadecimal(&own.1),
+                });
             (own.0, read)
         });
         Ok(each.collect())
@@ -208,7 +210,7 @@ impl Recordings {
     /// The header entries of `--set`, by the rules of a recording's own header.
     fn header(&self) -> Result<RecordingHeader, Error> {
         let mut text = "# format = 1\n".to_owned();
-        for entry in &self.said {
+        for entry in &self.header_entries {
             let Some((key, value)) = entry.split_once('=') else {
                 return Err(Error::input(format!(
                     "--set {entry}: write a key and its value, such as indenter_radius_m=0.001"
@@ -250,7 +252,7 @@ fn ready(
     mut recording: Recording,
     path: &Path,
     stated: &RecordingHeader,
-) -> Result<(CleanRecording, Option<Sideways>), Error> {
+) -> Result<(CleanRecording, Option<LateralLoad>), Error> {
     recording.header = recording.header.completed_by(stated);
     if let Some((key, expected)) = recording.header.layer_error() {
         let path = path.display();
@@ -265,11 +267,11 @@ fn ready(
     }
     let mut clean = clean(&recording, &CleanSettings::default())
         .map_err(|error| Error::from(error).about(path))?;
-    let sideways = Sideways::of(&recording);
+    let lateral_load = LateralLoad::of(&recording);
     clean
         .warnings
-        .extend(sideways.and_then(|found| found.warning()));
-    Ok((clean, sideways))
+        .extend(lateral_load.and_then(|found| found.warning()));
+    Ok((clean, lateral_load))
 }
 
 /// `bytes` as text.

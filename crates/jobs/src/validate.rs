@@ -6,7 +6,7 @@ use palpate_files::quantity::plain_quantity;
 use palpate_files::recording::{ForeignColumns, RecordingHeader, StimulusKind};
 use palpate_files::scene::{Goal, Inclusion, Layer, Shape, Task};
 use palpate_files::{
-    Document, Incomplete, MOST_OF_DOCUMENT, MOST_OF_TABLE, Motion, Protocol, Recording, Scene,
+    Document, Incomplete, MAX_DOCUMENT_BYTES, MAX_TABLE_BYTES, Motion, Protocol, Recording, Scene,
     Session, Tissue, read_bytes, read_text,
 };
 use palpate_geometry::{
@@ -102,7 +102,7 @@ pub fn validate(path: &Path) -> Result<Validated, Error> {
 }
 
 fn document(path: &Path) -> Result<Validated, Error> {
-    let document = Document::parse(&read_text(path, MOST_OF_DOCUMENT)?, path)?;
+    let document = Document::parse(&read_text(path, MAX_DOCUMENT_BYTES)?, path)?;
     let keys = document.open_keys(&[]);
     // Each kind has a required key of its own.
     match () {
@@ -240,7 +240,7 @@ fn tissue(path: &Path) -> Result<Validated, Error> {
 }
 
 fn table(path: &Path) -> Result<Validated, Error> {
-    let bytes = read_bytes(path, MOST_OF_TABLE)?;
+    let bytes = read_bytes(path, MAX_TABLE_BYTES)?;
     let text = String::from_utf8_lossy(&bytes);
     let names = text
         .lines()

@@ -34,7 +34,7 @@ pub enum Error {
     #[error(
         "the stimulus takes {duration:.1} s, and a breath is held for {breath:.1} s; hold for less time, or raise the budget"
     )]
-    OutOfBreath {
+    BreathHoldTooShort {
         /// How long it takes with the way to the tissue [s].
         duration: f64,
         /// How long a breath is held [s].
@@ -54,7 +54,7 @@ pub enum Error {
     #[error(
         "the breath was held for {breath:.1} s, its whole budget, and the indenter was withdrawn; bring it nearer to the tissue, or raise the budget"
     )]
-    BreathIsOver {
+    BreathHoldEnded {
         /// How long a breath is held [s].
         breath: f64,
     },
@@ -132,7 +132,7 @@ impl Error {
             Self::Device(error) => error.is_input(),
             Self::Sensor(error) => error.is_input(),
             Self::Mechanics(error) => error.is_input(),
-            Self::BreathIsOver { .. }
+            Self::BreathHoldEnded { .. }
             | Self::NotApproached
             | Self::InTissue { .. }
             | Self::NoContact { .. }
@@ -140,7 +140,7 @@ impl Error {
             Self::Stimulus { .. }
             | Self::TooDeep { .. }
             | Self::TooFast { .. }
-            | Self::OutOfBreath { .. }
+            | Self::BreathHoldTooShort { .. }
             | Self::TooLong { .. }
             | Self::OutOfReach { .. }
             | Self::NotUpward

@@ -51,7 +51,7 @@ impl Indenter {
 
 impl Controller for Indenter {
     fn update(&mut self, state: &DeviceState, dt: f64) -> Vec3 {
-        let is_updated = self.reference.has_news();
+        let is_updated = self.reference.has_update();
         self.silent = if is_updated { 0.0 } else { self.silent + dt };
         let commanded = *self.reference.latest();
         if !commanded.driven {

@@ -36,4 +36,4 @@ pub use rig::{Ended, Listener, Phase, Rig, RigSample};
 pub use rig_settings::{NormalFrom, RigSettings};
 pub use sensing::MountedSensor;
 pub use sensor::VirtualForceSensor;
-pub use specimen::{BREATH_MOTION, Rhythm, Shape, VirtualSpecimen};
+pub use specimen::{BREATH_MOTION, PeriodicMotion, Shape, VirtualSpecimen};

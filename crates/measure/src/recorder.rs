@@ -104,7 +104,7 @@ impl Recorder {
     /// When the operating system refuses.
     pub fn finish(self, ended: &Result<Ended, crate::Error>) -> Result<Recorded, Error> {
         let cut_short = match ended {
-            Ok(Ended::Whole) => None,
+            Ok(Ended::Complete) => None,
             Ok(Ended::Stopped) => Some("stopped by hand".to_owned()),
             Ok(Ended::Enough) => Some(KNOWN_WELL_ENOUGH.to_owned()),
             // The cause without its remedy.
@@ -118,7 +118,7 @@ impl Recorder {
 
     /// The same, with why it ends before its stimulus, if it does.
     pub(crate) fn end(self, cut_short: Option<String>) -> Result<Recorded, Error> {
-        let said = cut_short.as_deref().unwrap_or(RecordingHeader::WHOLE);
+        let said = cut_short.as_deref().unwrap_or(RecordingHeader::COMPLETE);
         self.writer.finish(said)?;
         Ok(Recorded {
             file: self.file,

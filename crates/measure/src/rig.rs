@@ -1,5 +1,5 @@
-mod by_hand;
 mod line;
+mod manual;
 mod motions;
 mod normal;
 mod on_device;
@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 
 use palpate_files::recording::RecordingHeader;
-use palpate_servo::watch::{Pulse, Watched};
+use palpate_servo::monitor::{Heartbeat, MonitoredLoop};
 use palpate_servo::{
     Clock, Controller, Device, Fault, ForceTorque, Limits, ServoLoop, ServoSettings, Stage,
     SteppedLoop, Supervisor, Vec3, latest,
@@ -54,7 +54,7 @@ pub struct Rig {
     /// Where the handle of such a device was at first [m].
     rest: Arc<OnceLock<Vec3>>,
     /// When its device answered last.
-    pulse: Pulse,
+    pulse: Heartbeat,
 }
 
 impl Rig {
@@ -81,7 +81,7 @@ impl Rig {
             on_tip.force
         };
         let device = VirtualPhantom::with_axes(machine, &Vec3::zeros(), imperfections)
-            .touched_by(Box::new(touch));
+            .with_contact(Box::new(touch));
         let (indenter, reference) = Indenter::new(settings.gains, Reference::at_rest());
         Self::new(Parts {
             device: Box::new(device),
@@ -185,12 +185,12 @@ impl Rig {
     }
 
     /// When it ticks, for a watch; a rig without a device never hangs.
-    pub fn watched(&self) -> Watched {
-        Watched {
+    pub fn monitored_loop(&self) -> MonitoredLoop {
+        MonitoredLoop {
             name: "the device of the rig".to_owned(),
             pulse: match self.is_real {
                 true => self.pulse.clone(),
-                false => Pulse::default(),
+                false => Heartbeat::default(),
             },
         }
     }
@@ -240,7 +240,7 @@ impl Rig {
         }
         match self.settings.breath {
             Some(breath) if sample.breath.is_some_and(|held| held > breath) => {
-                Err(Error::BreathIsOver { breath })
+                Err(Error::BreathHoldEnded { breath })
             }
             _ => Ok(sample),
         }

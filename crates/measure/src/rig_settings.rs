@@ -23,7 +23,7 @@ pub struct RigSettings {
     /// The force above the sensor's zero that is a contact [N].
     pub contact_force: f64,
     /// How far it looks for tissue [m].
-    pub approach_way: f64,
+    pub approach_distance: f64,
     /// How far above the tissue it waits [m].
     pub clearance: f64,
     /// How far up breath moves the tissue [m]: so much higher it waits, and a stimulus begins when the held tissue
@@ -60,7 +60,7 @@ impl Default for RigSettings {
             gains: PidGains::tuned(),
             approach_speed: 0.002,
             contact_force: 4.0 / 1280.0,
-            approach_way: 0.030,
+            approach_distance: 0.030,
             clearance: 0.002,
             breath_motion: 0.0,
             lateral_limit: 0.030,
@@ -79,7 +79,7 @@ impl Default for RigSettings {
 }
 
 /// Time in which breath and device come to rest [s].
-pub(crate) const CALM: f64 = 2.0;
+pub(crate) const SETTLING_TIME: f64 = 2.0;
 /// Time before a stimulus that is recorded too [s], and how far above the tissue the indenter then is [m].
 pub(crate) const LEAD: f64 = 0.5;
 pub(crate) const STANDOFF: f64 = 0.5e-3;
@@ -92,7 +92,7 @@ impl RigSettings {
         let [_, speed] = trajectory.at(0.0);
         let down = self.breath_motion / self.withdrawal_speed;
         let way = (self.clearance - STANDOFF).abs() / self.approach_speed;
-        self.calm() + down + way + LEAD + STANDOFF / speed + trajectory.duration()
+        self.settling_time() + down + way + LEAD + STANDOFF / speed + trajectory.duration()
     }
 
     /// Whether the indenter hangs from its device.
@@ -126,14 +126,18 @@ impl RigSettings {
             NormalFrom::ByTouch => self.probe_distance,
         };
         let sideways = (place - normal * height).norm() + around;
-        let way = self.approach_way;
+        let way = self.approach_distance;
         check_within("along the normal", height, [-way, way], 0.0)?;
         check_within("sideways", sideways, [0.0, self.lateral_limit], 0.0)
     }
 
     /// How long tissue takes to come to rest when a breath is held [s].
-    pub(crate) fn calm(&self) -> f64 {
-        if self.breath_motion > 0.0 { CALM } else { 0.0 }
+    pub(crate) fn settling_time(&self) -> f64 {
+        if self.breath_motion > 0.0 {
+            SETTLING_TIME
+        } else {
+            0.0
+        }
     }
 
     /// Whether `course` keeps within the limits.
@@ -161,7 +165,9 @@ impl RigSettings {
             });
         }
         match self.breath {
-            Some(breath) if duration > breath => Err(Error::OutOfBreath { duration, breath }),
+            Some(breath) if duration > breath => {
+                Err(Error::BreathHoldTooShort { duration, breath })
+            }
             _ => Ok(()),
         }
     }

@@ -32,7 +32,7 @@ use crate::noise::Noise;
 
 /// A periodic motion of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rhythm {
+pub struct PeriodicMotion {
     /// Frequency [Hz].
     pub frequency: f64,
     /// From rest to its end [m].
@@ -56,9 +56,9 @@ pub struct VirtualSpecimen {
     /// How much stiffer than its tissue this one is [-].
     pub factor: f64,
     /// A heart that moves its surface.
-    pub heart: Option<Rhythm>,
+    pub heart: Option<PeriodicMotion>,
     /// A breath that does.
-    pub breath: Option<Rhythm>,
+    pub breath: Option<PeriodicMotion>,
     /// Height of its surface at rest [m].
     pub surface: f64,
     /// The shape of its surface.
@@ -178,7 +178,7 @@ impl VirtualSpecimen {
 
     /// The same with a surface of another shape.
     #[must_use]
-    pub fn shaped(self, shape: Shape) -> Self {
+    pub fn with_shape(self, shape: Shape) -> Self {
         Self { shape, ..self }
     }
 
@@ -187,11 +187,11 @@ impl VirtualSpecimen {
     pub fn alive(mut self, seed: u64) -> Self {
         let mut random = Noise::new(seed);
         self.phases = [random.uniform(), random.uniform()];
-        self.heart = Some(Rhythm {
+        self.heart = Some(PeriodicMotion {
             frequency: 1.5,
             amplitude: 0.4e-3,
         });
-        self.breath = Some(Rhythm {
+        self.breath = Some(PeriodicMotion {
             frequency: 0.25,
             amplitude: BREATH_MOTION,
         });
@@ -205,7 +205,7 @@ impl VirtualSpecimen {
 
     /// Height of the surface under the rig's zero [m].
     fn height(&mut self, time: f64, step: f64) -> f64 {
-        let turns = |rhythm: Rhythm, phase: f64| rhythm.frequency * time + phase;
+        let turns = |rhythm: PeriodicMotion, phase: f64| rhythm.frequency * time + phase;
         let heart = self.heart.map_or(0.0, |heart| {
             heart.amplitude * (TAU * turns(heart, self.phases[0])).sin()
         });

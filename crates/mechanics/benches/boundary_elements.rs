@@ -45,7 +45,7 @@ fn kidney(triangles: usize) -> (Surface, Vec<TriangleId>, Vec<TriangleId>) {
         Organ::Kidney
             .anchor()
             .iter()
-            .any(|plane| plane.holds(&centroid))
+            .any(|plane| plane.contains(&centroid))
     });
     (surface, fixed, free)
 }
@@ -115,12 +115,12 @@ fn on_line(
         })
         .collect();
     let mut workspace = PatchWorkspace::new(TOUCHED as usize);
-    for (name, bond) in [
+    for (name, friction) in [
         ("stick", Friction::Bonded),
         ("slip", Friction::Frictionless),
     ] {
         let contact = PatchContact {
-            bond,
+            friction,
             reciprocity: Reciprocity::Imposed,
             youngs_modulus: 1e4,
         };

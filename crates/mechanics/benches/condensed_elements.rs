@@ -34,7 +34,9 @@ fn condensed_elements(criterion: &mut Criterion) {
     let is_held = |triangle: &TriangleId| {
         let [a, b, c] = mesh.positions(*triangle);
         let anchor = Organ::Esophagus.anchor();
-        anchor.iter().any(|plane| plane.holds(&((a + b + c) / 3.0)))
+        anchor
+            .iter()
+            .any(|plane| plane.contains(&((a + b + c) / 3.0)))
     };
     let (held, free): (Vec<_>, Vec<_>) = mesh.triangle_ids().partition(is_held);
     let touchable = &free[..touched.min(free.len())];

@@ -18,7 +18,7 @@ use palpate_geometry::{Organ, Surface, TriangleId};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::contact::Tip;
 use palpate_mechanics::enhance::{
-    Carrier, EnhancedPatch, EnhancementModel, Press, SurfaceField, SurfacePoint,
+    EmbeddedDisplayPoints, EnhancedPatch, EnhancementModel, Press, SurfaceField, SurfacePoint,
 };
 
 fn kidney(triangles: usize) -> Surface {
@@ -54,10 +54,10 @@ fn enhancement(c: &mut Criterion) {
     c.bench_function("patch/displace", |b| {
         b.iter(|| patch.displace(black_box(&field), &mut shown));
     });
-    let carrier = Carrier::of_surface(interpolation, &kidney(19_996));
+    let carrier = EmbeddedDisplayPoints::of_surface(interpolation, &kidney(19_996));
     let mut shown = vec![Vec3::zeros(); carrier.places().len()];
     c.bench_function("carry/10000", |b| {
-        b.iter(|| carrier.carry(black_box(&field), &mut shown));
+        b.iter(|| carrier.interpolate(black_box(&field), &mut shown));
     });
 }
 

@@ -101,9 +101,9 @@ fn parts(group: &mut criterion::BenchmarkGroup<'_, criterion::measurement::WallT
     let nodes = |holds: &dyn Fn(f64, f64) -> bool| model.mesh().nodes_where(|x| holds(x.x, x.y));
     let fixed = |r: f64, z: f64| z == -0.1 || (z == 0.0 && r <= RADIUS * (1.0 + 1e-9));
     let supports = Supports::none(model)
-        .hold(model, nodes(&|r, _| r == 0.0), 0, 0.0)
-        .hold(model, nodes(&fixed), 0, 0.0)
-        .hold(model, nodes(&fixed), 1, 0.0);
+        .fix(model, nodes(&|r, _| r == 0.0), 0, 0.0)
+        .fix(model, nodes(&fixed), 0, 0.0)
+        .fix(model, nodes(&fixed), 1, 0.0);
     let mut workspace = FiniteElementWorkspace::new(model).unwrap();
     group.bench_function("assembly", |b| {
         b.iter(|| LinearSystem::assemble(model, &supports, state, &mut workspace).is_ok());

@@ -19,7 +19,7 @@ use std::time::{Duration, Instant};
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use palpate_geometry::{AabbTree, NodeId, Surface, TriangleId, TriangleMesh};
 use palpate_mechanics::Vec3;
-use palpate_mechanics::surface_response::slit::{CutBody, Slit, SlitFacet, Spot};
+use palpate_mechanics::surface_response::slit::{CutBody, DiscForce, Slit, SlitFacet};
 use palpate_mechanics::surface_response::{
     ResponseParts, Sampling, SurfaceResponse, TipField, TouchableTriangle,
 };
@@ -135,7 +135,7 @@ fn slit(criterion: &mut Criterion) {
         slit.open(&body, &facet(number, f64::INFINITY)).unwrap();
     }
     let tips = TipField::new(&response, &surface, 1.5e-3).unwrap();
-    let spot = Spot {
+    let spot = DiscForce {
         place: Vec3::new(OUTER, 2e-3, 0.0),
         normal: Vec3::x(),
         radius: 1.5e-3,
@@ -146,7 +146,7 @@ fn slit(criterion: &mut Criterion) {
     group.bench_function("load of a tip, 40 facets", |b| {
         b.iter(|| {
             slit.put(&response, tip.shares(), Some(&spot), &mut load);
-            black_box(slit.further(&load))
+            black_box(slit.added_compliance(&load))
         });
     });
     let mut jumps = slit.jumps();

@@ -103,7 +103,7 @@ fn bonded_factor(nu: f64) -> f64 {
 
 /// Least curvature of a sphere relative to the hollow that it is pressed into, in parts of its own [-]: Hertz's
 /// surfaces touch in a small part of theirs.
-const LEAST_CURVATURE: f64 = 0.25;
+const MIN_CURVATURE: f64 = 0.25;
 
 impl Tip {
     /// The tip that touches a plane as this one touches a surface of the mean curvature `curvature` [1/m], positive
@@ -112,7 +112,7 @@ impl Tip {
         match *self {
             Self::Flat { .. } => *self,
             Self::Sphere { radius } => Self::Sphere {
-                radius: radius / (1.0 + radius * curvature).max(LEAST_CURVATURE),
+                radius: radius / (1.0 + radius * curvature).max(MIN_CURVATURE),
             },
         }
     }

@@ -191,7 +191,7 @@ pub enum Error {
     #[error(
         "the tube balloons at {limit} Pa, below the {pressure} Pa asked for; lower the pressure or stiffen the tissue"
     )]
-    Balloons {
+    LimitPointExceeded {
         /// The value given [Pa].
         pressure: f64,
         /// The greatest pressure of an equilibrium [Pa].
@@ -282,7 +282,7 @@ pub enum Error {
     #[error(
         "the body has {pieces} pieces, and the one at {place:?} m is not fixed; fix each of them, or join them"
     )]
-    LoosePiece {
+    UnfixedPiece {
         /// A vertex of the piece [m].
         place: [f64; 3],
         /// How many pieces there are.
@@ -395,7 +395,7 @@ pub enum Error {
     #[error(
         "{triangles} of the triangles that can be touched lie in the anchor; touch others, or make the anchor smaller"
     )]
-    TouchableIsHeld {
+    TouchableIsFixed {
         /// How many.
         triangles: usize,
     },
@@ -407,10 +407,10 @@ pub enum Error {
     },
     /// The caller cancelled the work.
     #[error("the solution was cancelled; run it again")]
-    BrokenOff,
+    Cancelled,
     /// Numbers that are no response of a solid.
     #[error("the response of the surface is none, for {fault}; make it again from the mesh")]
-    UnsoundResponse {
+    InvalidResponse {
         /// Why.
         fault: &'static str,
     },
@@ -418,7 +418,7 @@ pub enum Error {
     #[error(
         "the slit has {most} facets, for which there is room; make longer ones, or room for more"
     )]
-    SlitIsFull {
+    SlitTooLarge {
         /// The most there can be.
         most: usize,
     },
@@ -479,7 +479,7 @@ pub enum Error {
     },
     /// An invalid facet of a slit.
     #[error("the slit cannot be opened, for {fault}; give a facet on the surface, along it")]
-    UnsoundSlit {
+    InvalidSlit {
         /// Why.
         fault: &'static str,
     },

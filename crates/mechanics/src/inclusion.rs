@@ -13,7 +13,7 @@
 //! sums of punches, in closed form.
 //!
 //! A mesh whose load is wider than a tip lacks the inclusion's effect on the tip: the difference of the two that
-//! [`InclusionField::less`] gives.
+//! [`InclusionField::compliance_decrease`] gives.
 //!
 //! *How we know*: tests of this module; `regions::…` of `simulate`, compared with finite elements.
 //!
@@ -38,7 +38,7 @@ const PUNCHES: usize = 8;
 const LEAST: f64 = 3e-3;
 
 /// Least stiffness over a soft inclusion, relative to that without it [-].
-const LEAST_STIFFNESS: f64 = 0.1;
+const MIN_STIFFNESS: f64 = 0.1;
 
 /// The inclusions of a body.
 #[derive(Debug, Clone, Default)]
@@ -139,7 +139,7 @@ impl InclusionField {
     /// Decrease by the inclusions of the mean displacement of each load at `place` [m] along the outward `normal` [-], times Young's
     /// modulus over the force [1/m]: positive over stiff inclusions. Inclusions out of reach of a flat tip of the radius `tip` [m]
     /// do not count; of several, each takes its part of what the others leave.
-    pub fn less<const LOADS: usize>(
+    pub fn compliance_decrease<const LOADS: usize>(
         &self,
         loads: &[Load; LOADS],
         tip: f64,
@@ -167,7 +167,7 @@ impl InclusionField {
     ///
     /// Of all areas a the one that touches has the least energy: with the compliance C(a) of that load,
     /// F = −4 a/(5 R C′(a)) and δ = a²/(5 R) + F C(a), which without inclusions is Hertz's contact.
-    pub fn less_under_sphere<const RADII: usize>(
+    pub fn sphere_displacement_decrease<const RADII: usize>(
         &self,
         radii: [f64; RADII],
         less: [f64; RADII],
@@ -179,7 +179,7 @@ impl InclusionField {
             let slope = (less[high] - less[low]) / ((high - low) as f64 * step);
             let area = radii[n];
             // The force, over what it would be without inclusions; and the radius that it would have then.
-            let ratio = 1.0 / (1.0 + 5.0 * area * slope / (3.0 * flat)).max(LEAST_STIFFNESS);
+            let ratio = 1.0 / (1.0 + 5.0 * area * slope / (3.0 * flat)).max(MIN_STIFFNESS);
             let alone = area * ratio.cbrt();
             let depth = area * area * (0.2 + ratio * (0.8 - 4.0 / (3.0 * flat) * area * less[n]));
             let found = 0.75 * flat * (alone * alone - depth) / alone.powi(3);
@@ -230,7 +230,7 @@ impl InclusionField {
         }
         let share = (sizes[0] * inclusion.shares[0] + sizes[1] * inclusion.shares[1]) / all;
         let x = x[0] + x[1];
-        x / (1.0 + (1.0 - share) * x).max(LEAST_STIFFNESS)
+        x / (1.0 + (1.0 - share) * x).max(MIN_STIFFNESS)
     }
 }
 
@@ -418,7 +418,7 @@ mod tests {
         let difference = |times, load| {
             let field = ball(radius, depth, times);
             let loads = [Load::bump(load), Load::punch(a)];
-            let [load, tip] = field.less(&loads, a, &place, &Vec3::z());
+            let [load, tip] = field.compliance_decrease(&loads, a, &place, &Vec3::z());
             load - tip
         };
         let volume = 4.0 / 3.0 * PI * radius.powi(3);
@@ -431,7 +431,12 @@ mod tests {
         assert!(difference(0.1, 1.0) > 0.0 && difference(1.0, 1.0) == 0.0);
         assert!(difference(3.0, 1.63 * a).abs() < 0.01 * found.abs());
         let far = place + 0.045 * Vec3::x();
-        let aside = ball(0.002, 0.01, 3.0).less(&[Load::punch(1e-4)], 1e-4, &far, &Vec3::z());
+        let aside = ball(0.002, 0.01, 3.0).compliance_decrease(
+            &[Load::punch(1e-4)],
+            1e-4,
+            &far,
+            &Vec3::z(),
+        );
         assert_eq!(aside, [0.0]);
     }
 
@@ -443,15 +448,17 @@ mod tests {
         let field = ball(0.002, 0.03, 3.0);
         let radii: [f64; 9] = std::array::from_fn(|n| 1e-3 * 2.0_f64.powf(0.5 * n as f64));
         assert_eq!(
-            field.less_under_sphere(radii, [0.0; 9]).map(f64::abs),
+            field
+                .sphere_displacement_decrease(radii, [0.0; 9])
+                .map(f64::abs),
             [0.0; 9]
         );
-        for found in field.less_under_sphere(radii, [7.0; 9]) {
+        for found in field.sphere_displacement_decrease(radii, [7.0; 9]) {
             assert!((found / 7.0 - 1.0).abs() < 1e-9, "{found}");
         }
         let (part, flat) = (0.3_f64, 1.0 - 0.499 * 0.499);
         let less = radii.map(|radius| part * 0.6 * flat / radius);
-        let found = field.less_under_sphere(radii, less);
+        let found = field.sphere_displacement_decrease(radii, less);
         for (radius, found) in radii.iter().zip(found).skip(1).take(7) {
             let depth = 1.0 - (1.0 - part).powf(2.0 / 3.0);
             let expected = 0.75 * flat / radius * depth;
@@ -473,7 +480,7 @@ mod tests {
         let field = inclusion(vessel, 10.0);
         let at = |x: f64| {
             let place = Vec3::new(x, 0.0, 0.05);
-            -field.less(&[Load::punch(0.002)], 0.002, &place, &Vec3::z())[0]
+            -field.compliance_decrease(&[Load::punch(0.002)], 0.002, &place, &Vec3::z())[0]
         };
         let (middle, end) = (at(0.0), at(0.04));
         assert!(

@@ -25,7 +25,7 @@ const PARTS: usize = 16;
 
 impl IndentationCurve {
     /// A curve with zero force at zero depth and no other data.
-    pub fn untouched() -> Self {
+    pub fn zero() -> Self {
         Self {
             depths: vec![0.0],
             forces: vec![0.0],
@@ -36,7 +36,7 @@ impl IndentationCurve {
     /// Through `depths` [m] and `forces` [N]; zero depth is added. Depths that do not ascend are left
     /// out.
     pub fn through(depths: &[f64], forces: &[f64]) -> Self {
-        let mut curve = Self::untouched();
+        let mut curve = Self::zero();
         for (&depth, &force) in depths.iter().zip(forces) {
             curve.push(depth, force);
         }
@@ -63,7 +63,7 @@ impl IndentationCurve {
     }
 
     /// Whether it has the forces of `other` at the depths of that one, but for a part [-].
-    pub fn is_like(&self, other: &Self, part: f64) -> bool {
+    pub fn approximates(&self, other: &Self, part: f64) -> bool {
         let mut known = other.points();
         known.all(|(depth, force)| (self.force(depth) - force).abs() <= part * force.abs())
     }

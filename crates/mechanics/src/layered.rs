@@ -53,7 +53,7 @@ const LOWEST: f64 = 1e-4;
 impl LayeredHalfSpace {
     /// Compliance for a load of this radius [m] over that of a half-space of the outermost law: along its surface, and
     /// along its normal [-].
-    pub fn yields(&self, shape: LoadShape, radius: f64) -> [f64; 2] {
+    pub fn compliance_ratios(&self, shape: LoadShape, radius: f64) -> [f64; 2] {
         let [layered, uniform] = self.compliances(shape, radius);
         [0, 1].map(|axis| match shape {
             LoadShape::Bump => layered[axis][(0, 0)] / uniform[axis][(0, 0)],
@@ -329,7 +329,7 @@ mod tests {
                 layers: vec![(1.0, law(3.0, ratio))],
                 base: law(3e9, ratio),
             };
-            let found = 1.0 / body.yields(LoadShape::Punch, of_height)[1];
+            let found = 1.0 / body.compliance_ratios(LoadShape::Punch, of_height)[1];
             println!("{ratio} {of_height}: {found} {factor}");
             assert!((found / factor - 1.0).abs() < 0.005);
         }
@@ -357,7 +357,7 @@ mod tests {
         // On a paraboloid of unit radius: F = 4/3 E/(1 − ν²) a³; a punch of the radius a yields 1/(2 a) on the layer.
         let radius = 0.1;
         let [depth, force] = body(1.0).under_sphere(radius);
-        let more = body(1.0).yields(LoadShape::Punch, radius)[1] - 1.0;
+        let more = body(1.0).compliance_ratios(LoadShape::Punch, radius)[1] - 1.0;
         let expected = 4.0 / 3.0 * radius.powi(3) * more / (2.0 * radius);
         let found = (depth - 1.0) * radius * radius;
         assert!((force - 1.0).abs() < 0.01, "{force}");
@@ -372,9 +372,9 @@ mod tests {
             base: law(2.0, 0.4),
         };
         for shape in [LoadShape::Punch, LoadShape::Bump] {
-            let [along, normal] = body.yields(shape, 1.0);
+            let [along, normal] = body.compliance_ratios(shape, 1.0);
             assert!((along / 4.0 - 1.0).abs() < 0.02 && (normal / 4.0 - 1.0).abs() < 0.02);
-            let [along, normal] = body.yields(shape, 1e-5);
+            let [along, normal] = body.compliance_ratios(shape, 1e-5);
             assert!((along - 1.0).abs() < 0.05 && (normal - 1.0).abs() < 0.05);
         }
     }

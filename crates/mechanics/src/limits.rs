@@ -37,7 +37,7 @@ pub enum Limit {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reached {
     /// The unbounded value, in the unit of the [`Limit`]; may be infinite.
-    pub asked: f64,
+    pub unbounded: f64,
     /// The bounded value, which the answer uses.
     pub used: f64,
 }
@@ -85,7 +85,7 @@ impl Limits {
     /// Adds a bound that acted; of two cases the one with the larger unbounded value stays.
     pub fn add(&mut self, limit: Limit, reached: Reached) {
         let known = &mut self.reached[limit as usize];
-        if known.is_none_or(|known| reached.asked > known.asked) {
+        if known.is_none_or(|known| reached.unbounded > known.unbounded) {
             *known = Some(reached);
         }
     }

@@ -386,7 +386,7 @@ fn border(shape: &InclusionShape) -> Vec<Vec3> {
 /// As [`RegionMap::places_in`], of a shape.
 pub(crate) fn places_in_shape(shape: &InclusionShape, about: f64) -> Option<(Vec<Vec3>, f64)> {
     let [volume, _] = shape.volume_and_area();
-    let is_inside = |place: &Vec3| shape.holds([place.x, place.y, place.z]);
+    let is_inside = |place: &Vec3| shape.contains([place.x, place.y, place.z]);
     spread(volume, about, &border(shape), is_inside)
 }
 

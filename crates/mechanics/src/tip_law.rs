@@ -97,7 +97,7 @@ pub struct TipForce {
 }
 
 /// Newton steps of which none is expected to be needed.
-const MOST_STEPS: usize = 50;
+const MAX_STEPS: usize = 50;
 
 /// Largest stiffness of an organ relative to a half-space [-]: with an anchor right under the tip, whose
 /// distance no model here resolves well.
@@ -154,7 +154,7 @@ impl TipLaw {
     fn beyond(&self, depth: f64) -> Option<Reached> {
         let known = self.deepest();
         (depth > known).then_some(Reached {
-            asked: depth,
+            unbounded: depth,
             used: known,
         })
     }
@@ -287,7 +287,11 @@ impl TipLaw {
             let ratio = bounded_ratio(own, (mean + sign * spread) * own, growth);
             shear.stiffness += onto * ratio.value;
             shear.change += onto * (ratio.value * growth + ratio.change);
-            let worse = |known: &Reached| ratio.limited.is_some_and(|new| new.asked > known.asked);
+            let worse = |known: &Reached| {
+                ratio
+                    .limited
+                    .is_some_and(|new| new.unbounded > known.unbounded)
+            };
             if shear.limited.is_none_or(|known| worse(&known)) {
                 shear.limited = ratio.limited;
             }
@@ -300,7 +304,7 @@ impl TipLaw {
         let (mut low, mut high) = (0.0, depth);
         let mut s = depth;
         let (mut force, mut stiffness) = self.on_half_space(s);
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             let value = s + compliance * force - depth;
             if value > 0.0 {
                 high = s;
@@ -414,7 +418,7 @@ struct Ratio {
 fn bounded_ratio(scale: f64, product: f64, growth: f64) -> Ratio {
     let divisor = 1.0 + product;
     if divisor < 1.0 / STIFFEST {
-        let asked = if divisor > 0.0 {
+        let unbounded = if divisor > 0.0 {
             1.0 / divisor
         } else {
             f64::INFINITY
@@ -424,7 +428,7 @@ fn bounded_ratio(scale: f64, product: f64, growth: f64) -> Ratio {
             change: 0.0,
             by_compliance: 0.0,
             limited: Some(Reached {
-                asked,
+                unbounded,
                 used: STIFFEST,
             }),
         };

@@ -39,7 +39,7 @@ const DIRECTIONS: usize = 12;
 
 /// Radii of loads over the thickness: the least, by what factor each next one is larger, and how many [-]. Under a load of the least
 /// radius a wall is a half-space.
-const LEAST_RADIUS: f64 = 0.3;
+const MIN_RADIUS: f64 = 0.3;
 const FACTOR: f64 = SQRT_2;
 const RADII: usize = 11;
 
@@ -89,7 +89,7 @@ impl WallOperator {
                 squeezed: half * (q.cosh() - 1.0) / (q.sinh() + q),
                 bent: half * (q.cosh() + 1.0) / bends,
                 weights: std::array::from_fn(|n| {
-                    let load = bump(q * LEAST_RADIUS * FACTOR.powi(n as i32));
+                    let load = bump(q * MIN_RADIUS * FACTOR.powi(n as i32));
                     end * step * q * q * (1.0 - load * load) / (2.0 * PI)
                 }),
             }
@@ -140,7 +140,7 @@ impl WallCompliance {
             return 0.0;
         }
         let part = (1.0 - 8.0 / 3.0 * (tip / load).powi(2)).max(0.0);
-        let at = (load / (self.thickness * LEAST_RADIUS)).ln() / FACTOR.ln();
+        let at = (load / (self.thickness * MIN_RADIUS)).ln() / FACTOR.ln();
         let at = at.clamp(0.0, (RADII - 1) as f64);
         let below = (at as usize).min(RADII - 2);
         let within = at - below as f64;

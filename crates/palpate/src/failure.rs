@@ -30,7 +30,7 @@ pub(crate) enum Failure {
     },
     /// The reader of standard output has closed it (`palpate … | head`); no error message.
     #[error("the output was closed")]
-    NobodyReads,
+    ClosedPipe,
 }
 
 impl Failure {
@@ -69,7 +69,7 @@ impl Failure {
             Self::Record(error) => error.is_input(),
             Self::Viewer(error) => error.is_input(),
             Self::CommandLine { .. } => true,
-            Self::NobodyReads => false,
+            Self::ClosedPipe => false,
         };
         palpate_jobs::exit_status(is_input)
     }
@@ -81,7 +81,7 @@ palpate_jobs::from_carried_errors!(Failure);
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
         match error.kind() {
-            io::ErrorKind::BrokenPipe => Self::NobodyReads,
+            io::ErrorKind::BrokenPipe => Self::ClosedPipe,
             _ => Self::failed(format!(
                 "standard output cannot be written ({error}); check where it goes"
             )),

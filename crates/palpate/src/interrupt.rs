@@ -97,11 +97,11 @@ pub(crate) fn ends_between_files(sentence: impl Into<String>) {
 }
 
 /// While it lives, a signal does not end the command.
-pub(crate) struct Unbroken {
+pub(crate) struct UninterruptedSection {
     _lock: MutexGuard<'static, ()>,
 }
 
-impl Unbroken {
+impl UninterruptedSection {
     pub(crate) fn begin() -> Self {
         Self {
             _lock: WRITING.lock().unwrap_or_else(PoisonError::into_inner),

@@ -37,7 +37,7 @@ fn main() -> ExitCode {
         ]);
     }
     match outcome {
-        Ok(()) | Err(Failure::NobodyReads) => ExitCode::SUCCESS,
+        Ok(()) | Err(Failure::ClosedPipe) => ExitCode::SUCCESS,
         Err(failure) => {
             output::error(&failure);
             ExitCode::from(failure.exit_status())

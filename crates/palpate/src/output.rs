@@ -2,7 +2,7 @@
 //! control a terminal (names come from anywhere) are printed as escapes, [`palpate_files::printable`], so that no
 //! command can forget it; this program prints no colours of its own.
 //!
-//! A closed standard output is reported as [`Failure::NobodyReads`], which ends the command quietly.
+//! A closed standard output is reported as [`Failure::ClosedPipe`], which ends the command quietly.
 
 use std::fmt::Display;
 use std::io::{self, Write};

@@ -10,9 +10,9 @@ use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use palpate_files::printable;
-use palpate_jobs::Watch;
+use palpate_jobs::ProgressCallback;
 
-use crate::interrupt::{self, Unbroken};
+use crate::interrupt::{self, UninterruptedSection};
 use crate::output;
 
 /// Steps of the bar of one long work.
@@ -150,8 +150,8 @@ impl Progress {
     }
 
     /// Shows the current step.
-    pub(crate) fn say(&self, doing: impl Into<String>) {
-        Watch::say(self, &doing.into());
+    pub(crate) fn show_step(&self, doing: impl Into<String>) {
+        ProgressCallback::report_step(self, &doing.into());
     }
 
     /// Takes the bar away and returns those of `warnings` that were not printed yet.
@@ -185,8 +185,8 @@ fn turning(bar: &ProgressBar) -> Option<Sender<()>> {
 }
 
 /// Ctrl-C asks a job to stop, unless its command ends between files by itself.
-impl Watch for Progress {
-    fn say(&self, doing: &str) {
+impl ProgressCallback for Progress {
+    fn report_step(&self, doing: &str) {
         if let Some(pace) = &self.pace {
             self.bar.set_prefix(HumanDuration(pace.left()).to_string());
         }
@@ -201,18 +201,18 @@ impl Watch for Progress {
         }
     }
 
-    fn at(&self, part: f64) {
+    fn report_fraction(&self, part: f64) {
         if let Some(steps) = self.bar.length() {
             self.bar.set_position((part * steps as f64).round() as u64);
         }
     }
 
-    fn is_asked_to_stop(&self) -> bool {
+    fn should_stop(&self) -> bool {
         interrupt::is_requested()
     }
 
-    fn unbroken(&self, write: &mut dyn FnMut()) {
-        let _unbroken = Unbroken::begin();
+    fn without_cancellation(&self, write: &mut dyn FnMut()) {
+        let _unbroken = UninterruptedSection::begin();
         write();
     }
 }

@@ -1,13 +1,13 @@
 //! Plays a motion and fills its folder: the session, surfaces for ParaView, plots and the summary.
 
-mod beside;
 mod cuts;
+mod force_comparison;
 mod surfaces;
 mod trace;
 
 use std::path::{Path, PathBuf};
 
-use palpate_files::{Claim, Error, Incomplete, Motion, Overwrite, Scene, write_whole};
+use palpate_files::{Claim, Error, Incomplete, Motion, Overwrite, Scene, write_atomically};
 use palpate_simulate::{
     CavitySummary, Flow, SessionFolder, Simulation, Summary, check_motion, play,
 };
@@ -18,8 +18,8 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::VERSION;
 use crate::progress::{Progress, Reader};
-pub(crate) use beside::Comparison;
-use beside::ComparisonAnswer;
+pub(crate) use force_comparison::Comparison;
+use force_comparison::ComparisonAnswer;
 use surfaces::Surfaces;
 use trace::Traces;
 
@@ -98,7 +98,7 @@ pub(crate) fn record(
     let summary = play(simulation, motion, |frame| -> Result<Flow, Failure> {
         let bar = progress.get_or_insert_with(|| {
             let bar = Progress::new(recording.reader, Some(frame.steps));
-            bar.say("steps played");
+            bar.show_step("steps played");
             bar
         });
         if frame.number.is_multiple_of(64) {
@@ -117,7 +117,7 @@ pub(crate) fn record(
         }
         match interrupt::is_requested() {
             true => Ok(Flow::Stop),
-            false => Ok(Flow::GoOn),
+            false => Ok(Flow::Continue),
         }
     })?;
     drop(progress);
@@ -138,7 +138,7 @@ pub(crate) fn record(
     let json = serde_json::to_string_pretty(&report)
         .map_err(|cause| Failure::failed(format!("the summary is no JSON ({cause})")))?
         + "\n";
-    write_whole(&path, json.as_bytes())?;
+    write_atomically(&path, json.as_bytes())?;
     Ok(report)
 }
 

@@ -6,7 +6,7 @@ use palpate_devices::{Kind, Places};
 use palpate_files::{Language, Settings};
 use palpate_jobs::preparation::folder as cache_folder;
 use palpate_viewer::settings::{
-    CacheUse, FolderContent, NamedFolder, SettingsKeeper, WindowSettings,
+    CacheUse, FolderContent, NamedFolder, SettingsStore, WindowSettings,
 };
 
 use crate::command::cache::{cached_files, remove};
@@ -76,15 +76,15 @@ pub(crate) fn of_window(language: Option<Language>) -> WindowSettings {
         settings,
         environment: environment(),
         asked_language: language,
-        trouble,
-        keeper: Box::new(Keeper),
+        error: trouble,
+        store: Box::new(Keeper),
     }
 }
 
 /// The user's files and devices.
 struct Keeper;
 
-impl SettingsKeeper for Keeper {
+impl SettingsStore for Keeper {
     fn save(&mut self, settings: &Settings) -> Result<(), String> {
         let file = file().ok_or_else(|| {
             format!("this system names no folder for settings; name a file by {FILE_VARIABLE}")

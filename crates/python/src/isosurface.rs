@@ -99,7 +99,7 @@ fn surfaces(
         told.at(number as f64 / labels.len() as f64);
         let found = surface_of(map, label.number, settings, &mut |part| {
             told.at((number as f64 + part) / labels.len() as f64);
-            match told.is_asked_to_stop() {
+            match told.should_stop() {
                 true => ControlFlow::Break(()),
                 false => ControlFlow::Continue(()),
             }

@@ -10,8 +10,8 @@ use palpate_files::{Overwrite, Protocol, Scene};
 use palpate_jobs::characterize::{Choice, NamedSpecimen, StudyFolder};
 use palpate_jobs::measure::{Measuring, Out, Plan};
 use palpate_jobs::preparation::resources;
-use palpate_jobs::solve::{Problem, Wanted, in_words};
-use palpate_jobs::{Recordings, Unusable, Watch, json_text};
+use palpate_jobs::solve::{Problem, RequestedOutputs, in_words};
+use palpate_jobs::{ProgressCallback, Recordings, Unusable, json_text};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use toml::Value;
@@ -22,27 +22,27 @@ use crate::fits;
 use crate::waiting::{ProgressMessage, waiting};
 
 /// Why a thread unwinds.
-struct BrokenOff;
+struct Cancelled;
 
-impl Watch for ProgressMessage {
-    fn say(&self, doing: &str) {
+impl ProgressCallback for ProgressMessage {
+    fn report_step(&self, doing: &str) {
         break_off_if_asked(self);
         Self::say(self, doing);
     }
 
-    fn at(&self, part: f64) {
+    fn report_fraction(&self, part: f64) {
         break_off_if_asked(self);
         Self::at(self, part);
     }
 
-    fn is_asked_to_stop(&self) -> bool {
-        Self::is_asked_to_stop(self)
+    fn should_stop(&self) -> bool {
+        Self::should_stop(self)
     }
 }
 
 fn break_off_if_asked(told: &ProgressMessage) {
-    if told.is_asked_to_stop() {
-        std::panic::resume_unwind(Box::new(BrokenOff));
+    if told.should_stop() {
+        std::panic::resume_unwind(Box::new(Cancelled));
     }
 }
 
@@ -77,7 +77,7 @@ pub(crate) fn _solve(
             (path, None) => Problem::read(&path)?,
             (path, Some(text)) => Problem::parse(&text, &path)?,
         };
-        let answer = palpate_jobs::solve::solve(&problem, Wanted { plot, vtu }, told)?;
+        let answer = palpate_jobs::solve::solve(&problem, RequestedOutputs { plot, vtu }, told)?;
         let (json, words) = (json_text(&answer)?, in_words(&problem, &answer));
         let solution = answer.solution;
         let recording = solution.recording.as_ref().map(|own| own.to_csv());
@@ -96,7 +96,7 @@ pub(crate) fn _analyze(
     recordings: &str,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
-    let recordings = asked(recordings)?;
+    let recordings = parse_recordings(recordings)?;
     waiting(py, progress, move |told| {
         let analyzed = palpate_jobs::analyze::analyze(&recordings, told)?;
         Ok(json_text(&analyzed)?)
@@ -130,7 +130,7 @@ pub(crate) fn _characterize<'py>(
     overwrite: bool,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Fitted<'py>> {
-    let recordings = asked(recordings)?;
+    let recordings = parse_recordings(recordings)?;
     let (answer, tissues, fits) = waiting(py, progress, move |told| {
         let choice = Choice {
             law: settings
@@ -166,7 +166,7 @@ pub(crate) fn _characterize<'py>(
 /// The specimens among `recordings`, what each is called and its files; and the sentences about what cannot be used.
 #[pyfunction]
 pub(crate) fn _specimens(recordings: &str) -> PyResult<(Vec<NamedSpecimen>, Vec<String>)> {
-    let recordings = asked(recordings)?;
+    let recordings = parse_recordings(recordings)?;
     let (found, unusable) =
         palpate_jobs::characterize::specimens(&recordings).map_err(Failure::from)?;
     Ok((found, unusable.iter().map(Unusable::sentence).collect()))
@@ -240,7 +240,7 @@ pub(crate) fn _toml(document: &Bound<'_, PyDict>) -> PyResult<String> {
     Ok(table?)
 }
 
-fn asked(recordings: &str) -> Result<Recordings, Failure> {
+fn parse_recordings(recordings: &str) -> Result<Recordings, Failure> {
     serde_json::from_str(recordings).map_err(Failure::input)
 }
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use numpy::{PyArray1, PyArray2};
-use palpate_files::write_whole;
+use palpate_files::write_atomically;
 use palpate_geometry::{
     AabbTree, Gaps, LengthUnit, MeshReport, NodeId, ReadError, ReadFault, SimplifySettings,
     Surface, TriangleMesh, WrapSettings, WriteFormat, inspect, read_mesh, repair, simplify,
@@ -264,7 +264,7 @@ impl Mesh {
         })?;
         py.detach(|| {
             written::write(&path, overwrite, |path| {
-                write_whole(path, &format.bytes(&self.mesh, LengthUnit::Metre))
+                write_atomically(path, &format.bytes(&self.mesh, LengthUnit::Metre))
             })
         })
     }

@@ -59,7 +59,7 @@ impl OnlineEstimate {
             header: Document::parse(&text, "header")?.header,
             contact: match contact_error {
                 Some(error_m) => OnlineContact::Stated { error_m },
-                None => OnlineContact::Sought,
+                None => OnlineContact::Detected,
             },
             deepest_m: deepest,
         };

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use numpy::PyArray1;
 use palpate_files::{
-    Claim, MOST_OF_DOCUMENT, Overwrite, Session as Document, SessionRow, read_text,
+    Claim, MAX_DOCUMENT_BYTES, Overwrite, Session as Document, SessionRow, read_text,
 };
 use palpate_jobs::json_text;
 use palpate_simulate::performance;
@@ -57,7 +57,7 @@ impl Session {
         Ok(Self {
             session: folder.session,
             scene: folder.scene,
-            summary: read_text(beside, MOST_OF_DOCUMENT).ok(),
+            summary: read_text(beside, MAX_DOCUMENT_BYTES).ok(),
         })
     }
 

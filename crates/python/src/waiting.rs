@@ -59,7 +59,7 @@ impl ProgressMessage {
     }
 
     /// Whether Ctrl-C was pressed, or the progress' callable has raised: whatever is returned then is dropped.
-    pub(crate) fn is_asked_to_stop(&self) -> bool {
+    pub(crate) fn should_stop(&self) -> bool {
         self.asked_to_stop.load(Ordering::Relaxed)
     }
 
@@ -214,7 +214,7 @@ pub(crate) fn _wait(py: Python<'_>, seconds: f64, progress: Option<Py<PyAny>>) -
     waiting(py, progress, |told| {
         told.say("waiting");
         while begin.elapsed() < seconds {
-            if told.is_asked_to_stop() {
+            if told.should_stop() {
                 // Whatever is returned is dropped.
                 break;
             }

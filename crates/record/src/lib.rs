@@ -13,9 +13,9 @@
 //! *Limits*: the caller states the times. A number that changes inside a valid page is not detected. A program that
 //! keeps a record open while its file is moved continues to write to the moved one, so open it, add and close it again.
 
-mod aside;
 mod attempt;
 mod class;
+mod damaged;
 mod error;
 mod learning;
 mod proficiency;

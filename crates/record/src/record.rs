@@ -6,7 +6,7 @@ use std::time::Duration;
 use rusqlite::{Connection, OpenFlags};
 
 use crate::schema::{self, DatabaseState, VERSION};
-use crate::{Added, Attempt, Error, aside, rows};
+use crate::{Added, Attempt, Error, damaged, rows};
 
 /// Timeout for another program's lock.
 const TIMEOUT: Duration = Duration::from_secs(2);
@@ -47,7 +47,7 @@ impl Record {
         let mut warnings = Vec::new();
         let mut looks = 0;
         loop {
-            let stamp = aside::stamp(&path);
+            let stamp = damaged::stamp(&path);
             let reason = match opened(&path, true) {
                 Err(Error::Damaged { reason, .. }) => reason,
                 other => {
@@ -61,14 +61,14 @@ impl Record {
             };
             looks += 1;
             // Another program may just have renamed it and created a new one.
-            if aside::stamp(&path) != stamp && looks < LOOKS {
+            if damaged::stamp(&path) != stamp && looks < LOOKS {
                 continue;
             }
             if looks > LOOKS {
                 // Another program damages the file that this one creates.
                 return Err(Error::Locked { path });
             }
-            let kept = match aside::rename_damaged(&path) {
+            let kept = match damaged::rename_damaged(&path) {
                 // Another program was faster.
                 Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
                 other => other.map_err(|error| Error::of_system(&path, &error))?,
@@ -179,7 +179,7 @@ fn opened(path: &Path, begins: bool) -> Result<Connection, Error> {
         Err(error) => Error::of_database(&path, &error),
     };
     match error {
-        Error::Damaged { path, .. } if !aside::was_record(&path) => Err(Error::Foreign { path }),
+        Error::Damaged { path, .. } if !damaged::was_record(&path) => Err(Error::Foreign { path }),
         Error::Unusable { path, .. } if path.is_dir() => {
             let reason = "it is a folder".to_owned();
             Err(Error::Unusable { path, reason })

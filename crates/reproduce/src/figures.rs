@@ -4,7 +4,7 @@ use palpate_files::{Claim, Overwrite};
 use palpate_jobs::plot::Plot;
 
 use super::Item;
-use super::kept::{KEPT, KeptRows};
+use super::finished_rows::{FinishedRows, KEPT};
 use crate::Error;
 
 /// The folder of figures and finished rows. It is this program's alone; without a file in it, it is removed.
@@ -52,8 +52,8 @@ impl Figures {
     }
 
     /// The file of finished rows.
-    pub fn rows(&self) -> KeptRows {
-        KeptRows::at(self.folder.join(KEPT))
+    pub fn rows(&self) -> FinishedRows {
+        FinishedRows::at(self.folder.join(KEPT))
     }
 }
 

@@ -2,11 +2,11 @@
 //! data in `published/rows` (`registry`). The source's tables are in `published`; their numbers stand there only.
 //!
 //! Prints nothing: the caller draws the plots ([`Figures`]), receives progress
-//! ([`palpate_jobs::Watch`]) and shows the rows.
+//! ([`palpate_jobs::ProgressCallback`]) and shows the rows.
 
 mod error;
 mod figures;
-mod kept;
+mod finished_rows;
 mod m01;
 mod m02;
 mod m03;
@@ -23,10 +23,10 @@ mod m15;
 mod m16;
 mod machine;
 mod mark;
-mod portrait;
 mod published;
 mod real_mesh;
 mod registry;
+mod rendered_body;
 mod row;
 mod select;
 mod table;
@@ -35,13 +35,13 @@ mod wire_frame;
 
 pub use error::Error;
 pub use figures::{DrawPlot, Figures};
-pub use kept::{KEPT, KeptRows};
+pub use finished_rows::{FinishedRows, KEPT};
 pub use mark::Mark;
 pub use row::Row;
 pub use select::{Selection, select};
 pub use table::{legend, section};
 
-use palpate_jobs::Watch;
+use palpate_jobs::ProgressCallback;
 
 use row::Rows;
 
@@ -148,7 +148,7 @@ fn is_of(name: &str, item: &str) -> bool {
 impl Item {
     /// Computes its rows; when that fails, a last row says why. Figures are written among `figures`, and `watch`
     /// receives the progress.
-    pub fn rows(&self, figures: &Figures, watch: &dyn Watch) -> Vec<Row> {
+    pub fn rows(&self, figures: &Figures, watch: &dyn ProgressCallback) -> Vec<Row> {
         let mut rows = Rows::of(self.name, figures, watch);
         let outcome = (self.run)(&mut rows);
         rows.finished(outcome)

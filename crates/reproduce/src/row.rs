@@ -2,8 +2,8 @@ use std::fmt::Display;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use palpate_files::write_whole;
-use palpate_jobs::Watch;
+use palpate_files::write_atomically;
+use palpate_jobs::ProgressCallback;
 use palpate_jobs::plot::Series;
 use palpate_mechanics::finite_elements::estimate::Progress;
 use serde::Serialize;
@@ -42,14 +42,18 @@ pub struct Row {
 pub(crate) struct Rows<'a> {
     item: &'static str,
     figures: &'a Figures,
-    watch: &'a dyn Watch,
+    watch: &'a dyn ProgressCallback,
     since: Instant,
     rows: Vec<Row>,
 }
 
 impl<'a> Rows<'a> {
-    pub(crate) fn of(item: &'static str, figures: &'a Figures, watch: &'a dyn Watch) -> Self {
-        watch.say(item);
+    pub(crate) fn of(
+        item: &'static str,
+        figures: &'a Figures,
+        watch: &'a dyn ProgressCallback,
+    ) -> Self {
+        watch.report_step(item);
         Self {
             item,
             figures,
@@ -107,14 +111,14 @@ impl<'a> Rows<'a> {
     }
 
     /// Reports progress within an item.
-    pub(crate) fn say(&self, what: impl Display) {
-        self.watch.say(&format!("{}: {what}", self.item));
+    pub(crate) fn report_step(&self, what: impl Display) {
+        self.watch.report_step(&format!("{}: {what}", self.item));
     }
 
     /// The same of a solution on finer and finer meshes.
     pub(crate) fn meshes(&self, what: &str) -> impl FnMut(Progress) {
         move |Progress { mesh, part, .. }| {
-            self.say(format_args!(
+            self.report_step(format_args!(
                 "{what}mesh {}, {:.0} %",
                 mesh + 1,
                 100.0 * part
@@ -142,7 +146,7 @@ impl<'a> Rows<'a> {
     }
 
     fn push(&mut self, row: Row) {
-        self.watch.say(&row.row);
+        self.watch.report_step(&row.row);
         // JSON has no other numbers, and a reader no use for them.
         let ours = row.ours.filter(|ours| ours.is_finite());
         let is_missing = ours.is_none() && row.file.is_none();
@@ -279,8 +283,8 @@ impl Figure<'_, '_> {
         let file = format!("{}{separator}{}.{ending}", stem(item), self.name);
         let path = self.rows.figures.path(&file)?;
         let mut written = Ok(());
-        let write = &mut || written = write_whole(&path, bytes);
-        self.rows.watch.unbroken(write);
+        let write = &mut || written = write_atomically(&path, bytes);
+        self.rows.watch.without_cancellation(write);
         written?;
         self.rows.push(Row {
             file: Some(path),
@@ -292,18 +296,18 @@ impl Figure<'_, '_> {
 }
 
 /// A job within an item: how far it is says nothing of all items.
-impl Watch for Rows<'_> {
-    fn say(&self, doing: &str) {
-        Rows::say(self, doing);
+impl ProgressCallback for Rows<'_> {
+    fn report_step(&self, doing: &str) {
+        Rows::report_step(self, doing);
     }
 
-    fn at(&self, _part: f64) {}
+    fn report_fraction(&self, _part: f64) {}
 
-    fn is_asked_to_stop(&self) -> bool {
-        self.watch.is_asked_to_stop()
+    fn should_stop(&self) -> bool {
+        self.watch.should_stop()
     }
 
-    fn unbroken(&self, write: &mut dyn FnMut()) {
-        self.watch.unbroken(write);
+    fn without_cancellation(&self, write: &mut dyn FnMut()) {
+        self.watch.without_cancellation(write);
     }
 }

@@ -6,7 +6,7 @@
 use palpate_characterize::CleanRecording;
 use palpate_characterize::clean::{CleanSettings, clean};
 use palpate_characterize::fit::Random;
-use palpate_characterize::inverse::{Body, Curves, SoughtLaw};
+use palpate_characterize::inverse::{Body, CandidateLaw, Curves};
 use palpate_files::Recording;
 use palpate_files::recording::{Condition, IndenterShape, RecordingHeader, Samples};
 use palpate_mechanics::IndentationCurve;
@@ -91,7 +91,7 @@ fn cleaned(
 
 /// Elastic force [N] over depth [m] under the probe, of `law` with this `modulus` [Pa] and these shapes [-].
 pub(super) fn elastic(
-    law: SoughtLaw,
+    law: CandidateLaw,
     modulus: f64,
     shape: &[f64],
 ) -> Result<IndentationCurve, Error> {

@@ -83,7 +83,7 @@ impl Bench {
         self.answers.send(black_box(answer));
         let sample = self.servo.tick(time, 0.0).unwrap();
         self.reader.log.next_value();
-        sample.sent
+        sample.output
     }
 }
 

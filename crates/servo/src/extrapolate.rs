@@ -27,7 +27,7 @@ pub enum HandOver {
 }
 
 /// Time in which an overdue force fades to zero [s].
-pub(crate) const FADE: f64 = 0.010;
+pub(crate) const FADE_TIME: f64 = 0.010;
 
 /// The extrapolated force at any time and position.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,7 +81,7 @@ impl Extrapolator {
             HandOver::Hold => self.last.force,
             HandOver::Linear => self.last.without_pull(self.line(age.min(self.used))),
         };
-        let faded = (self.overdue(time) / FADE).clamp(0.0, 1.0);
+        let faded = (self.overdue(time) / FADE_TIME).clamp(0.0, 1.0);
         force * (1.0 - faded * faded)
     }
 

@@ -109,7 +109,7 @@ pub enum Fault {
     #[error(
         "the thread that watches the devices was silent for more than {limit} s; free the processor and arm again"
     )]
-    Unwatched {
+    MonitorSilent {
         /// The limit [s].
         limit: f64,
     },
@@ -169,7 +169,7 @@ impl Fault {
             | Self::DeviceButton
             | Self::Interrupted
             | Self::Unrecorded
-            | Self::Unwatched { .. }
+            | Self::MonitorSilent { .. }
             | Self::Panicked
             | Self::Hung { .. }
             | Self::OutsideScheduler

@@ -35,7 +35,7 @@ impl<T: Send> Receiver<T> {
     }
 
     /// Whether there is a value that has not been read.
-    pub fn has_news(&self) -> bool {
+    pub fn has_update(&self) -> bool {
         self.0.updated()
     }
 }

@@ -26,7 +26,7 @@
 //! let (mut servo, mut reader) =
 //!     ServoLoop::new(Box::new(hand), Box::new(spring), ServoSettings { log: 2000, ..Default::default() })?;
 //! servo.run(&mut Clock::virtual_time(), |tick| tick < 1000);
-//! let largest = reader.log.drain().map(|sample| sample.sent.norm()).fold(0.0, f64::max);
+//! let largest = reader.log.drain().map(|sample| sample.output.norm()).fold(0.0, f64::max);
 //! assert!((largest - 0.2).abs() < 1e-3); // [N]
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -44,6 +44,7 @@ pub mod latest;
 pub mod limits;
 pub mod log;
 mod memory;
+pub mod monitor;
 mod panics;
 mod pid;
 mod priority;
@@ -55,7 +56,6 @@ mod servo_thread;
 mod stepped_loop;
 pub mod supervisor;
 mod velocity;
-pub mod watch;
 
 pub use affine_force::AffineForce;
 pub use clock::Clock;

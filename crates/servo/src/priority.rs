@@ -2,7 +2,7 @@
 //!
 //! | thread | on Linux |
 //! |---|---|
-//! | watch ([`crate::watch`]) | SCHED_FIFO 46: a loop that spins must not keep it from running |
+//! | monitor ([`crate::monitor`]) | SCHED_FIFO 46: a loop that spins must not keep it from running |
 //! | servo | SCHED_FIFO 45 |
 //! | model | SCHED_FIFO 40 |
 //! | window, recorder | ordinary |
@@ -64,7 +64,7 @@ pub fn raise_model_priority() -> Priority {
 }
 
 /// The same for the thread that watches the loops.
-pub(crate) fn raise_watch_priority() -> Priority {
+pub(crate) fn raise_monitor_priority() -> Priority {
     ask_for(WATCH)
 }
 

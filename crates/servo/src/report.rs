@@ -72,11 +72,11 @@ impl Meter {
             // An absent device has no position.
             self.energy += if work.is_finite() { work } else { 0.0 };
         }
-        self.last = Some((sample.state.time, position, sample.held));
-        self.peak_force = self.peak_force.max(sample.sent.norm());
+        self.last = Some((sample.state.time, position, sample.applied));
+        self.peak_force = self.peak_force.max(sample.output.norm());
     }
 
-    pub(crate) fn worked(&mut self, work: f64, missed: u64) {
+    pub(crate) fn record_tick(&mut self, work: f64, missed: u64) {
         self.work.add(work);
         self.missed += missed;
     }

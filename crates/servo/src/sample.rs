@@ -8,13 +8,13 @@ pub struct Sample {
     /// The state of the device; the loop adds the velocity if the device measures none.
     pub state: DeviceState,
     /// The force that the device received at this tick and has until the next [N].
-    pub held: Vec3,
+    pub applied: Vec3,
     /// The force that the controller commands for this state [N].
     pub commanded: Vec3,
     /// The part of it that does not depend on the model's answers [N].
     pub added: Vec3,
     /// The force after the limits, which is sent with the next tick [N].
-    pub sent: Vec3,
+    pub output: Vec3,
     /// The additional force that compensates the device's own weight, spring and mass [N].
     pub compensation: Vec3,
     /// The age of the model's answer behind it [s].

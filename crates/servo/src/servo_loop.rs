@@ -11,11 +11,11 @@
 
 use crate::dynamics::Compensator;
 use crate::limits::{CommandedForce, Guard, Limits, OutputForce, Stage};
+use crate::monitor::Heartbeat;
 use crate::priority::{Priority, raise_priority};
 use crate::report::Meter;
 use crate::supervisor::{Permission, StopReason};
 use crate::velocity::Velocity;
-use crate::watch::Pulse;
 use crate::{
     Clock, Command, Controller, Device, DeviceState, Disabled, Fault, ForceState, LoopReport,
     Sample, Scheduler, ServoSettings, Supervisor, Vec3, latest, log,
@@ -32,7 +32,7 @@ pub struct ServoReader {
     /// Arms its forces and takes them off.
     pub supervisor: Supervisor,
     /// Time of its device's last answer, for a watch.
-    pub pulse: Pulse,
+    pub pulse: Heartbeat,
 }
 
 /// A device, its controller and its limits. Dropping it disables the device.
@@ -58,7 +58,7 @@ pub struct ServoLoop {
     log: log::Writer<Sample>,
     report: latest::Sender<LoopReport>,
     supervisor: Supervisor,
-    pulse: Pulse,
+    pulse: Heartbeat,
     /// The session's count of armings that the loop read last.
     armings: u64,
     last: Option<Sample>,
@@ -96,7 +96,7 @@ impl ServoLoop {
         let (latest, latest_reader) = latest::channel(&None);
         let (log, log_reader) = log::ring(settings.log);
         let (report, report_reader) = latest::channel(&LoopReport::default());
-        let pulse = Pulse::default();
+        let pulse = Heartbeat::default();
         let reader = ServoReader {
             latest: latest_reader,
             log: log_reader,
@@ -163,7 +163,7 @@ impl ServoLoop {
             let next = ((done - first) / self.period).ceil() as u64;
             let missed = next.saturating_sub(self.number);
             self.number += missed;
-            self.meter.worked(done - began, missed);
+            self.meter.record_tick(done - began, missed);
         }
         self.finish()
     }
@@ -189,7 +189,7 @@ impl ServoLoop {
         };
         self.number += missed;
         self.tick(began, late.max(0.0))?;
-        self.meter.worked(clock.now() - began, missed);
+        self.meter.record_tick(clock.now() - began, missed);
         Ok(())
     }
 
@@ -231,7 +231,7 @@ impl ServoLoop {
         };
         let permission = self.after_stop_button(&state, permission);
         let mut sample = self.control(time, state, &permission);
-        sample.held = held;
+        sample.applied = held;
         self.meter.tick(&sample, lateness);
         self.publish(sample);
         if self.number.is_multiple_of(self.ticks_per_report()) {
@@ -263,7 +263,7 @@ impl ServoLoop {
         let gap = self.last_time.map_or(self.period, |last| time - last);
         self.last_time = Some(time);
         if !state.present {
-            self.velocity.forget();
+            self.velocity.reset();
         }
         let measured = self.velocity.update(time, &state.position);
         let velocity = state.velocity.unwrap_or(measured);
@@ -276,7 +276,7 @@ impl ServoLoop {
             overdue: self.controller.overdue(),
             gap,
             allowed: permission.state.allows_force() && self.enabled,
-            asked: permission.armings != self.armings && self.enabled,
+            rearm_requested: permission.armings != self.armings && self.enabled,
         };
         self.armings = permission.armings;
         if let Some(fault) = permission.fault {
@@ -292,10 +292,10 @@ impl ServoLoop {
         Sample {
             tick: self.number,
             state,
-            held: Vec3::zeros(),
+            applied: Vec3::zeros(),
             commanded: force,
             added: self.controller.added(),
-            sent: self.guard.rendered(),
+            output: self.guard.rendered(),
             compensation: self.guard.compensation(),
             age: self.controller.age(),
             stage: self.guard.stage(),
@@ -308,7 +308,7 @@ impl ServoLoop {
         if !is_pressed || permission.state == ForceState::Off {
             return permission;
         }
-        self.supervisor.trip_because(StopReason::DeviceButton);
+        self.supervisor.trip_with_reason(StopReason::DeviceButton);
         Permission {
             armings: permission.armings,
             ..self.supervisor.permission(state.time)
@@ -365,7 +365,7 @@ impl ServoLoop {
         if self.guard.part() > 0.0 {
             return compensator.force(&state.position, dt);
         }
-        compensator.forget();
+        compensator.reset();
         Vec3::zeros()
     }
 
@@ -388,7 +388,7 @@ impl ServoLoop {
             sample.tick = self.number;
             sample.state.present = false;
             let none = Vec3::zeros();
-            (sample.held, sample.commanded, sample.sent) = (none, none, none);
+            (sample.applied, sample.commanded, sample.output) = (none, none, none);
             (sample.added, sample.compensation) = (none, none);
             sample.stage = Stage::Faulted(fault);
             self.publish(sample);

@@ -165,7 +165,7 @@ impl Hosted {
             (!goes_on).then(|| self.servo.finish())
         });
         match ticked {
-            Ok(None) => return Next::Again,
+            Ok(None) => return Next::Continue,
             Ok(Some(report)) => self.ended(Ok(report)),
             Err(panic) => self.ended(Err(panic)),
         }

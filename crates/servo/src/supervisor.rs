@@ -14,7 +14,7 @@
 //!
 //! *How we know*: `tests` (every pair), `supervisor::…`.
 //!
-//! *Limits*: a loop that hangs in its device does not read the state; [`crate::watch`] detects that, but cannot reach
+//! *Limits*: a loop that hangs in its device does not read the state; [`crate::monitor`] detects that, but cannot reach
 //! the device.
 
 use std::sync::Arc;
@@ -24,11 +24,11 @@ use crate::Fault;
 
 /// How long a program that has to report may be silent before forces go off [s]: longer than the layout of a window
 /// takes, shorter than a person notices.
-pub const SILENCE: f64 = 2.0;
+pub const REPORT_TIMEOUT: f64 = 2.0;
 
 /// How long the thread that watches the loops may be silent before forces go off [s]: it reports a thousand times a
 /// second, and a loaded machine can delay it by some tens of milliseconds.
-pub const WATCH_SILENCE: f64 = 0.5;
+pub const MONITOR_TIMEOUT: f64 = 0.5;
 
 /// Whether forces may be displayed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,7 +64,7 @@ pub enum StopReason {
     /// A fault of one of the loops.
     OtherDevice,
     /// The program that shows the touch is silent.
-    Silence,
+    ProgramSilent,
     /// A person, by the stop button of a device.
     DeviceButton,
     /// The program received a request to end: Ctrl-C, SIGTERM or the end of its terminal.
@@ -74,7 +74,7 @@ pub enum StopReason {
     /// The recording failed.
     Unrecorded,
     /// The thread that watches the loops is silent.
-    Unwatched,
+    MonitorSilent,
 }
 
 /// A handle to the state of a session: cheap to clone, and safe to use from any thread. No call waits.
@@ -129,12 +129,12 @@ const STATES: [ForceState; 5] = [
 const REASONS: [StopReason; 8] = [
     StopReason::EmergencyStop,
     StopReason::OtherDevice,
-    StopReason::Silence,
+    StopReason::ProgramSilent,
     StopReason::DeviceButton,
     StopReason::Signal,
     StopReason::HungDevice,
     StopReason::Unrecorded,
-    StopReason::Unwatched,
+    StopReason::MonitorSilent,
 ];
 
 impl StopReason {
@@ -142,15 +142,17 @@ impl StopReason {
         match self {
             Self::EmergencyStop => Fault::EmergencyStop,
             Self::OtherDevice => Fault::OtherDevice,
-            Self::Silence => Fault::ProgramSilent { limit: SILENCE },
+            Self::ProgramSilent => Fault::ProgramSilent {
+                limit: REPORT_TIMEOUT,
+            },
             Self::DeviceButton => Fault::DeviceButton,
             Self::Signal => Fault::Interrupted,
             Self::HungDevice => Fault::Hung {
-                limit: crate::watch::HUNG,
+                limit: crate::monitor::HANG_TIMEOUT,
             },
             Self::Unrecorded => Fault::Unrecorded,
-            Self::Unwatched => Fault::Unwatched {
-                limit: WATCH_SILENCE,
+            Self::MonitorSilent => Fault::MonitorSilent {
+                limit: MONITOR_TIMEOUT,
             },
         }
     }
@@ -213,11 +215,11 @@ impl Supervisor {
 
     /// The emergency stop: no force until a person arms again.
     pub fn trip(&self) {
-        self.trip_because(StopReason::EmergencyStop);
+        self.trip_with_reason(StopReason::EmergencyStop);
     }
 
     /// The same for another `reason`.
-    pub fn trip_because(&self, reason: StopReason) {
+    pub fn trip_with_reason(&self, reason: StopReason) {
         self.apply(Transition::Trip, Some(reason));
     }
 
@@ -227,13 +229,13 @@ impl Supervisor {
     }
 
     /// The program that shows the touch is alive at `time` [s] of the loops' clock. After the first call forces trip
-    /// when the next one does not come within [`SILENCE`].
+    /// when the next one does not come within [`REPORT_TIMEOUT`].
     pub fn report(&self, time: f64) {
         self.reported.store(time.to_bits(), Ordering::Relaxed);
     }
 
     /// The thread that watches the loops is alive at `time` [s] of their clock; infinite when it ends with the session.
-    pub(crate) fn report_watch(&self, time: f64) {
+    pub(crate) fn report_monitor(&self, time: f64) {
         self.watched.store(time.to_bits(), Ordering::Relaxed);
     }
 
@@ -241,11 +243,11 @@ impl Supervisor {
     pub(crate) fn permission(&self, time: f64) -> Permission {
         let since = |last: &AtomicU64| time - f64::from_bits(last.load(Ordering::Relaxed));
         if self.state().allows_force() {
-            if since(&self.reported) > SILENCE {
-                self.trip_because(StopReason::Silence);
+            if since(&self.reported) > REPORT_TIMEOUT {
+                self.trip_with_reason(StopReason::ProgramSilent);
             }
-            if since(&self.watched) > WATCH_SILENCE {
-                self.trip_because(StopReason::Unwatched);
+            if since(&self.watched) > MONITOR_TIMEOUT {
+                self.trip_with_reason(StopReason::MonitorSilent);
             }
         }
         let (state, reason, armings) = unpacked(self.word.load(Ordering::Acquire));
@@ -263,7 +265,7 @@ impl Supervisor {
 
     /// A loop took its force off; all others do the same.
     pub(crate) fn trip_others(&self) {
-        self.trip_because(StopReason::OtherDevice);
+        self.trip_with_reason(StopReason::OtherDevice);
     }
 
     fn apply(&self, transition: Transition, why: Option<StopReason>) {
@@ -329,13 +331,13 @@ mod tests {
     #[test]
     fn a_watch_that_is_silent_takes_the_force_off() {
         let supervisor = Supervisor::armed();
-        supervisor.report_watch(1.0);
-        assert_eq!(supervisor.permission(1.0 + WATCH_SILENCE).fault, None);
-        let limit = WATCH_SILENCE;
-        let unwatched = supervisor.permission(1.1 + WATCH_SILENCE).fault;
-        assert_eq!(unwatched, Some(Fault::Unwatched { limit }));
+        supervisor.report_monitor(1.0);
+        assert_eq!(supervisor.permission(1.0 + MONITOR_TIMEOUT).fault, None);
+        let limit = MONITOR_TIMEOUT;
+        let unwatched = supervisor.permission(1.1 + MONITOR_TIMEOUT).fault;
+        assert_eq!(unwatched, Some(Fault::MonitorSilent { limit }));
         // A thread that ended in good order does not have to report.
-        supervisor.report_watch(f64::INFINITY);
+        supervisor.report_monitor(f64::INFINITY);
         supervisor.arm();
         assert_eq!(supervisor.permission(1e9).fault, None);
     }
@@ -345,11 +347,16 @@ mod tests {
         let supervisor = Supervisor::armed();
         assert_eq!(supervisor.permission(1e9).fault, None);
         supervisor.report(1.0);
-        assert_eq!(supervisor.permission(1.0 + SILENCE).fault, None);
-        let silent = supervisor.permission(1.1 + SILENCE);
-        assert_eq!(silent.fault, Some(Fault::ProgramSilent { limit: SILENCE }));
+        assert_eq!(supervisor.permission(1.0 + REPORT_TIMEOUT).fault, None);
+        let silent = supervisor.permission(1.1 + REPORT_TIMEOUT);
+        assert_eq!(
+            silent.fault,
+            Some(Fault::ProgramSilent {
+                limit: REPORT_TIMEOUT
+            })
+        );
         supervisor.trip();
-        assert_eq!(supervisor.permission(1.2 + SILENCE), silent);
+        assert_eq!(supervisor.permission(1.2 + REPORT_TIMEOUT), silent);
         supervisor.report(5.0);
         supervisor.arm();
         let armed = supervisor.permission(5.0);

@@ -28,7 +28,7 @@ impl Velocity {
     }
 
     /// Restarts: the next position is not reached by a motion.
-    pub(crate) fn forget(&mut self) {
+    pub(crate) fn reset(&mut self) {
         self.seen = 0;
     }
 

@@ -34,7 +34,7 @@ pub(crate) struct RestSurface<'a> {
     /// Radius of a hemisphere of its volume [m].
     pub(crate) radius: f64,
     /// Its compliance beyond a half-space at each vertex [1/m]; none if only its volume is known.
-    pub(crate) further: Option<&'a [Matrix3<f64>]>,
+    pub(crate) structural_compliance: Option<&'a [Matrix3<f64>]>,
 }
 
 impl Simulation {
@@ -45,7 +45,7 @@ impl Simulation {
             tree: &self.tree,
             patches: &tool.patches,
             radius: self.organ_radius,
-            further: tool.further.as_deref(),
+            structural_compliance: tool.structural_compliance.as_deref(),
         }
     }
 }
@@ -209,7 +209,7 @@ fn detect_after(
     if tool.slides() || !last.is_pressed {
         contact.place = place(rest, tool, &contact_point, depth, Some(&last.place.frame));
     }
-    match tool.bond {
+    match tool.tip_friction {
         Friction::Frictionless => {}
         Friction::Bonded if tool.slides() => {
             let normal = contact.rest_normal();
@@ -370,7 +370,7 @@ fn surroundings(
     contact_point: &ContactPoint,
     frame: &Matrix3<f64>,
 ) -> Surroundings {
-    let Some(at) = rest.further else {
+    let Some(at) = rest.structural_compliance else {
         return tool.model.by_volume(rest.radius);
     };
     let nodes = rest.surface.mesh().corners(contact_point.triangle);

@@ -80,7 +80,7 @@ impl SceneDigest {
     }
 
     /// Whether the digest in a session is one of this scene.
-    pub(crate) fn is(&self, digest: &str) -> bool {
+    pub(crate) fn matches(&self, digest: &str) -> bool {
         digest == self.canonical || digest == self.former
     }
 }
@@ -446,10 +446,10 @@ mod tests {
     #[test]
     fn digests_of_recorded_sessions_are_known() {
         let esophagus = digest(ESOPHAGUS);
-        assert!(esophagus.is("03af0b310a409016"));
+        assert!(esophagus.matches("03af0b310a409016"));
         assert!(esophagus.canonical.starts_with(VERSION));
-        assert!(esophagus.is(&esophagus.canonical));
-        assert!(!esophagus.is("2-03af0b310a409016"));
+        assert!(esophagus.matches(&esophagus.canonical));
+        assert!(!esophagus.matches("2-03af0b310a409016"));
     }
 
     /// Every change of a force changes the digest; names, devices and number formats do not.

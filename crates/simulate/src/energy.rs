@@ -12,7 +12,7 @@
 //! F: the slip dissipates the rest, and the force falls to the friction limit within the step.
 //!
 //! The positive parts are the work done, the negative ones the work returned. Where the second exceeds
-//! [`MOST_RETURNED`] times the first, the solution is not that of an elastic organ: [`Event::EnergyGain`], once for
+//! [`MAX_RETURNED`] times the first, the solution is not that of an elastic organ: [`Event::EnergyGain`], once for
 //! each touch, on every tool that touches.
 //!
 //! *How we know*: `grip::energy::…`, `random_scenes::…`.
@@ -25,7 +25,7 @@ use palpate_files::session::Event;
 use palpate_geometry::Vec3;
 use palpate_mechanics::contact::{Friction, Tip};
 
-use crate::grip::Hold;
+use crate::grip::Grasp;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, ToolState};
 use crate::tool::Tool;
@@ -33,13 +33,13 @@ use crate::tool::Tool;
 /// Work returned over work done above which there is a gain [-]. A contact that begins or ends within a step counts by
 /// its tangent stiffness: for a force that rises with the n-th power of depth that is (n+1)/2n of its energy, never
 /// less than a half. Linear tissue returns at most 1.01.
-const MOST_RETURNED: f64 = 2.0;
+const MAX_RETURNED: f64 = 2.0;
 
 /// Work below this is rounding [J]: a micronewton over a tenth of a millimetre.
 const NOISE: f64 = 1e-10;
 
 /// Jaws that have turned farther than this with tissue between them [rad] did work that does not appear in the force.
-const MOST_TURNED: f64 = 0.1;
+const MAX_TURNED: f64 = 0.1;
 
 /// The work of all tools since the organ was at rest.
 #[derive(Debug, Clone, Copy, Default)]
@@ -63,7 +63,7 @@ impl EnergyAccount {
     }
 
     fn gains(&self) -> bool {
-        !self.is_closed && self.returned > MOST_RETURNED * self.done + NOISE
+        !self.is_closed && self.returned > MAX_RETURNED * self.done + NOISE
     }
 }
 
@@ -130,11 +130,13 @@ fn has_energy(tool: &Tool, state: &ToolState) -> bool {
         // The load on a shaft does not move with the tip.
         return false;
     }
-    match &state.grip.hold {
-        Some(hold) => hold.has_turned() <= MOST_TURNED,
+    match &state.grip.grasp {
+        Some(hold) => hold.has_turned() <= MAX_TURNED,
         None => {
-            matches!((tool.tip, tool.bond), (Tip::Flat { .. }, Friction::Bonded))
-                && tool.friction.is_none()
+            matches!(
+                (tool.tip, tool.tip_friction),
+                (Tip::Flat { .. }, Friction::Bonded)
+            ) && tool.friction.is_none()
         }
     }
 }
@@ -145,14 +147,14 @@ impl ToolState {
             return None;
         }
         let force = self.force_of_organ();
-        let hold = self.grip.hold.as_ref();
+        let hold = self.grip.grasp.as_ref();
         let yields = self.stiffness.try_inverse().map(|inverse| inverse * force);
         Some(Pressed {
             tip: Vec3::from(self.pose?.position_m),
-            held: hold.map(Hold::carried_without_slip),
+            held: hold.map(Grasp::carried_without_slip),
             slid: hold.map_or_else(Vec3::zeros, |hold| *hold.slid()),
             point: hold
-                .map(Hold::place)
+                .map(Grasp::place)
                 .or(self.contact.map(|contact| contact.point()))?,
             force,
             stored: yields.map_or(0.0, |by| (0.5 * force.dot(&by)).max(0.0)),

@@ -24,7 +24,7 @@ use crate::tool::Tool;
 
 /// Iterations, of which a few are needed: where a sphere touches nearly only stiff tissue, each leaves 0.9 of the
 /// change.
-const MOST_ROUNDS: usize = 40;
+const MAX_ROUNDS: usize = 40;
 
 /// Relative change of the force that ends the iterations: a hundredth of the accuracy of the estimate [-].
 const SETTLED: f64 = 5e-4;
@@ -33,7 +33,7 @@ const SETTLED: f64 = 5e-4;
 const NEWTON_ROUNDS: usize = 6;
 
 /// Smallest remaining part of a tip's compliance, which is positive except for rounding [-].
-const LEAST_LEFT: f64 = 0.01;
+const MIN_REMAINING: f64 = 0.01;
 
 /// Rejects inclusions of `scene` that lie outside its organ with this `surface`.
 ///
@@ -83,7 +83,7 @@ pub(crate) fn stiffen(
     tool: &Tool,
     state: &mut ToolState,
 ) {
-    let Some(contact) = state.contact.filter(|_| !state.holds()) else {
+    let Some(contact) = state.contact.filter(|_| !state.is_grasping()) else {
         return;
     };
     let law = &simulation.material.at_rest;
@@ -106,7 +106,7 @@ pub(crate) fn stiffen(
         Tip::Flat { .. } => (1.0 / (1.0 - yields(1.0)[0]), 1.0),
         Tip::Sphere { .. } => {
             let (mut ratio, mut change) = (1.0_f64, 1.0);
-            for _ in 0..MOST_ROUNDS {
+            for _ in 0..MAX_ROUNDS {
                 let next = force_ratio_of_sphere(yields(ratio)[0], ratio);
                 change = (next / ratio - 1.0).abs();
                 ratio = next;
@@ -116,7 +116,7 @@ pub(crate) fn stiffen(
             }
             if change > SETTLED {
                 let reached = Reached {
-                    asked: change,
+                    unbounded: change,
                     used: SETTLED,
                 };
                 state.limited.add(Limit::Coupling, reached);
@@ -127,7 +127,7 @@ pub(crate) fn stiffen(
     // L F grows with the force by L and by what L itself does.
     let [less, growth] = yields(ratio);
     state.elastic *= ratio;
-    state.stiffness *= of_tangent / (1.0 - of_tangent * (less + growth)).max(LEAST_LEFT);
+    state.stiffness *= of_tangent / (1.0 - of_tangent * (less + growth)).max(MIN_REMAINING);
 }
 
 /// The force under a sphere over that without inclusions, where these take the part x of the tangent compliance: the solution of

@@ -38,7 +38,7 @@ pub(crate) fn follow(
     if state.touches() {
         events.insert(Event::Release);
     }
-    if state.grip.hold.take().is_some() {
+    if state.grip.grasp.take().is_some() {
         events.insert(Event::GripRelease);
     }
     state.contact = None;

@@ -80,15 +80,15 @@ impl LimitCounts {
 }
 
 fn sentence(limit: Limit, reached: &Reached, tool: &str, when: &str) -> String {
-    let Reached { asked, used } = *reached;
-    let lacks = too_low(used / asked);
-    let times = match asked.is_finite() {
-        true => format!("where its model asks for {asked:.1} times"),
+    let Reached { unbounded, used } = *reached;
+    let lacks = too_low(used / unbounded);
+    let times = match unbounded.is_finite() {
+        true => format!("where its model asks for {unbounded:.1} times"),
         false => "where its model gives no finite stiffness".to_owned(),
     };
     match limit {
         Limit::Curvature => format!(
-            "the curvature of the surface under the tip {tool:?} was limited from {asked:.0} to {used:.0} 1/m \
+            "the curvature of the surface under the tip {tool:?} was limited from {unbounded:.0} to {used:.0} 1/m \
              {when}: the tip is large beside the organ there, and the force is that of the gentler surface; \
              `model.kind = \"hybrid\"` has no such limit"
         ),
@@ -103,7 +103,7 @@ fn sentence(limit: Limit, reached: &Reached, tool: &str, when: &str) -> String {
         ),
         Limit::Residual => format!(
             "the iterations of `solver = \"gmres\"` under the tip {tool:?} ended at a relative residual of \
-             {asked:.1e}, above {used:.1e}, {when}; these steps were solved by factors, as with `solver = \
+             {unbounded:.1e}, above {used:.1e}, {when}; these steps were solved by factors, as with `solver = \
              \"direct\"`, and their forces are right"
         ),
         Limit::TipStiffness => format!(
@@ -119,11 +119,11 @@ fn sentence(limit: Limit, reached: &Reached, tool: &str, when: &str) -> String {
         Limit::TipDepth => format!(
             "the tip {tool:?} was pressed {:.1} mm into the tissue {when}, and its force is known to {:.1} mm: beyond, it \
              goes on along its tangent; press less, or use a larger tip",
-            1e3 * asked,
+            1e3 * unbounded,
             1e3 * used
         ),
         Limit::Coupling => format!(
-            "the forces of tools that touch together, {tool:?} among them, still changed by {asked:.1e} of the largest \
+            "the forces of tools that touch together, {tool:?} among them, still changed by {unbounded:.1e} of the largest \
              in the last sweep over them, above {used:.1e}, {when}: the tips are on the same spot, or deep beside each other; keep \
              them apart"
         ),
@@ -131,21 +131,21 @@ fn sentence(limit: Limit, reached: &Reached, tool: &str, when: &str) -> String {
             "the tool {tool:?} was to move the organ by {:.1} mm in a step, and the model followed by {:.1} mm {when}: \
              the force is that of the organ where it is; move slower, or set `model.nodes` higher if the organ is thin \
              there",
-            1e3 * asked,
+            1e3 * unbounded,
             1e3 * used
         ),
         Limit::NeighbourContacts => format!(
-            "while the tool {tool:?} moved the organ, {asked:.0} points of it lay beside neighbours or itself, and the \
+            "while the tool {tool:?} moved the organ, {unbounded:.0} points of it lay beside neighbours or itself, and the \
              {used:.0} nearest were kept out of them {when}: set `model.nodes` lower, or fewer neighbours that collide"
         ),
         Limit::LostContact => format!(
             "while the tool {tool:?} moved the organ, a part of it went {:.1} mm deep into a neighbour that bends or into \
              itself, and nothing pushed it out there {when}: move slower, or set `model.nodes` higher",
-            1e3 * asked
+            1e3 * unbounded
         ),
         Limit::Carried => format!(
             "what the other tool moves the organ by under the tip {tool:?} was taken as {used:.2} of what it moves it by \
-             under itself, where its model asks for {asked:.2}, {when}: the tips are on the same spot, or deep beside \
+             under itself, where its model asks for {unbounded:.2}, {when}: the tips are on the same spot, or deep beside \
              each other; keep them apart"
         ),
     }

@@ -106,7 +106,7 @@ impl Neighbour {
             tree: &self.tree,
             patches: &self.patches[tool],
             radius: self.radius,
-            further: None,
+            structural_compliance: None,
         }
     }
 }
@@ -147,7 +147,7 @@ impl ToolState {
         let frame = contact.frame();
         let mut force = frame * (-stiffness * contact.displacement(tool, tip));
         contact.slide(tool, &mut force);
-        let along = match tool.bond {
+        let along = match tool.tip_friction {
             Friction::Bonded if !contact.slides => stiffness,
             Friction::Bonded | Friction::Frictionless => 0.0,
         };

@@ -7,13 +7,13 @@ use crate::summary::{Summary, Tally};
 use crate::{Error, Simulation, SimulationState, SimulationWorkspace, step};
 
 /// A motion with more steps than this is probably a typing error: 55 hours at 200 Hz.
-const MOST_STEPS: u64 = 40_000_000;
+const MAX_STEPS: u64 = 40_000_000;
 
 /// Whether to continue after a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Flow {
     /// Continue with the next step.
-    GoOn,
+    Continue,
     /// End here; the steps so far count.
     Stop,
 }
@@ -136,13 +136,13 @@ fn match_tools<'m>(
 
 fn whole_steps(simulation: &Simulation, duration: f64) -> Result<u64, Error> {
     let steps = (duration / simulation.step + 1e-6).floor();
-    if steps < MOST_STEPS as f64 {
+    if steps < MAX_STEPS as f64 {
         return Ok(steps as u64);
     }
     Err(Error::TooLong {
         duration,
         step: simulation.step,
         steps: steps.min(u64::MAX as f64) as u64,
-        most: MOST_STEPS,
+        most: MAX_STEPS,
     })
 }

@@ -18,7 +18,7 @@ pub(crate) struct NearestOnLine {
     /// Arc length of it along the line [m].
     pub(crate) along: f64,
     /// From it to the other point [m].
-    pub(crate) aside: Vec3,
+    pub(crate) offset: Vec3,
     /// Whether the other point is inside the line; none for an open one.
     pub(crate) is_inside: Option<bool>,
 }
@@ -90,7 +90,7 @@ impl Polyline {
     pub(crate) fn nearest(&self, place: &Vec3) -> NearestOnLine {
         let mut found = NearestOnLine {
             along: 0.0,
-            aside: Vec3::repeat(f64::INFINITY),
+            offset: Vec3::repeat(f64::INFINITY),
             is_inside: None,
         };
         for piece in self.points.windows(2) {
@@ -102,14 +102,14 @@ impl Polyline {
             } else {
                 0.0
             };
-            let aside = place - (from + segment * part);
-            if aside.norm_squared() < found.aside.norm_squared() {
+            let offset = place - (from + segment * part);
+            if offset.norm_squared() < found.offset.norm_squared() {
                 // A closed line runs counter-clockwise about its enclosed area.
                 let outward = self.enclosed.map(|enclosed| segment.cross(&enclosed));
                 found = NearestOnLine {
                     along: start + (stop - start) * part,
-                    aside,
-                    is_inside: outward.map(|outward| aside.dot(&outward) < 0.0),
+                    offset,
+                    is_inside: outward.map(|outward| offset.dot(&outward) < 0.0),
                 };
             }
         }
@@ -143,9 +143,9 @@ mod tests {
                 (near.along - part * line.length()).abs() < tolerance,
                 "{part}"
             );
-            let aside: f64 = near.aside.xy().norm();
-            assert!((aside - off.abs()).abs() < 5e-4 * radius, "{part}");
-            assert!((near.aside.z + 0.002).abs() < 1e-15, "{part}");
+            let offset: f64 = near.offset.xy().norm();
+            assert!((offset - off.abs()).abs() < 5e-4 * radius, "{part}");
+            assert!((near.offset.z + 0.002).abs() < 1e-15, "{part}");
             assert_eq!(near.is_inside, Some(off < 0.0), "{part}");
         }
         let pieces = line.pieces(0.9 * line.length(), line.length());
@@ -162,7 +162,7 @@ mod tests {
         assert!((line.at(0.032) - Vec3::x() * 0.032).norm() < 1e-15);
         let near = line.nearest(&Vec3::new(0.034, 0.003, 0.0));
         assert_eq!((near.along, near.is_inside), (0.03, None));
-        assert!((near.aside.norm() - 0.005).abs() < 1e-15);
+        assert!((near.offset.norm() - 0.005).abs() < 1e-15);
         assert_eq!(line.pieces(0.01, 0.03).len(), 1);
     }
 }

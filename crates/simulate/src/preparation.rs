@@ -91,6 +91,6 @@ pub(crate) fn report_progress(
 ) -> Result<(), Error> {
     match on_progress(progress) {
         ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(palpate_mechanics::Error::BrokenOff.into()),
+        ControlFlow::Break(()) => Err(palpate_mechanics::Error::Cancelled.into()),
     }
 }

@@ -68,7 +68,7 @@ impl Replay {
         if was.step_s != is.step_s {
             return Err(other("step [s]", &was.step_s, &is.step_s));
         }
-        if !simulation.scene_digest.is(&was.scene_digest) {
+        if !simulation.scene_digest.matches(&was.scene_digest) {
             return Err(other("scene", &was.scene_digest, &is.scene_digest));
         }
         let number = |name: &String| {
@@ -178,7 +178,7 @@ impl Replay {
         let time = rows[0].time_s;
         let mut before = self.played.checked_sub(1).map(|last| recorded.time(last));
         let happened = |event| rows.iter().any(|row| row.events.contains(event));
-        if happened(Event::BeginAnew) {
+        if happened(Event::Restart) {
             self.state.reset(&recorded.simulation);
             before = None;
         }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use palpate_files::scene::Task;
 use palpate_files::{
-    Claim, Scene, Session, SessionHeader, SessionRow, SessionWriter, unfinished, write_whole,
+    Claim, Scene, Session, SessionHeader, SessionRow, SessionWriter, unfinished, write_atomically,
 };
 
 use crate::digest::differ;
@@ -57,7 +57,7 @@ impl SessionFolderWriter {
     ) -> Result<Self, Error> {
         folder.check([SESSION, SCENE])?;
         if let Some(text) = scene {
-            write_whole(unfinished(folder.path().join(SCENE)), text.as_bytes())?;
+            write_atomically(unfinished(folder.path().join(SCENE)), text.as_bytes())?;
         }
         Ok(Self {
             session: SessionWriter::create(folder.path().join(SESSION), header, tools)?,

@@ -130,7 +130,7 @@ impl Simulation {
                 let own = std::iter::once(&organ_surface);
                 let all: Vec<_> = own.chain(bodies.iter().map(|body| &body.surface)).collect();
                 let misplaced = |fault| Error::Misplaced { fault };
-                let surface = Surface::together(&all).map_err(misplaced)?;
+                let surface = Surface::merged(&all).map_err(misplaced)?;
                 let tree = AabbTree::new(surface.mesh());
                 (surface, tree)
             }
@@ -207,7 +207,7 @@ impl Simulation {
                 // It cannot be cancelled, and takes seconds.
                 let _ = on_progress(Progress { work, part });
             };
-            warnings.extend(body.meet(scene, &tools, at_step)?);
+            warnings.extend(body.compute_forces(scene, &tools, at_step)?);
         }
         warnings.extend(tip_laws::stiffen(&mut tools, &touched, &mut |part| {
             let work = Work::ForceOverDepth;
@@ -368,7 +368,7 @@ impl Simulation {
     /// Whether the displayed surface has a mesh of its own, finer than the mechanical one.
     pub fn is_carried(&self) -> bool {
         let global = self.global.as_ref();
-        global.is_some_and(|global| global.enhancement.is_finer())
+        global.is_some_and(|global| global.enhancement.has_finer_display())
     }
 
     /// Length of a step [s].

@@ -27,7 +27,7 @@ pub struct SimulationState {
     /// The deformed organ.
     pub deformed: TriangleMesh,
     /// The displacement field of the organ-scale model, if there is one.
-    pub whole: Option<OrganField>,
+    pub organ_field: Option<OrganField>,
     /// The state of the nonlinear model, if there is one.
     pub(crate) body: Option<Body>,
     /// Its cuts, if anything can cut it.
@@ -106,9 +106,9 @@ pub struct ToolState {
     pub(crate) solved: Vec3,
     pub(crate) moved: Moved,
     /// Position of its tip relative to the organ at rest [m], if it touched nothing in the step before.
-    pub(crate) met: Option<Vec3>,
+    pub(crate) free_position: Option<Vec3>,
     /// Displacement of the organ at its tip that it causes alone, without all others [m].
-    pub(crate) moves: f64,
+    pub(crate) self_displacement: f64,
     /// Its pressing state in the last step.
     pub(crate) pressed: Option<Pressed>,
     /// The part of it that a half-space would yield [m].
@@ -168,7 +168,7 @@ impl SimulationState {
                 .as_ref()
                 .map(|model| Cuts::new(simulation, model)),
             deformed: rest.clone(),
-            whole: OrganField::at_rest(simulation),
+            organ_field: OrganField::at_rest(simulation),
             body: simulation
                 .nonlinear
                 .as_ref()
@@ -194,7 +194,7 @@ impl SimulationState {
         let Self {
             tools,
             deformed,
-            whole,
+            organ_field: whole,
             body,
             cuts,
             estimated: _,
@@ -321,8 +321,8 @@ impl ToolState {
             displaced: Vec3::zeros(),
             solved: Vec3::zeros(),
             moved: Moved::default(),
-            met: None,
-            moves: 0.0,
+            free_position: None,
+            self_displacement: 0.0,
             pressed: None,
             own: Vec3::zeros(),
             off_model: false,

@@ -62,7 +62,7 @@ pub fn touch(
         let organ = state.bent_organ();
         let (tip, on) = at_rest(simulation, number, pose.as_ref(), state).unzip();
         let own = &mut state.tools[number];
-        own.met = tip.filter(|_| own.contact.is_none());
+        own.free_position = tip.filter(|_| own.contact.is_none());
         let is_reached = |contact: &Contact| match (&organ, on.flatten()) {
             (Some(organ), Some(on)) => organ.is_reached(simulation, on, contact),
             _ => true,
@@ -171,7 +171,7 @@ fn detect(
     let touched = state.touches();
     let mut events = grip::follow(tool, pose, state);
     state.pose = pose;
-    let tip = tip.filter(|_| !state.holds());
+    let tip = tip.filter(|_| !state.is_grasping());
     state.contact = tip.and_then(|tip| {
         let last = state.contact.as_ref();
         let rest = simulation.rest_surface(tool);
@@ -184,9 +184,9 @@ fn detect(
             state.history_frame = None;
             state.forget_elsewhere(tool, &contact.point());
             // Where a tip begins to stick there is no shear yet, whatever the shear before.
-            state.history.keep_along(&contact.normal());
+            state.history.project_onto(&contact.normal());
         }
-        (true, None) if !state.holds() => events.insert(Event::Release),
+        (true, None) if !state.is_grasping() => events.insert(Event::Release),
         _ => {}
     }
     let beyond = state.contact.is_some_and(|c| c.depth > TRUSTED_DEPTH);
@@ -319,7 +319,7 @@ fn render_force(
         .advance(&simulation.material.prony, state.elastic, elapsed);
     state.force = Vec3::zeros();
     state.with_pull = Vec3::zeros();
-    let held = state.grip.hold.as_ref().map(|hold| hold.displayed.place);
+    let held = state.grip.grasp.as_ref().map(|hold| hold.displayed.place);
     let Some(here) = held.or(state.contact.map(|contact| contact.point())) else {
         return Events::NONE;
     };
@@ -342,7 +342,7 @@ fn render_force(
     let slides = contact.slides;
     contact.slide(tool, &mut relaxed);
     contact.slides |= slides;
-    state.with_pull = match tool.bond {
+    state.with_pull = match tool.tip_friction {
         Friction::Bonded => relaxed,
         // The history of a slide has other normals in it; nevertheless there is no friction.
         Friction::Frictionless => normal * outward,
@@ -351,7 +351,7 @@ fn render_force(
         state.force = state.with_pull;
     } else {
         // The tip sticks anew where it is pressed again: there is no shear yet.
-        state.history.keep_along(&normal);
+        state.history.project_onto(&normal);
     }
     Events::NONE
 }
@@ -384,7 +384,7 @@ fn record(simulation: &Simulation, tool: &Tool, time: f64, failed: Events, state
         return;
     };
     let tip = Vec3::from(pose.position_m);
-    let turned = match &state.grip.hold {
+    let turned = match &state.grip.grasp {
         Some(hold) => *hold.turned(),
         None => {
             let normal = state.contact.map(|contact| contact.normal());
@@ -392,7 +392,7 @@ fn record(simulation: &Simulation, tool: &Tool, time: f64, failed: Events, state
             orientation::orientation(&tip, trocar, pose.orientation, normal.as_ref())
         }
     };
-    let held_depth = state.holds().then(|| {
+    let held_depth = state.is_grasping().then(|| {
         let (_, signed) = simulation.surface.signed_distance(&simulation.tree, &tip);
         (tool.overhang() - signed).max(0.0)
     });
@@ -417,7 +417,7 @@ fn show_cuts(simulation: &Simulation, time: f64, state: &mut SimulationState) {
     let (Some(model), Some(cuts)) = (&simulation.cutting, &mut state.cuts) else {
         return;
     };
-    if cuts.is_behind() || due && cuts.are_there() {
+    if cuts.is_outdated() || due && cuts.has_openings() {
         state.cuts_shown_at = time;
         let rims = state.body.iter().flat_map(Body::rims);
         cuts.follow(simulation, state.deformed.vertices(), rims, model.width);

@@ -10,7 +10,7 @@ use crate::tool::Tool;
 
 /// Iterations, of which most are never needed: each leaves a third of the change at most, if an inclusion makes the tip
 /// no more than twice as stiff.
-const MOST_ROUNDS: usize = 40;
+const MAX_ROUNDS: usize = 40;
 
 /// Relative change of the force that ends the iterations [-].
 const SETTLED: f64 = 1e-10;
@@ -38,7 +38,7 @@ impl Tool {
         };
         let mut found = solve(self.typical_radius);
         let mut change = 0.0;
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..MAX_ROUNDS {
             let before = found.0.force.z;
             found = solve(self.touching_radius(around, before.max(0.0)));
             change = (found.0.force.z - before).abs() / before.abs().max(f64::MIN_POSITIVE);
@@ -49,7 +49,7 @@ impl Tool {
         let (mut answer, compliance, growth) = found;
         if change > SETTLED {
             let reached = Reached {
-                asked: change,
+                unbounded: change,
                 used: SETTLED,
             };
             answer.limits.add(Limit::Coupling, reached);

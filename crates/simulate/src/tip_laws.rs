@@ -22,7 +22,7 @@ pub(crate) fn stiffen(
         if tissue.elasticity.law() == LawName::Linear {
             continue;
         }
-        let (tip, bond) = (tool.tip, tool.bond);
+        let (tip, bond) = (tool.tip, tool.tip_friction);
         let alike = |(other, bonded, elasticity, _): &&(Tip, Friction, Elasticity, Stiffening)| {
             std::mem::discriminant(other) == std::mem::discriminant(&tip)
                 && *bonded == bond

@@ -26,11 +26,11 @@ pub struct Tool {
     /// Its tip.
     pub tip: Tip,
     /// Whether the surface can slide along the tip.
-    pub bond: Friction,
+    pub tip_friction: Friction,
     /// Coulomb friction coefficient of a tip that sticks [-]; none if it never slides.
     pub friction: Option<f64>,
     /// Its display mesh in its own frame [m], if it differs from that of its kind.
-    pub look: Option<Arc<TriangleMesh>>,
+    pub display_mesh: Option<Arc<TriangleMesh>>,
     /// The force of the tissue on it.
     pub(crate) law: TipLaw,
     /// Its jaws, if it can hold tissue.
@@ -49,7 +49,7 @@ pub struct Tool {
     pub(crate) inclusions: InclusionTable,
     /// The organ's compliance beyond a half-space under this tip at each vertex [1/m], for the local model; none if
     /// unknown.
-    pub(crate) further: Option<Arc<[Matrix3<f64>]>>,
+    pub(crate) structural_compliance: Option<Arc<[Matrix3<f64>]>>,
     /// Typical radius of the contact area [m].
     pub(crate) typical_radius: f64,
 }
@@ -79,9 +79,9 @@ impl Tool {
         Ok(Self {
             name: tool.name.clone(),
             kind: tool.kind,
-            look: look(tool)?,
+            display_mesh: display_mesh(tool)?,
             tip,
-            bond,
+            tip_friction: bond,
             friction: tool.tip.friction,
             law: TipLaw::linear(tip, bond, *law),
             jaws: tool.jaws.filter(|_| tool.kind == scene::ToolKind::Grasper),
@@ -98,7 +98,7 @@ impl Tool {
             placement: settings.placement,
             field: None,
             inclusions: InclusionTable::default(),
-            further: None,
+            structural_compliance: None,
             typical_radius: typical,
             model,
         })
@@ -115,7 +115,7 @@ impl Tool {
 
     /// Whether its tip can slide along the surface.
     pub(crate) fn slides(&self) -> bool {
-        self.bond == Friction::Frictionless || self.friction.is_some()
+        self.tip_friction == Friction::Frictionless || self.friction.is_some()
     }
 
     /// Radius of the contact area [m] under this force [N] on tissue of this law.
@@ -148,7 +148,7 @@ pub(crate) fn typical_radius(tip: &scene::Tip) -> f64 {
 }
 
 /// The display mesh of a tool from its file, if it has one.
-fn look(tool: &scene::Tool) -> Result<Option<Arc<TriangleMesh>>, Error> {
+fn display_mesh(tool: &scene::Tool) -> Result<Option<Arc<TriangleMesh>>, Error> {
     let Some(mesh) = &tool.mesh else {
         return Ok(None);
     };

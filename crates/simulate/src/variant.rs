@@ -53,7 +53,7 @@ fn point_on(surface: &Surface, on: &OnSurface, [which, u, v]: [f64; 3]) -> Optio
         let span = spanned(&corners);
         let area = span.norm();
         let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
-        if area > 0.0 && on.holds(middle.into(), (span / area).into()) {
+        if area > 0.0 && on.contains(middle.into(), (span / area).into()) {
             total += area;
             sums.push((total, corners));
         }

@@ -6,16 +6,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use image::RgbaImage;
-use palpate_files::{Scene, scene, write_whole};
+use palpate_files::{Scene, scene, write_atomically};
 use palpate_geometry::{Surface, TriangleMesh, Vec3};
 use palpate_simulate::interactive::OpenedSnapshot;
 use palpate_simulate::{Frame, Simulation, SimulationState, read_neighbour};
 
+use crate::displayed_organ::DisplayedOrgan;
 use crate::render::{
     Body, Label, LabelTarget, Labels, Looks, Renderer, Target, Tint, ToolPicture, View,
     single_precision,
 };
-use crate::seen_organ::SeenOrgan;
 use crate::{Error, Gpu, TissuePicture, scene_camera};
 
 /// Width and height of a frame [pixels].
@@ -28,16 +28,16 @@ pub struct Studio {
     /// How it is looked at.
     pub view: View,
     renderer: Renderer,
-    organ: SeenOrgan,
+    organ: DisplayedOrgan,
     neighbours: Vec<Body>,
-    tools: Vec<SeenTool>,
+    tools: Vec<DisplayedTool>,
     target: Target,
     /// Once labels were asked for.
     labels: Option<LabelTarget>,
     surface: Surface,
     opened: OpenedSnapshot,
     /// Bodies drawn with the organ, such as its wire frame.
-    pub beside: Vec<Body>,
+    pub other_bodies: Vec<Body>,
 }
 
 impl Studio {
@@ -75,14 +75,14 @@ impl Studio {
         let (low, high) = mesh.bounds();
         Ok(Self {
             renderer: Renderer::new(&gpu),
-            organ: SeenOrgan::new(&gpu, simulation, Tint::of(&scene.organ.shape))?,
+            organ: DisplayedOrgan::new(&gpu, simulation, Tint::of(&scene.organ.shape))?,
             neighbours,
             tools: seen_tools(scene, simulation),
             target: Target::new(&gpu, size, 4),
             labels: None,
             surface: simulation.surface().clone(),
             opened: OpenedSnapshot::default(),
-            beside: Vec::new(),
+            other_bodies: Vec::new(),
             view: View {
                 camera: scene_camera(&scene.view, mesh, None, aspect),
                 shading: scene.view.shading,
@@ -164,7 +164,7 @@ impl Studio {
             }
             None => self
                 .organ
-                .deform(&self.gpu, &vertices, state.whole.as_ref()),
+                .deform(&self.gpu, &vertices, state.organ_field.as_ref()),
         }
     }
 
@@ -172,7 +172,7 @@ impl Studio {
         let bodies: Vec<&Body> = self
             .organ
             .bodies()
-            .chain(&self.beside)
+            .chain(&self.other_bodies)
             .chain(&self.neighbours)
             .collect();
         let tools = tool_pictures(&self.tools, state);
@@ -183,15 +183,18 @@ impl Studio {
 }
 
 /// A tool of a scene, and what it looks like if not as its kind does.
-pub type SeenTool = (scene::Tool, Option<Arc<TriangleMesh>>);
+pub type DisplayedTool = (scene::Tool, Option<Arc<TriangleMesh>>);
 
-fn seen_tools(scene: &Scene, simulation: &Simulation) -> Vec<SeenTool> {
-    let looks = simulation.tools().iter().map(|tool| tool.look.clone());
+fn seen_tools(scene: &Scene, simulation: &Simulation) -> Vec<DisplayedTool> {
+    let looks = simulation
+        .tools()
+        .iter()
+        .map(|tool| tool.display_mesh.clone());
     scene.tools.iter().cloned().zip(looks).collect()
 }
 
 /// The tools that are there, as a state has them.
-pub fn tool_pictures(tools: &[SeenTool], state: &SimulationState) -> Vec<ToolPicture> {
+pub fn tool_pictures(tools: &[DisplayedTool], state: &SimulationState) -> Vec<ToolPicture> {
     tools
         .iter()
         .zip(&state.tools)
@@ -259,7 +262,7 @@ impl FrameWriter {
         }
         let picture = self.studio.picture(frame.state)?;
         let path = self.folder.join(format!("frame-{:04}.png", count + 1));
-        write_whole(&path, &png(&picture)?)?;
+        write_atomically(&path, &png(&picture)?)?;
         self.written.push(path);
         Ok(())
     }

@@ -5,6 +5,8 @@
 
 mod animation;
 mod camera;
+mod displayed_cut;
+mod displayed_organ;
 mod error;
 mod frame;
 mod gpu;
@@ -15,8 +17,6 @@ mod orbit;
 mod pick;
 mod render;
 pub mod rig;
-mod seen_cut;
-mod seen_organ;
 mod style;
 mod window;
 
@@ -25,7 +25,7 @@ pub use image::RgbaImage;
 pub use animation::Animation;
 pub use camera::{Camera, Lamp};
 pub use error::Error;
-pub use frame::{FRAME_SIZE, FrameWriter, SeenTool, Studio, png, tool_pictures};
+pub use frame::{DisplayedTool, FRAME_SIZE, FrameWriter, Studio, png, tool_pictures};
 pub use gpu::Gpu;
 pub use opened_surface::OpenedSurface;
 pub use orbit::{Orbit, scene_camera, scene_endoscope};

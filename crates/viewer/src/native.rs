@@ -36,7 +36,7 @@ pub(crate) fn open<App: eframe::App + 'static>(
     let failure: Arc<Mutex<Option<Error>>> = Arc::default();
     let shared_failure = failure.clone();
     let make: eframe::AppCreator<'_> = Box::new(move |context| {
-        style::dress(&context.egui_ctx);
+        style::apply(&context.egui_ctx);
         match make(context) {
             Ok(window) => Ok(Box::new(window) as Box<dyn eframe::App>),
             Err(error) => {

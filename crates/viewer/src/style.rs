@@ -45,7 +45,7 @@ pub(crate) const STOP_HINT: &str =
     "no force at once (space bar); it stays so until it is armed again";
 
 /// Dark, so that the organ is what is bright.
-pub(crate) fn dress(context: &egui::Context) {
+pub(crate) fn apply(context: &egui::Context) {
     let mut visuals = Visuals::dark();
     // The window is cleared to their ground, which costs less than to fill them where the processor draws.
     visuals.panel_fill = Color32::TRANSPARENT;

@@ -50,8 +50,11 @@ fn assert_same(scene: &str, poses: &[Vec<ToolPose>]) -> u32 {
             assert_eq!(touch.gradient_n_per_m, rows.as_slice());
             let point = own.contact.map_or(Vec3::zeros(), |contact| contact.point());
             assert_eq!(touch.point_m, <[f64; 3]>::from(point));
-            assert_eq!(touch.contact != 0, own.contact.is_some() || own.holds());
-            assert_eq!(touch.holds != 0, own.holds());
+            assert_eq!(
+                touch.contact != 0,
+                own.contact.is_some() || own.is_grasping()
+            );
+            assert_eq!(touch.holds != 0, own.is_grasping());
             assert_eq!(touch.orientation, own.row.orientation);
             assert_eq!(touch.grip_force_n, own.grip_force);
             assert_eq!(touch.torque_nm, <[f64; 3]>::from(own.torque));
@@ -65,7 +68,7 @@ fn assert_same(scene: &str, poses: &[Vec<ToolPose>]) -> u32 {
     let Shape {
         vertices, corners, ..
     } = hand.shape();
-    let cuts = state.cuts.as_ref().filter(|cuts| cuts.are_there());
+    let cuts = state.cuts.as_ref().filter(|cuts| cuts.has_openings());
     let (places, mesh) = match cuts {
         Some(cuts) => (cuts.places(), cuts.mesh()),
         None => (state.deformed.vertices(), &state.deformed),

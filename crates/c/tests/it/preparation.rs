@@ -67,7 +67,7 @@ fn it_is_cancelled() {
     let status = prepare(&mut heard, None).unwrap_err();
     assert_eq!(status, Status::PalpateFailed, "{}", message());
     println!("{}", message());
-    assert_eq!(message(), palpate_mechanics::Error::BrokenOff.to_string());
+    assert_eq!(message(), palpate_mechanics::Error::Cancelled.to_string());
 }
 
 #[test]

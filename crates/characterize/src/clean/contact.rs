@@ -33,7 +33,7 @@ const ABOVE_NOISE: f64 = 20.0;
 /// Samples on the rise that are looked at besides.
 const ON_THE_RISE: usize = 5;
 /// Samples looked at; of more, every second, third and so on.
-const MOST_SAMPLES: usize = 20_000;
+const MAX_SAMPLES: usize = 20_000;
 /// Standard errors from which a drift is reported [-]: one in 16,000 by chance.
 const CERTAIN: f64 = 4.0;
 /// What a drift may leave, in deviations of the noise [-].
@@ -145,7 +145,8 @@ fn is_any_power(header: &RecordingHeader) -> bool {
 /// The contact where the force begins to rise.
 pub(super) fn by_force(samples: &Oriented, header: &RecordingHeader) -> Result<Contact, Error> {
     let shape = header.indenter_shape;
-    if !noise::stands_out(&samples.force) || rise(&noise::without_spikes(&samples.force)) <= 0.0 {
+    if !noise::exceeds_noise(&samples.force) || rise(&noise::without_spikes(&samples.force)) <= 0.0
+    {
         return Err(Error::NoContact {
             cause: "the force never rises above its noise",
         });
@@ -170,7 +171,7 @@ pub(super) fn by_force(samples: &Oriented, header: &RecordingHeader) -> Result<C
 
 /// The samples of a range, of many every second, third and so on, and which.
 pub(super) fn thinned(samples: &Oriented, range: Range<usize>) -> (Approach, usize) {
-    let every = range.len().div_ceil(MOST_SAMPLES).max(1);
+    let every = range.len().div_ceil(MAX_SAMPLES).max(1);
     let of = |values: &[f64]| -> Vec<f64> {
         let own = values[range.clone()].iter();
         own.step_by(every).copied().collect()

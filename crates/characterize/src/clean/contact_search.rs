@@ -7,9 +7,9 @@ pub(super) const CHI_SQUARED: f64 = 3.84;
 /// What tissue may differ from a power of the depth by, in parts of the range of force [-].
 const MODEL: f64 = 0.02;
 /// Least noise, in parts of the range of force [-].
-const LEAST_NOISE: f64 = 1e-6;
+const MIN_NOISE: f64 = 1e-6;
 /// The fewest blocks of samples whose means estimate the correlation of noise.
-const LEAST_BLOCKS: usize = 8;
+const MIN_BLOCKS: usize = 8;
 /// Way that is none, in parts of the range of depth [-].
 const STILL: f64 = 1e-4;
 /// The fewest samples before contact that determine a drift.
@@ -105,7 +105,7 @@ impl<'s> Search<'s> {
         Self {
             samples,
             sums,
-            noise: noise::deviation(force).max(LEAST_NOISE * range).powi(2),
+            noise: noise::deviation(force).max(MIN_NOISE * range).powi(2),
             model: (MODEL * range).powi(2),
             baseline,
             rises,
@@ -248,7 +248,7 @@ pub(super) fn correlation(values: &[f64]) -> f64 {
     };
     let single = variance(values);
     let lengths = std::iter::successors(Some(2), |length| Some(2 * length));
-    let lengths = lengths.take_while(|length| values.len() / length >= LEAST_BLOCKS);
+    let lengths = lengths.take_while(|length| values.len() / length >= MIN_BLOCKS);
     let ratio = lengths.map(|length| {
         let means = values
             .chunks_exact(length)

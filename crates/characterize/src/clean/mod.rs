@@ -29,7 +29,7 @@ pub use contact::Contact;
 pub(crate) use contact::rising_contact;
 pub(crate) use contact_search::Approach;
 pub use filter::LowPass;
-pub(crate) use motion::Moving;
+pub(crate) use motion::MovingTissue;
 use oriented::Oriented;
 pub use ripple::Ripple;
 pub use sampling::Sampling;
@@ -73,14 +73,14 @@ pub struct CleanRecording {
     /// What the indenter did, in the order of time; rests out of the tissue are left out.
     pub segments: Vec<Segment>,
     /// What was found and done on the way.
-    pub handling: Handling,
+    pub handling: CleaningReport,
     /// What was done to it and warnings, in plain sentences.
     pub warnings: Vec<String>,
 }
 
 /// What was found and done on the way to a clean recording.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Handling {
+pub struct CleaningReport {
     /// The first contact.
     pub contact: Contact,
     /// How the samples lie in time.
@@ -146,11 +146,11 @@ pub fn clean(recording: &Recording, settings: &CleanSettings) -> Result<CleanRec
         force: shifted(&samples.force, contact.offset_n),
         filtered_force: Vec::new(),
         segments: Vec::new(),
-        handling: Handling {
+        handling: CleaningReport {
             contact,
             sampling,
             signs: samples.signs,
-            ..Handling::default()
+            ..CleaningReport::default()
         },
         warnings,
     };
@@ -198,7 +198,7 @@ impl CleanRecording {
         if let Some(ripple) = &self.handling.ripple
             && settings.removes_ripple
         {
-            ripple.take_out(&self.time, &mut force);
+            ripple.remove(&self.time, &mut force);
         }
         let cutoff = settings.cutoff_hz.unwrap_or_else(|| self.usual_cutoff());
         self.filtered_force = self.handling.sampling.smooth(&self.time, &force, cutoff)?;
@@ -245,8 +245,8 @@ impl CleanRecording {
         self.moving()?.amplitude()
     }
 
-    fn moving(&self) -> Option<Moving<'_>> {
-        Some(Moving {
+    fn moving(&self) -> Option<MovingTissue<'_>> {
+        Some(MovingTissue {
             time: &self.time,
             depth: &self.depth,
             force: &self.force,

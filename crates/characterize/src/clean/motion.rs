@@ -9,7 +9,7 @@ const BEGINNING: f64 = 0.1;
 
 /// A press of tissue that moves by itself.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Moving<'a> {
+pub(crate) struct MovingTissue<'a> {
     /// Times [s], ascending.
     pub(crate) time: &'a [f64],
     /// Depths [m].
@@ -24,12 +24,12 @@ pub(crate) struct Moving<'a> {
     pub(crate) shape: Option<IndenterShape>,
 }
 
-impl Moving<'_> {
+impl MovingTissue<'_> {
     /// The force [N] as if the tissue did not move: without the swing of the hold, which is taken to go on in the ramp before it
     /// as the stiffness of an elastic contact grows with the depth.
     pub(crate) fn force_at_rest(&self) -> Vec<f64> {
         let (mut force, ripple) = (self.force.to_vec(), self.ripple);
-        ripple.take_out(self.time, &mut force);
+        ripple.remove(self.time, &mut force);
         let hold_depth = self.depth[ripple.first];
         let ramp = self.segments.iter().find(|own| own.end == ripple.first);
         for sample in ramp.map_or(0..0, |ramp| ramp.first..ramp.end) {

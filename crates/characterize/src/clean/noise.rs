@@ -49,7 +49,7 @@ pub(super) fn step(values: &[f64]) -> f64 {
 }
 
 /// Whether the values go anywhere beyond their noise.
-pub(super) fn stands_out(values: &[f64]) -> bool {
+pub(super) fn exceeds_noise(values: &[f64]) -> bool {
     let length = values.len().div_ceil(PARTS);
     let means = values
         .chunks(length)

@@ -56,7 +56,7 @@ impl Ripple {
     }
 
     /// Takes it out of the `force` [N] of its hold at these times [s].
-    pub(super) fn take_out(&self, time: &[f64], force: &mut [f64]) {
+    pub(super) fn remove(&self, time: &[f64], force: &mut [f64]) {
         let hold = self.first..self.end;
         for (value, time) in force[hold.clone()].iter_mut().zip(&time[hold]) {
             *value -= self.force(*time);

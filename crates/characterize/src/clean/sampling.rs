@@ -8,7 +8,7 @@ const GAP: f64 = 3.0;
 /// Intervals that differ by less than this part are even [-].
 const EVEN: f64 = 0.05;
 /// Most points of an even grid.
-const MOST_POINTS: f64 = 2e6;
+const MAX_POINTS: f64 = 2e6;
 
 /// The intervals between the samples of a recording.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -67,7 +67,7 @@ impl Sampling {
             return Ok(filter.smooth(values));
         }
         let (start, end) = (times[0], times[times.len() - 1]);
-        let points = ((end - start) / self.shortest).ceil().min(MOST_POINTS);
+        let points = ((end - start) / self.shortest).ceil().min(MAX_POINTS);
         let step = (end - start) / points;
         let grid: Vec<f64> = (0..=points as usize)
             .map(|i| start + i as f64 * step)

@@ -29,13 +29,13 @@ const HOLD: usize = 48;
 
 /// One guess under a flat punch that it sticks to, whose curve is known for every radius: force is a² f(d/a).
 #[derive(Debug, Clone)]
-pub struct Expecting {
+pub struct ExpectedCurve {
     guess: Guess,
     /// Of an indenter of unit radius.
     curve: UnitCurve,
 }
 
-impl Expecting {
+impl ExpectedCurve {
     /// Of `guess`, pressed to `deepest` radii [-]; runs finite elements where the force is not tabulated.
     ///
     /// # Errors

@@ -18,16 +18,16 @@ mod search;
 
 use palpate_mechanics::PronySeries;
 
-use crate::inverse::{SoughtLaw, ZeroErrors};
+use crate::inverse::{CandidateLaw, ZeroErrors};
 
-pub use expected::{ExpectedParameter, Expecting};
-pub use search::{Criterion, Designed, design};
+pub use expected::{ExpectedCurve, ExpectedParameter};
+pub use search::{Criterion, OptimizedProtocol, design};
 
 /// A tissue as it may be.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Guess {
     /// The law.
-    pub law: SoughtLaw,
+    pub law: CandidateLaw,
     /// Its modulus [Pa].
     pub modulus: f64,
     /// Its shapes [-].

@@ -1,4 +1,4 @@
-use super::expected::{ExpectedParameter, Expecting};
+use super::expected::{ExpectedCurve, ExpectedParameter};
 use super::{Instrument, Limits, Presses};
 use crate::Error;
 
@@ -13,7 +13,7 @@ pub enum Criterion {
 
 /// A protocol that was found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Designed {
+pub struct OptimizedProtocol {
     /// The protocol.
     pub presses: Presses,
     /// Its expected parameters at the first guess.
@@ -31,7 +31,7 @@ const RAMPS: [f64; 5] = [1.0, 2.0, 4.0, 8.0, 16.0];
 /// Part of a press that is a ramp, at most [-].
 const RAMP: f64 = 0.25;
 /// Most radii that a depth is trusted to [-]: beyond, elements decide what tissue does at the edge of a punch.
-pub(super) const MOST_RADII: f64 = 5.5;
+pub(super) const MAX_RADII: f64 = 5.5;
 
 /// The protocol within `limits` from which the parameters `wanted` are expected to be known best, of tissue as any of
 /// `guesses`; `at_part` receives the part that is done [-].
@@ -39,13 +39,13 @@ pub(super) const MOST_RADII: f64 = 5.5;
 /// # Errors
 /// When a parameter is not one of the guesses, or no protocol keeps within the limits.
 pub fn design(
-    guesses: &[Expecting],
+    guesses: &[ExpectedCurve],
     instrument: &Instrument,
     limits: &Limits,
     wanted: &[String],
     criterion: Criterion,
     at_part: &mut dyn FnMut(f64),
-) -> Result<Designed, Error> {
+) -> Result<OptimizedProtocol, Error> {
     let all = candidates(limits);
     let mut best: Option<(f64, f64, Presses)> = None;
     let mut compared = 0;
@@ -66,7 +66,7 @@ pub fn design(
     }
     let (_, worst, presses) = best.ok_or(Error::NoDesign)?;
     let first = guesses.first().ok_or(Error::NoDesign)?;
-    Ok(Designed {
+    Ok(OptimizedProtocol {
         expected: first.expected(&presses, instrument)?.0,
         presses,
         worst,
@@ -76,7 +76,7 @@ pub fn design(
 
 /// The score of a protocol and its worst interval; none where it is not below `most`.
 fn score(
-    guesses: &[Expecting],
+    guesses: &[ExpectedCurve],
     presses: &Presses,
     instrument: &Instrument,
     wanted: &[String],
@@ -127,7 +127,7 @@ fn candidates(limits: &Limits) -> Vec<Presses> {
                 .iter()
                 .flat_map(|part| least.iter().map(move |l| (part, l)))
             {
-                let deepest = part * limits.depth.min(MOST_RADII * radius);
+                let deepest = part * limits.depth.min(MAX_RADII * radius);
                 let step = (1.0 - least) / (count.max(2) - 1) as f64;
                 let depths: Vec<f64> = (0..count)
                     .map(|i| deepest * (1.0 - step * (count - 1 - i) as f64))

@@ -12,7 +12,7 @@ pub fn information_criterion(fit: &Fit, effective_samples: f64) -> f64 {
 }
 
 /// By how much a model with more parameters must be better [-]: "strong" in [Burnham and Anderson 2002].
-pub const WORTH: f64 = 10.0;
+pub const MIN_IMPROVEMENT: f64 = 10.0;
 /// Samples for each parameter that are taken for granted [-]: what no model follows looks like noise of which
 /// hardly two samples are independent.
 const ENOUGH: f64 = 4.0;
@@ -28,7 +28,7 @@ pub fn simplest(fits: &[&Fit], effective_samples: f64) -> (usize, Vec<f64>) {
         .map(|fit| information_criterion(fit, samples))
         .collect();
     let least = each.iter().copied().fold(f64::INFINITY, f64::min);
-    let near = (0..fits.len()).filter(|&place| each[place] <= least + WORTH);
+    let near = (0..fits.len()).filter(|&place| each[place] <= least + MIN_IMPROVEMENT);
     let simplest = near.min_by(|&a, &b| {
         let fewest = fits[a].free().cmp(&fits[b].free());
         fewest.then(each[a].total_cmp(&each[b]))

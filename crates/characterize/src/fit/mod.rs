@@ -38,7 +38,7 @@ mod warnings;
 
 use nalgebra::DMatrix;
 
-pub use criterion::{WORTH, information_criterion, simplest};
+pub use criterion::{MIN_IMPROVEMENT, information_criterion, simplest};
 pub use derivatives::Differences;
 pub(crate) use expected::Expected;
 pub use least_squares::{Settings, least_squares, least_squares_with_jacobian};

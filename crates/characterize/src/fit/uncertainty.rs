@@ -207,7 +207,7 @@ impl Uncertainty {
 
     /// Half the width of the intervals that hold what the model gives for each sample with the probability `level`
     /// [unit of the residuals].
-    pub fn reach_of_values(&self, fit: &Fit, level: f64) -> Vec<f64> {
+    pub fn prediction_half_widths(&self, fit: &Fit, level: f64) -> Vec<f64> {
         let derivatives = fit.jacobian.select_columns(&self.chosen);
         let [all, noise] = [&self.covariance, &self.of_noise].map(|covariance| {
             let spread = &derivatives * covariance;

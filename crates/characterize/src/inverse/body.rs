@@ -5,7 +5,7 @@ use palpate_mechanics::contact::{Friction, FrictionLaw};
 use palpate_mechanics::finite_elements::indentation::{Base, Block, Indenter, IndenterShape, Side};
 use palpate_mechanics::finite_elements::tube::Tube;
 
-use super::law::SoughtLaw;
+use super::law::CandidateLaw;
 use crate::Error;
 
 /// The indented body and its indenter.
@@ -63,7 +63,7 @@ pub enum BaseModulus {
 impl LayerBase {
     /// Its shear modulus at rest over that of a layer of `law` with this `modulus` [Pa] [-]; one under an infinite modulus,
     /// which stands for one that is not known yet.
-    pub(super) fn stiffness(&self, law: SoughtLaw, modulus: f64) -> f64 {
+    pub(super) fn stiffness(&self, law: CandidateLaw, modulus: f64) -> f64 {
         match self.modulus {
             BaseModulus::Young(_) if modulus.is_infinite() => 1.0,
             BaseModulus::Young(young) => young / (3.0 * law.shear() * modulus),

@@ -1,6 +1,6 @@
 use nalgebra::DMatrix;
 
-use super::description::{LawDescription, in_its_parameters};
+use super::description::{LawDescription, in_own_parameters};
 use crate::fit::Fit;
 use crate::viscoelastic::{even, quasi_linear};
 
@@ -36,7 +36,7 @@ impl Correlations {
 impl LawDescription {
     /// Correlations and covariance of its parameters and of gᵢ and τᵢ of the relaxation it was found with.
     pub fn correlations(&self) -> Correlations {
-        let own = in_its_parameters(&self.found);
+        let own = in_own_parameters(&self.found);
         let [covariance, _] = self.uncertainty.of_all(own.parameters.len());
         Correlations::of_law(&own, self.found.law.count(), covariance)
     }

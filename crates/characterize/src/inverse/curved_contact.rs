@@ -33,10 +33,10 @@ enum Round {
 
 /// Least curvature of the gap relative to that on a plane [-]: in a hollow that fits closer the contact is no small part of
 /// the sphere.
-const LEAST_CURVATURE: f64 = 0.25;
+const MIN_CURVATURE: f64 = 0.25;
 /// The same under a cone: at 0.55 the force that a plane gives at the deepest contact is reached at no depth, for the force
 /// in the gap, π/2 t a² − 4/3 κ a³ with its slope t, is largest at a = π t/(4 κ).
-const LEAST_CURVATURE_OF_CONE: f64 = 0.6;
+const MIN_CURVATURE_OF_CONE: f64 = 0.6;
 /// By what part of the squared inequality q of the curvatures of the gap, (κ₁ − κ₂)/(κ₁ + κ₂), a pair of unequal ones is
 /// stiffer than a circular pair of the same mean [-], to second order of q [Hertz 1881].
 const UNEQUAL: f64 = 1.0 / 3.0;
@@ -62,8 +62,8 @@ impl CurvedContact {
             },
         };
         let (own, part) = match shape {
-            Round::Sphere { radius } => (1.0 / radius, LEAST_CURVATURE),
-            Round::Cone { slope } => (slope / radius, LEAST_CURVATURE_OF_CONE),
+            Round::Sphere { radius } => (1.0 / radius, MIN_CURVATURE),
+            Round::Cone { slope } => (slope / radius, MIN_CURVATURE_OF_CONE),
         };
         let least = curvatures[0].min(curvatures[1]);
         if own + least < part * own {

@@ -9,7 +9,7 @@ use palpate_mechanics::{IndentationCurve, Law, PronySeries};
 
 use super::body::{BaseModulus, Body};
 use super::family::Family;
-use super::law::{ShapeRange, SoughtLaw};
+use super::law::{CandidateLaw, ShapeRange};
 use super::mesh_error::MeshError;
 use super::organ::FarField;
 use super::tables;
@@ -27,12 +27,12 @@ pub struct UnitCurve {
     /// Relative error of the force by the elements [-].
     pub discretisation: f64,
     /// How it changes with the base of a layer, where it is on one.
-    pub base: Option<OfBase>,
+    pub base: Option<BaseSensitivity>,
 }
 
 /// How the force on a layer changes with its base.
 #[derive(Debug, Clone, PartialEq)]
-pub struct OfBase {
+pub struct BaseSensitivity {
     /// Change with the logarithm of the base's stiffness over the layer's [m²].
     pub by_stiffness: IndentationCurve,
     /// Whether the stiffness of the base is known by itself, so that the ratio falls where the layer's modulus rises.
@@ -67,7 +67,7 @@ struct PressedPiece {
 #[derive(Debug, Clone)]
 pub struct Curves {
     body: Body,
-    law: SoughtLaw,
+    law: CandidateLaw,
     /// Deepest depth of the curves [m].
     deepest: f64,
     /// How much too stiff the coarsest mesh is, once it was found, for the logarithm of a base's stiffness.
@@ -105,7 +105,7 @@ const TUBE_ACCURACY: f64 = 0.1;
 
 impl Curves {
     /// Of `law` in `body` down to `deepest` [m].
-    pub fn new(body: Body, law: SoughtLaw, deepest: f64) -> Self {
+    pub fn new(body: Body, law: CandidateLaw, deepest: f64) -> Self {
         Self {
             body,
             law,
@@ -156,7 +156,7 @@ impl Curves {
     }
 
     /// The same body with another law.
-    pub fn of_law(&self, law: SoughtLaw) -> Self {
+    pub fn of_law(&self, law: CandidateLaw) -> Self {
         if law == self.law {
             return self.clone();
         }
@@ -169,12 +169,12 @@ impl Curves {
     }
 
     /// The law.
-    pub fn law(&self) -> SoughtLaw {
+    pub fn law(&self) -> CandidateLaw {
         self.law
     }
 
     /// How many runs of finite elements it took so far.
-    pub fn solves(&self) -> usize {
+    pub fn solve_count(&self) -> usize {
         self.solves
     }
 
@@ -292,7 +292,7 @@ impl Curves {
             // The last shape is the base's.
             curve.shape.truncate(self.law.count() - 1);
             let by_stiffness = curve.by_shape.pop();
-            curve.base = by_stiffness.map(|by_stiffness| OfBase {
+            curve.base = by_stiffness.map(|by_stiffness| BaseSensitivity {
                 by_stiffness,
                 is_absolute: matches!(base.modulus, BaseModulus::Young(_)),
                 error: base.error,
@@ -453,13 +453,13 @@ impl Curves {
                     left: tables::discretisation(),
                 }
             } else {
-                let law = SoughtLaw::NeoHookean.unit(&[])?;
+                let law = CandidateLaw::NeoHookean.unit(&[])?;
                 let coarse = self.run(piece, law.clone(), 0)?;
                 MeshError::of_two(&coarse, &self.run(piece, law, 1)?)
             };
             self.mesh_error = Some((stiffness, found));
         }
-        let known = self.mesh_error.clone().ok_or(Error::NothingFelt)?;
+        let known = self.mesh_error.clone().ok_or(Error::NoContactForce)?;
         Ok(known.1)
     }
 

@@ -3,7 +3,7 @@ use palpate_files::Estimate;
 use palpate_files::quantity::plain_quantity;
 
 use super::forces::Indentation;
-use super::law::{LawParameter, SoughtLaw, to_shape};
+use super::law::{CandidateLaw, LawParameter, to_shape};
 use super::law_fit::LawFit;
 use super::repeated::Repeated;
 use crate::Error;
@@ -40,7 +40,7 @@ impl LawDescription {
     /// Of a fit to `indentations`.
     pub fn of(found: LawFit, indentations: &[Indentation<'_>]) -> Self {
         let lengths: Vec<usize> = indentations.iter().map(|each| each.time.len()).collect();
-        let own = in_its_parameters(&found);
+        let own = in_own_parameters(&found);
         let free = own.unbounded();
         let noise = correlated_uncertainty(&free, &lengths);
         let uncertainty = with_systematic(noise, &free, &found.systematic);
@@ -66,7 +66,7 @@ impl LawDescription {
             None => warnings(&own, &of_law, None),
         };
         said.extend(missed(found.law.name().word(), "force", misfit));
-        said.extend(found.not_alone());
+        said.extend(found.other_minima_warning());
         let off = found.model_error();
         Self {
             parameters: each.iter().enumerate().map(known).collect(),
@@ -92,7 +92,7 @@ impl LawFit {
     /// The sentence on two moduli that cannot be distinguished because the fit ended where one of them is none, or at the
     /// end of the shapes that are sought; none elsewhere. `known` is of the law's own parameters.
     fn at_edge(&self, known: &Uncertainty) -> Option<String> {
-        if self.law != SoughtLaw::MooneyRivlin || !self.at_bound(1) {
+        if self.law != CandidateLaw::MooneyRivlin || !self.at_bound(1) {
             return None;
         }
         let error = known.covariance.sum().max(0.0).sqrt();
@@ -106,7 +106,7 @@ impl LawFit {
 }
 
 /// The same fit in the law's own parameters; what follows them is left as it is.
-pub(super) fn in_its_parameters(found: &LawFit) -> Fit {
+pub(super) fn in_own_parameters(found: &LawFit) -> Fit {
     let own = found.law.parameters(found.modulus(), found.shape());
     let mut fit = found.fit.clone();
     for (place, parameter) in own.iter().enumerate() {

@@ -1,8 +1,8 @@
 use nalgebra::DMatrix;
 
 use super::correlations::Correlations;
-use super::curves::{Curves, OfBase, UnitCurve};
-use super::description::in_its_parameters;
+use super::curves::{BaseSensitivity, Curves, UnitCurve};
+use super::description::in_own_parameters;
 use super::law_fit::{LawData, found, parameters};
 use crate::fit::{Expected, Fit};
 
@@ -14,7 +14,7 @@ impl UnitCurve {
         Self {
             force: scaled(&self.force),
             by_shape: self.by_shape.iter().map(scaled).collect(),
-            base: self.base.as_ref().map(|base| OfBase {
+            base: self.base.as_ref().map(|base| BaseSensitivity {
                 by_stiffness: scaled(&base.by_stiffness),
                 ..*base
             }),
@@ -43,7 +43,7 @@ pub(crate) fn expected_law(
     let mut law = found(fit, curves, curve, data);
     let expected = Expected::of(law.fit.clone(), &law.systematic, weights);
     law.fit = expected.fit.clone();
-    let own = in_its_parameters(&law);
+    let own = in_own_parameters(&law);
     let free = own.unbounded();
     // The last three are of the model.
     let zeros = law.systematic.len() - 3;

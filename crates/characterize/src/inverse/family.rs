@@ -219,7 +219,8 @@ mod tests {
         let known = curve(&[], |d| (100.0 * d, Vec::new()));
         let found = Family::of(&[], known.clone()).at(&[]);
         assert!(
-            found.force.is_like(&known.force, 1e-14) && known.force.is_like(&found.force, 1e-14)
+            found.force.approximates(&known.force, 1e-14)
+                && known.force.approximates(&found.force, 1e-14)
         );
         assert!(found.by_shape.is_empty());
     }

@@ -8,7 +8,7 @@ use palpate_mechanics::{Law, law_named};
 /// A law that can be fitted: a modulus, to which all force is proportional, and shape parameters of the force, none or
 /// more. In these parameters, the modulus hardly affects the others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum SoughtLaw {
+pub enum CandidateLaw {
     /// The modulus is C₁₀.
     NeoHookean,
     /// The modulus is C₁₀ + C₀₁, the shape C₀₁ over it.
@@ -92,9 +92,9 @@ const FIBRES: [ShapeRange; 4] = [
     range(0.0, 30.0, 90.0),
 ];
 
-impl SoughtLaw {
+impl CandidateLaw {
     /// Those that are sought unless others are asked for, the simplest first.
-    pub const USUAL: [Self; 3] = [Self::NeoHookean, Self::MooneyRivlin, Self::Exponential];
+    pub const DEFAULT: [Self; 3] = [Self::NeoHookean, Self::MooneyRivlin, Self::Exponential];
 
     /// The names of all that can be sought, the simplest first.
     pub const NAMES: [LawName; 6] = [
@@ -124,7 +124,7 @@ impl SoughtLaw {
             LawName::Ogden => Some(Self::Ogden(Terms::One)),
             LawName::ReducedPolynomial => Some(Self::ReducedPolynomial(Terms::Two)),
             LawName::HolzapfelGasserOgden => Some(Self::HolzapfelGasserOgden),
-            _ => Self::USUAL.into_iter().find(|law| law.name() == name),
+            _ => Self::DEFAULT.into_iter().find(|law| law.name() == name),
         }
     }
 
@@ -267,7 +267,7 @@ impl SoughtLaw {
     }
 
     /// The law's own parameters, in their order, as modulus and shapes. None where a shape is beyond what is sought.
-    pub(super) fn seen_as_shape(self, own: &[f64]) -> Option<SeenAsShape> {
+    pub(super) fn to_shape_parameters(self, own: &[f64]) -> Option<ShapeParameters> {
         let (modulus, shape) = match (self, own) {
             (Self::NeoHookean, &[modulus]) => (modulus, Vec::new()),
             (Self::MooneyRivlin, &[c10, c01]) => (c10 + c01, vec![c01 / (c10 + c01)]),
@@ -288,12 +288,12 @@ impl SoughtLaw {
         let mut each = self.shapes().into_iter().zip(&shape);
         let is_sought = each.all(|(range, value)| (range.lower..=range.upper).contains(value));
         let by = to_shape(&self.parameters(modulus, &shape));
-        (modulus > 0.0 && is_sought).then_some(SeenAsShape { modulus, shape, by })
+        (modulus > 0.0 && is_sought).then_some(ShapeParameters { modulus, shape, by })
     }
 
     /// Modulus [Pa] and shapes [-] of the law with these parameters, in their order; none where they are not sought.
     pub fn as_shape(self, parameters: &[f64]) -> Option<(f64, Vec<f64>)> {
-        let own = self.seen_as_shape(parameters)?;
+        let own = self.to_shape_parameters(parameters)?;
         Some((own.modulus, own.shape))
     }
 
@@ -317,7 +317,7 @@ fn of_ogden(modulus: f64, shape: &[f64]) -> Vec<LawParameter> {
         let after = (term + 1..terms).filter(|other| *other != but);
         after.map(|other| 1.0 - part(other)).product()
     };
-    let mut names = SoughtLaw::Ogden(Terms::One).name().row().keys();
+    let mut names = CandidateLaw::Ogden(Terms::One).name().row().keys();
     let mut all = Vec::with_capacity(count);
     for term in 0..terms {
         let share = part(term) * left(term, term);
@@ -361,7 +361,7 @@ pub(super) fn to_shape(own: &[LawParameter]) -> DMatrix<f64> {
 
 /// A law's own parameters as modulus and shapes.
 #[derive(Debug, Clone)]
-pub(super) struct SeenAsShape {
+pub(super) struct ShapeParameters {
     /// The modulus [Pa].
     pub modulus: f64,
     /// The shapes [-].
@@ -374,16 +374,16 @@ pub(super) struct SeenAsShape {
 mod tests {
     use super::*;
 
-    const LAWS: [SoughtLaw; 9] = [
-        SoughtLaw::NeoHookean,
-        SoughtLaw::MooneyRivlin,
-        SoughtLaw::Exponential,
-        SoughtLaw::Ogden(Terms::One),
-        SoughtLaw::Ogden(Terms::Two),
-        SoughtLaw::Ogden(Terms::Three),
-        SoughtLaw::ReducedPolynomial(Terms::Two),
-        SoughtLaw::ReducedPolynomial(Terms::Three),
-        SoughtLaw::HolzapfelGasserOgden,
+    const LAWS: [CandidateLaw; 9] = [
+        CandidateLaw::NeoHookean,
+        CandidateLaw::MooneyRivlin,
+        CandidateLaw::Exponential,
+        CandidateLaw::Ogden(Terms::One),
+        CandidateLaw::Ogden(Terms::Two),
+        CandidateLaw::Ogden(Terms::Three),
+        CandidateLaw::ReducedPolynomial(Terms::Two),
+        CandidateLaw::ReducedPolynomial(Terms::Three),
+        CandidateLaw::HolzapfelGasserOgden,
     ];
 
     /// Judge: central differences, right to the square of a step of 1e-5.
@@ -424,7 +424,7 @@ mod tests {
             let names: Vec<_> = own.iter().map(|p| p.name).collect();
             assert_eq!(names, law.names());
             assert_eq!(
-                SoughtLaw::with_parameters(law.name(), law.count()),
+                CandidateLaw::with_parameters(law.name(), law.count()),
                 Some(law)
             );
         }

@@ -3,7 +3,7 @@ use palpate_mechanics::PronySeries;
 
 use super::curves::{Curves, UnitCurve};
 use super::forces::{self, Bounds, EARLIER, Indentation};
-use super::law::SoughtLaw;
+use super::law::CandidateLaw;
 use crate::Error;
 use crate::fit::{
     Differences, Fit, Parameter, Settings, another_minimum, least_squares_with_jacobian,
@@ -15,7 +15,7 @@ use crate::viscoelastic::QUASI_LINEAR;
 #[derive(Debug, Clone, PartialEq)]
 pub struct LawFit {
     /// The law that was sought.
-    pub law: SoughtLaw,
+    pub law: CandidateLaw,
     /// The modulus [Pa] and the shapes [-], and after them the relaxation that was given, as ratios and
     /// logarithms of times: free, so that its uncertainty is part of theirs.
     pub fit: Fit,
@@ -68,7 +68,7 @@ impl LawFit {
 
 impl LawFit {
     /// The sentence on other minima that are about as good; none where there is one alone.
-    pub(super) fn not_alone(&self) -> Option<String> {
+    pub(super) fn other_minima_warning(&self) -> Option<String> {
         let other = self.others.first()?;
         let times = other.sum_of_squares / self.fit.sum_of_squares();
         let each = self.law.parameters(other.modulus, &other.shape);
@@ -141,7 +141,7 @@ fn start(curves: &mut Curves, data: LawData<'_>) -> Result<f64, Error> {
     if modulus > 0.0 && modulus.is_finite() {
         Ok(modulus)
     } else {
-        Err(Error::NothingFelt)
+        Err(Error::NoContactForce)
     }
 }
 
@@ -168,7 +168,7 @@ fn from(curves: &mut Curves, data: LawData<'_>, modulus: f64) -> Result<LawFit, 
         };
         let predicted = curves.predicted(modulus, &shape);
         let solved = solved_toward(curves, modulus, &shape)?;
-        let is_like = |own: UnitCurve| own.force.is_like(&solved.force, PREDICTION_TOLERANCE);
+        let is_like = |own: UnitCurve| own.force.approximates(&solved.force, PREDICTION_TOLERANCE);
         if solved.shape == shape && predicted.is_some_and(is_like) {
             curves.check_base(modulus)?;
             fit.iterations = iterations;
@@ -213,7 +213,7 @@ fn least_minimum(
         return Ok((one(start)?, Vec::new()));
     }
     let mut minima = multi_start(start, STARTS, SEED, one)?.into_iter();
-    let least = minima.next().ok_or(Error::NothingFelt)?;
+    let least = minima.next().ok_or(Error::NoContactForce)?;
     let others = minima.map(|other| OtherMinimum {
         sum_of_squares: other.fit.sum_of_squares(),
         modulus: other.fit.parameters[0].value,
@@ -243,7 +243,7 @@ pub(super) fn found(mut fit: Fit, curves: &Curves, curve: &UnitCurve, data: LawD
         product_error,
         fit,
         forces,
-        solves: curves.solves(),
+        solves: curves.solve_count(),
         discretisation: curve.discretisation,
         curve: curve.clone(),
         others: Vec::new(),
@@ -305,7 +305,7 @@ fn write(
     each.collect()
 }
 
-pub(super) fn parameters(law: SoughtLaw, series: &PronySeries, modulus: f64) -> Vec<Parameter> {
+pub(super) fn parameters(law: CandidateLaw, series: &PronySeries, modulus: f64) -> Vec<Parameter> {
     let first = Parameter::new("modulus_pa", modulus).within(0.0, f64::INFINITY);
     let shapes = law.shapes().into_iter().enumerate().map(|(place, range)| {
         Parameter::new(format!("shape_{}", place + 1), range.start)

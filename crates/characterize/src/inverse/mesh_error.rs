@@ -10,7 +10,7 @@ pub(super) struct MeshError {
 /// Power of the size of the elements with which errors fall, as in the reference.
 const ORDER: f64 = 1.2;
 /// The least that is left [-]: as of tabulated forces.
-const LEAST_LEFT: f64 = tables::discretisation();
+const MIN_REMAINING: f64 = tables::discretisation();
 
 impl MeshError {
     /// From forces on two meshes, the second with every element halved.
@@ -31,7 +31,7 @@ impl MeshError {
         let off = forces.iter().map(|(coarse, limit)| (limit - coarse).abs());
         let largest = off.fold(0.0, f64::max) / most;
         // The order is not seen from two meshes, so half of what is corrected stays in warning.
-        let left = (0.5 * largest).max(LEAST_LEFT);
+        let left = (0.5 * largest).max(MIN_REMAINING);
         Self { correction, left }
     }
 }

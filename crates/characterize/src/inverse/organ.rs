@@ -194,7 +194,7 @@ impl Organ {
         let from = |point: &Vec3| (point - self.location).norm();
         let (triangle, point) = points
             .min_by(|a, b| from(&a.1.position).total_cmp(&from(&b.1.position)))
-            .ok_or(Error::NothingFelt)?;
+            .ok_or(Error::NoContactForce)?;
         let center = point.position;
         if from(&center) > reach {
             return Err(Error::OffMesh {
@@ -207,8 +207,8 @@ impl Organ {
         let under = mesh.triangle_ids().filter(touched);
         let inward = under.map(|triangle| -mesh.area_vector(triangle));
         let inward: Vec3 = inward.sum();
-        let inward = inward.try_normalize(0.0).ok_or(Error::NothingFelt)?;
-        if self.fixed.holds(center.into()) {
+        let inward = inward.try_normalize(0.0).ok_or(Error::NoContactForce)?;
+        if self.fixed.contains(center.into()) {
             return Err(Error::PressedWhereFixed);
         }
         Ok(Place {

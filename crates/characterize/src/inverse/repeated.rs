@@ -2,9 +2,9 @@ use nalgebra::DMatrix;
 use palpate_mechanics::PronySeries;
 
 use super::curves::Curves;
-use super::description::{LawDescription, in_its_parameters};
+use super::description::{LawDescription, in_own_parameters};
 use super::forces::{self, Indentation};
-use super::law::SoughtLaw;
+use super::law::CandidateLaw;
 use super::law_fit::SETTINGS;
 use crate::Error;
 use crate::fit::{
@@ -40,7 +40,7 @@ pub struct NoiseEffect {
 /// Noise that is tried, over the largest force [-].
 const NOISE: [f64; 3] = [0.01, 0.05, 0.1];
 /// Fewest draws from which a spread is computed: the standard deviation of ten values is known to a quarter.
-pub const LEAST_DRAWS: usize = 10;
+pub const MIN_DRAWS: usize = 10;
 /// Correlation times in a block of residuals.
 const BLOCK: f64 = 5.0;
 /// The probability of the profile's interval.
@@ -61,7 +61,7 @@ pub fn repeated(
             law: law.found.law.name(),
         });
     }
-    let own = in_its_parameters(&law.found);
+    let own = in_own_parameters(&law.found);
     let count = law.parameters.len();
     let lengths: Vec<usize> = indentations.iter().map(|each| each.time.len()).collect();
     let samples: usize = lengths.iter().sum();
@@ -90,7 +90,7 @@ pub fn repeated(
         .fold(0.0, f64::max);
     // Three times as much is done as for the bootstrap, and less is asked of it.
     let fewer = Draws {
-        count: draws.count.div_ceil(4).max(LEAST_DRAWS),
+        count: draws.count.div_ceil(4).max(MIN_DRAWS),
         ..draws
     };
     let mut noise_effect = |noise: f64| {
@@ -146,7 +146,7 @@ fn profiles(
 
 /// Forces by a law's own parameters and a relaxation.
 struct OwnModel<'a> {
-    law: SoughtLaw,
+    law: CandidateLaw,
     curves: &'a Curves,
     indentations: &'a [Indentation<'a>],
 }
@@ -160,7 +160,7 @@ impl OwnModel<'_> {
         jacobian: &mut DMatrix<f64>,
     ) -> Option<()> {
         let count = self.law.count();
-        let own = self.law.seen_as_shape(&values[..count])?;
+        let own = self.law.to_shape_parameters(&values[..count])?;
         let curve = self.curves.predicted(own.modulus, &own.shape)?;
         let pairs = terms(&values[count - 1..], (values.len() - count) / 2);
         let series = PronySeries::new(&pairs).ok()?;

@@ -4,7 +4,7 @@ use palpate_mechanics::IndentationCurve;
 
 use super::body::Body;
 use super::curves::UnitCurve;
-use super::law::SoughtLaw;
+use super::law::CandidateLaw;
 
 /// Shapes C₀₁/(C₁₀ + C₀₁) of the columns [-]; the first is neo-Hookean.
 pub const SHAPES: [f64; 6] = [0.0, 0.1, 0.25, 0.5, 0.75, 0.9];
@@ -108,12 +108,17 @@ const TOO_STIFF_OTHERS: f64 = 0.0017;
 const LEFT: f64 = 0.005;
 
 /// Whether the first curve of `law` on `body`, down to `deepest` [m], needs no run of finite elements.
-pub(crate) fn has_curve(body: &Body, law: SoughtLaw, deepest: f64) -> bool {
+pub(crate) fn has_curve(body: &Body, law: CandidateLaw, deepest: f64) -> bool {
     curve(body, law, &law.start(), deepest).is_some()
 }
 
 /// The tabulated curve of `law` in `body` down to `deepest` [m]; none where there is none.
-pub(super) fn curve(body: &Body, law: SoughtLaw, shape: &[f64], deepest: f64) -> Option<UnitCurve> {
+pub(super) fn curve(
+    body: &Body,
+    law: CandidateLaw,
+    shape: &[f64],
+    deepest: f64,
+) -> Option<UnitCurve> {
     let radius = body.radius();
     let last = PUNCH[PUNCH.len() - 1].0;
     if !body.is_tabulated() || deepest > last * radius {
@@ -125,11 +130,11 @@ pub(super) fn curve(body: &Body, law: SoughtLaw, shape: &[f64], deepest: f64) ->
         IndentationCurve::through(&depths, &forces)
     };
     let (force, by_shape) = match (law, shape) {
-        (SoughtLaw::NeoHookean, []) => {
+        (CandidateLaw::NeoHookean, []) => {
             let force = PUNCH.iter().map(|row| row.1);
             (through(force.collect()), Vec::new())
         }
-        (SoughtLaw::MooneyRivlin, &[shape]) => {
+        (CandidateLaw::MooneyRivlin, &[shape]) => {
             let of = |row: &(f64, f64, [f64; SHAPES.len()])| {
                 let right = |place: usize| row.2[place] * (1.0 - TOO_STIFF[place] * row.0);
                 between(&std::array::from_fn(right), shape)

@@ -23,7 +23,7 @@ pub struct ColumnFit {
 
 /// The least length of a column over the largest depth [-]. Pressed to less than three quarters of its
 /// length a column stiffens more than tissue under an indenter does, even with α = 0.
-const LEAST_LENGTH: f64 = 4.0;
+const MIN_LENGTH: f64 = 4.0;
 /// Least α, start and largest α [-]; below the least the law is a neo-Hookean one.
 pub(super) const ALPHAS: [f64; 3] = [1e-3, 1.0, 100.0];
 
@@ -35,7 +35,7 @@ pub fn column_size(contact: Contact, deepest: f64) -> [f64; 2] {
     let radius = contact.face_radius(deepest);
     let half_space = 3.0 * std::f64::consts::PI / 8.0 * radius;
     let area = std::f64::consts::PI * radius * radius;
-    [area, half_space.max(LEAST_LENGTH * deepest)]
+    [area, half_space.max(MIN_LENGTH * deepest)]
 }
 
 /// Steady force [N] of a column at `depth` [m]: (6.2) with λ = 1 − d/L, times the area.
@@ -58,7 +58,7 @@ pub fn fit_column(contact: Contact, depths: &[f64], forces: &[f64]) -> Result<Co
     let (deepest, largest) = (most(depths), most(forces));
     let [area, length] = column_size(contact, deepest);
     if !(area > 0.0 && largest > 0.0) {
-        return Err(Error::NothingFelt);
+        return Err(Error::NoContactForce);
     }
     let column = |gamma: f64, alpha: f64| EffectiveColumn {
         gamma_pa: gamma.into(),

@@ -26,7 +26,7 @@ use crate::fit::{Parameter, Settings, correlated_uncertainty, least_squares};
 use crate::{CleanRecording, Error};
 
 /// Samples that are fitted at most; of more, every second, third and so on.
-const MOST_SAMPLES: usize = 1500;
+const MAX_SAMPLES: usize = 1500;
 /// Contacts that are tried.
 const CANDIDATES: usize = 200;
 /// How far before the contact samples are fitted, over the deepest press [-].
@@ -111,7 +111,7 @@ impl Branch {
     fn of(recording: &CleanRecording, samples: impl Iterator<Item = usize>) -> Option<Self> {
         let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let samples: Vec<usize> = samples.collect();
-        let every = samples.len().div_ceil(MOST_SAMPLES).max(1);
+        let every = samples.len().div_ceil(MAX_SAMPLES).max(1);
         let of = |values: &[f64]| -> Vec<f64> {
             let thin = samples.iter().step_by(every);
             thin.map(|sample| values[*sample]).collect()
@@ -264,7 +264,7 @@ impl Branch {
 /// When the indenter is not stated or nothing was pressed.
 pub fn fit_approach(recordings: &[CleanRecording]) -> Result<ElasticContact, Error> {
     let (recording, contact) = deepest(recordings)?;
-    let (branch, begin) = Branch::approach(recording, contact).ok_or(Error::NothingFelt)?;
+    let (branch, begin) = Branch::approach(recording, contact).ok_or(Error::NoContactForce)?;
     let start = 0.75 * branch.strongest / contact.unit_force(branch.deepest);
     let force = |modulus: f64, _: f64, depth: f64| contact.unit_force(depth) * modulus / 0.75;
     let mut found = branch.fit([start, 0.0], force)?.elastic;
@@ -317,7 +317,7 @@ fn deepest(recordings: &[CleanRecording]) -> Result<(&CleanRecording, Contact), 
     let depth = |own: &CleanRecording| own.depth.iter().copied().fold(0.0, f64::max);
     let pressed = recordings.iter().filter(|own| !own.is_piece());
     let most = pressed.max_by(|a, b| depth(a).total_cmp(&depth(b)));
-    let most = most.ok_or(Error::NothingFelt)?;
+    let most = most.ok_or(Error::NoContactForce)?;
     Ok((most, Contact::of(&most.header)?))
 }
 

@@ -2,7 +2,7 @@
 //!
 //! The stress of two families at ±γ is even in γ, so that its slope with γ is zero at 0 and at 90°; a fit in γ creeps towards
 //! them and knows nothing there. In sin² γ it is smooth, and that is what is fitted; near the ends slopes are those at
-//! [`LEAST_ANGLE`].
+//! [`MIN_ANGLE`].
 
 use nalgebra::DMatrix;
 use palpate_files::recording::RecordingHeader;
@@ -15,7 +15,7 @@ use crate::Error;
 use crate::fit::{
     Fit, Parameter, Settings, another_minimum, distinct_minima, least_squares_with_jacobian,
 };
-use crate::inverse::SoughtLaw;
+use crate::inverse::CandidateLaw;
 
 /// What is known of fibres before a fit.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -75,7 +75,7 @@ const DISPERSIONS: [f64; 3] = [0.03, 0.15, 0.28];
 const ANGLES: [f64; 4] = [10.0, 30.0, 50.0, 75.0];
 /// From the ends of its range, an angle at which slopes are taken [degrees]: it changes the stress of fibres by its square, 3e-8,
 /// and rounding leaves twelve digits of its slope.
-const LEAST_ANGLE: f64 = 0.01;
+const MIN_ANGLE: f64 = 0.01;
 /// The least C₁₀ over the largest stress [-]: without a matrix the sides of a strip are not determined.
 const LEAST: f64 = 1e-6;
 
@@ -90,7 +90,7 @@ pub(super) fn fitted(pieces: &[Measured], known: KnownFibres) -> Result<FibreFit
     let some = thinned(pieces, SOME);
     let starts = starts(&thinned(pieces, FEW), known);
     let minima = distinct_minima(starts.iter().map(|start| least(start, &some, known)))?;
-    let (best, others) = minima.split_first().ok_or(Error::NothingFelt)?;
+    let (best, others) = minima.split_first().ok_or(Error::NoContactForce)?;
     let fit = in_degrees(least(&best.fit.parameters, pieces, known)?, known);
     let sought = known.sought();
     let (mut undetermined, mut warnings) = (Vec::new(), Vec::new());
@@ -156,7 +156,7 @@ fn thinned(pieces: &[Measured], most: usize) -> Vec<Measured> {
 
 /// Where fits start: all stress grows with C₁₀, which is found for each set of shapes, and the best are taken.
 fn starts(pieces: &[Measured], known: KnownFibres) -> Vec<Vec<Parameter>> {
-    let law = SoughtLaw::HolzapfelGasserOgden;
+    let law = CandidateLaw::HolzapfelGasserOgden;
     let samples = pieces.iter().flat_map(Measured::samples);
     let largest = samples.fold(0.0, |most: f64, (_, stress)| most.max(stress.abs()));
     // E of fibres along the load.
@@ -232,7 +232,7 @@ fn angle_deg(squared_sine: f64) -> f64 {
 
 /// Change of sin² γ with γ [1/degree], at the least distance from where it is none.
 fn slope(angle_deg: f64) -> f64 {
-    let angle = angle_deg.clamp(LEAST_ANGLE, 90.0 - LEAST_ANGLE);
+    let angle = angle_deg.clamp(MIN_ANGLE, 90.0 - MIN_ANGLE);
     1_f64.to_radians() * (2.0 * angle.to_radians()).sin()
 }
 
@@ -251,7 +251,7 @@ fn in_degrees(mut fit: Fit, known: KnownFibres) -> Fit {
 
 /// Parameters that start at these values, with sin² γ for γ and what is known of them fixed.
 fn bounded(values: &[f64], least: f64, known: KnownFibres) -> Vec<Parameter> {
-    let names = SoughtLaw::HolzapfelGasserOgden.names();
+    let names = CandidateLaw::HolzapfelGasserOgden.names();
     let each = names.into_iter().zip(values).map(|(name, &value)| {
         let free = Parameter::new(name, value);
         let fix_known = |known: Option<f64>, own: Parameter| match known {
@@ -297,7 +297,7 @@ fn write(
         dispersion: values[3],
         angle_deg: known
             .angle_deg
-            .unwrap_or_else(|| angle_deg(values[ANGLE]).clamp(LEAST_ANGLE, 90.0 - LEAST_ANGLE)),
+            .unwrap_or_else(|| angle_deg(values[ANGLE]).clamp(MIN_ANGLE, 90.0 - MIN_ANGLE)),
     };
     let of_angle = slope(fibres.angle_deg).recip();
     let law = HolzapfelGasserOgden::incompressible(values[0], fibres).ok()?;

@@ -38,7 +38,7 @@ pub use column::{ColumnFit, column_force, column_size, fit_column};
 pub use elastic_contact::{Adhesion, ElasticContact, adhesive_force, fit_adhesion, fit_approach};
 pub use kelvin::{DepthHistory, KelvinFit, fit_kelvin};
 pub use mean_modulus::{Contact, MeanModulus, mean_elastic_modulus, mean_modulus};
-pub use piece::{PieceLoading, PieceTest, Pulled, piece_stress};
+pub use piece::{FittedPiece, PieceLoading, PieceTest, piece_stress};
 pub use springs::springs_force;
 pub use springs_fit::{SpringsFit, fit_springs};
 pub use uniaxial::{UniaxialFit, fit_uniaxial, fit_uniaxial_recordings};

@@ -8,7 +8,7 @@ use palpate_mechanics::{
     Exponential, FibreFrame, Law, MooneyRivlin, NeoHookean, Ogden, Vec3, law_named,
 };
 
-use crate::inverse::SoughtLaw;
+use crate::inverse::CandidateLaw;
 use crate::{CleanRecording, Error};
 
 /// How a piece is deformed, evenly.
@@ -45,11 +45,11 @@ pub(super) struct Measured {
 
 impl Measured {
     pub(super) fn of(recording: &CleanRecording) -> Result<Self, Error> {
-        let Pulled {
+        let FittedPiece {
             stretches,
             stresses,
             ..
-        } = Pulled::of(recording)?;
+        } = FittedPiece::of(recording)?;
         Ok(Self {
             loading: PieceLoading::of(&recording.header),
             stretches,
@@ -66,7 +66,7 @@ impl Measured {
 
 /// The fitted part of a recording of a piece: from first contact to its largest strain.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Pulled {
+pub struct FittedPiece {
     /// The samples.
     pub samples: Range<usize>,
     /// Their stretches [-], deformed over undeformed length; in simple shear, their amounts of shear.
@@ -75,7 +75,7 @@ pub struct Pulled {
     pub stresses: Vec<f64>,
 }
 
-impl Pulled {
+impl FittedPiece {
     /// # Errors
     /// When the recording does not say area or height.
     pub fn of(recording: &CleanRecording) -> Result<Self, Error> {
@@ -201,7 +201,7 @@ impl PieceTest {
 /// # Errors
 /// Where the law has no stress, and of a law with fibres when their direction is not stated.
 pub fn piece_stress(
-    law: SoughtLaw,
+    law: CandidateLaw,
     loading: impl Into<PieceLoading>,
     p: &[f64],
     stretch: f64,
@@ -210,20 +210,20 @@ pub fn piece_stress(
     let test = loading.test;
     let of = |law: &dyn Law| test.stress(law, stretch);
     match law {
-        SoughtLaw::NeoHookean => Ok(p[0] * of(&NeoHookean::incompressible(1.0)?)?),
-        SoughtLaw::MooneyRivlin => {
+        CandidateLaw::NeoHookean => Ok(p[0] * of(&NeoHookean::incompressible(1.0)?)?),
+        CandidateLaw::MooneyRivlin => {
             let first = of(&MooneyRivlin::incompressible(1.0, 0.0)?)?;
             let second = of(&MooneyRivlin::incompressible(0.0, 1.0)?)?;
             Ok(p[0] * first + p[1] * second)
         }
-        SoughtLaw::Exponential => Ok(p[0] * of(&Exponential::incompressible(1.0, p[1])?)?),
-        SoughtLaw::Ogden(_) => {
+        CandidateLaw::Exponential => Ok(p[0] * of(&Exponential::incompressible(1.0, p[1])?)?),
+        CandidateLaw::Ogden(_) => {
             let terms = p.as_chunks().0.iter();
             let each =
                 terms.map(|&[mu, alpha]| Ok(mu * of(&Ogden::incompressible(&[[1.0, alpha]])?)?));
             each.sum()
         }
-        SoughtLaw::ReducedPolynomial(_) => {
+        CandidateLaw::ReducedPolynomial(_) => {
             // The stress of neo-Hookean tissue times Σ k C_k0 (I₁ − 3)^(k−1).
             let first = of(&NeoHookean::incompressible(1.0)?)?;
             let invariant = test.invariant(stretch);
@@ -231,7 +231,7 @@ pub fn piece_stress(
             let slope = each.map(|(k, c)| f64::from(k) * c * invariant.powi(k - 1));
             Ok(first * slope.sum::<f64>())
         }
-        SoughtLaw::HolzapfelGasserOgden => {
+        CandidateLaw::HolzapfelGasserOgden => {
             let law = law_named(law.name(), p)?;
             let law = law.in_frame(&loading.frame()?).unwrap_or(law);
             Ok(deformed(law.as_ref(), test.into(), stretch, None)?.nominal_stress)

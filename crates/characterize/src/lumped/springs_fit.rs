@@ -94,7 +94,7 @@ impl StartingSizes {
         let deepest = indentations
             .iter()
             .max_by(|a, b| most(a.depth).total_cmp(&most(b.depth)));
-        let deepest = deepest.ok_or(Error::NothingFelt)?;
+        let deepest = deepest.ok_or(Error::NoContactForce)?;
         let duration = |each: &Indentation<'_>| match each.time {
             [first, .., last] => last - first,
             _ => 0.0,
@@ -108,7 +108,7 @@ impl StartingSizes {
         if sizes.depth > 0.0 && sizes.peak > 0.0 && sizes.duration > 0.0 {
             Ok(sizes)
         } else {
-            Err(Error::NothingFelt)
+            Err(Error::NoContactForce)
         }
     }
 
@@ -148,7 +148,7 @@ fn factor(name: &str, value: f64) -> Parameter {
 }
 
 fn best(indentations: &[Indentation<'_>], starts: &[Vec<Parameter>]) -> Result<Fit, Error> {
-    let mut best: Result<Fit, Error> = Err(Error::NothingFelt);
+    let mut best: Result<Fit, Error> = Err(Error::NoContactForce);
     for parameters in starts {
         let found = fitted(indentations, parameters);
         best = match (best, found) {

@@ -8,14 +8,14 @@ use crate::fit::{
     Fit, Parameter, Settings, Uncertainty, correlated_uncertainty, least_squares, warnings,
 };
 use crate::fit::{misfit, missed};
-use crate::inverse::SoughtLaw;
+use crate::inverse::CandidateLaw;
 use crate::{CleanRecording, Error};
 
 /// A law that was found from a piece that is pressed or pulled.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UniaxialFit {
     /// The law that was sought.
-    pub law: SoughtLaw,
+    pub law: CandidateLaw,
     /// How each piece was loaded.
     pub loadings: Vec<PieceLoading>,
     /// The law as files hold it.
@@ -57,7 +57,7 @@ impl UniaxialFit {
 /// # Errors
 /// When there are fewer samples than parameters, or no stress that grows with the stretch.
 pub fn fit_uniaxial(
-    law: SoughtLaw,
+    law: CandidateLaw,
     stretches: &[f64],
     nominal_stresses: &[f64],
 ) -> Result<UniaxialFit, Error> {
@@ -76,7 +76,7 @@ pub fn fit_uniaxial(
 /// # Errors
 /// As [`fit_uniaxial`], when a recording does not say area or height, or for a law with fibres not how they lie.
 pub fn fit_uniaxial_recordings(
-    law: SoughtLaw,
+    law: CandidateLaw,
     recordings: &[CleanRecording],
 ) -> Result<UniaxialFit, Error> {
     let pieces: Result<Vec<_>, Error> = recordings.iter().map(Measured::of).collect();
@@ -84,11 +84,15 @@ pub fn fit_uniaxial_recordings(
     fitted(law, &pieces?, first.unwrap_or_default())
 }
 
-fn fitted(law: SoughtLaw, pieces: &[Measured], known: KnownFibres) -> Result<UniaxialFit, Error> {
+fn fitted(
+    law: CandidateLaw,
+    pieces: &[Measured],
+    known: KnownFibres,
+) -> Result<UniaxialFit, Error> {
     let mut said = Vec::new();
     let mut undetermined = Vec::new();
     let mut fit = match law {
-        SoughtLaw::HolzapfelGasserOgden => {
+        CandidateLaw::HolzapfelGasserOgden => {
             let found = fibres::fitted(pieces, known)?;
             said.extend(found.warnings);
             undetermined = found.undetermined;
@@ -96,7 +100,7 @@ fn fitted(law: SoughtLaw, pieces: &[Measured], known: KnownFibres) -> Result<Uni
         }
         _ => nearest(law, pieces, f64::NEG_INFINITY)?,
     };
-    if law == SoughtLaw::MooneyRivlin {
+    if law == CandidateLaw::MooneyRivlin {
         let [c10, c01] = [0, 1].map(|place: usize| fit.parameters[place].value);
         if c10 + c01 <= 0.0 {
             fit = nearest(law, pieces, 0.0)?;
@@ -105,7 +109,7 @@ fn fitted(law: SoughtLaw, pieces: &[Measured], known: KnownFibres) -> Result<Uni
             ));
         }
     }
-    if let SoughtLaw::Ogden(_) = law {
+    if let CandidateLaw::Ogden(_) = law {
         let moduli = fit.parameters.iter().step_by(2).map(|own| own.value);
         let shear: f64 = moduli.sum();
         if shear <= 0.0 {
@@ -115,7 +119,7 @@ fn fitted(law: SoughtLaw, pieces: &[Measured], known: KnownFibres) -> Result<Uni
             ));
         }
     }
-    if is_plane(pieces) && matches!(law, SoughtLaw::Ogden(_)) {
+    if is_plane(pieces) && matches!(law, CandidateLaw::Ogden(_)) {
         said.push(
             "planar tension and simple shear do not tell the sign of alpha, which is taken as above zero; a uniaxial test does"
                 .to_owned(),
@@ -131,7 +135,7 @@ fn fitted(law: SoughtLaw, pieces: &[Measured], known: KnownFibres) -> Result<Uni
     }
     let lengths: Vec<usize> = pieces.iter().map(|own| own.stresses.len()).collect();
     let uncertainty = match law {
-        SoughtLaw::HolzapfelGasserOgden => {
+        CandidateLaw::HolzapfelGasserOgden => {
             let all = correlated_uncertainty(&fibres::with_all_free(&fit), &lengths);
             all.among(|place| !fit.parameters[place].at_bound())
         }
@@ -172,7 +176,7 @@ fn is_plane(pieces: &[Measured]) -> bool {
 }
 
 /// The fit of an isotropic law with the least Σ ε² and no modulus below `least` [Pa], of all that the starts lead to.
-fn nearest(law: SoughtLaw, pieces: &[Measured], least: f64) -> Result<Fit, Error> {
+fn nearest(law: CandidateLaw, pieces: &[Measured], least: f64) -> Result<Fit, Error> {
     let samples = pieces.iter().map(|own| own.stresses.len()).sum();
     let mut best: Option<Fit> = None;
     for parameters in starts(law, pieces, least)? {
@@ -194,7 +198,7 @@ fn nearest(law: SoughtLaw, pieces: &[Measured], least: f64) -> Result<Fit, Error
             best = Some(fit);
         }
     }
-    best.ok_or(Error::NothingFelt)
+    best.ok_or(Error::NoContactForce)
 }
 
 fn each_sample(pieces: &[Measured]) -> impl Iterator<Item = (PieceLoading, f64, f64)> + '_ {
@@ -204,12 +208,16 @@ fn each_sample(pieces: &[Measured]) -> impl Iterator<Item = (PieceLoading, f64, 
 
 /// Where fits start: stress is linear in the moduli, which are found for each of a few exponents, and the best of each
 /// sign of the exponents is taken.
-fn starts(law: SoughtLaw, pieces: &[Measured], least: f64) -> Result<Vec<Vec<Parameter>>, Error> {
+fn starts(
+    law: CandidateLaw,
+    pieces: &[Measured],
+    least: f64,
+) -> Result<Vec<Vec<Parameter>>, Error> {
     let mut best: Vec<([bool; 3], f64, Vec<f64>)> = Vec::new();
     let least_alpha = if is_plane(pieces) { 0.0 } else { -OGDEN_ALPHA };
     let is_sought = |shape: &Vec<f64>| {
         let mut exponents = shape.iter().step_by(2);
-        !matches!(law, SoughtLaw::Ogden(_)) || exponents.all(|alpha| *alpha >= least_alpha)
+        !matches!(law, CandidateLaw::Ogden(_)) || exponents.all(|alpha| *alpha >= least_alpha)
     };
     for shape in shapes(law).into_iter().filter(is_sought) {
         let unit: Vec<f64> = law
@@ -241,7 +249,7 @@ fn starts(law: SoughtLaw, pieces: &[Measured], least: f64) -> Result<Vec<Vec<Par
         }
     }
     if best.is_empty() {
-        return Err(Error::NothingFelt);
+        return Err(Error::NoContactForce);
     }
     let bounded = |(name, value): (&'static str, f64)| {
         let parameter = Parameter::new(name, value);
@@ -249,7 +257,7 @@ fn starts(law: SoughtLaw, pieces: &[Measured], least: f64) -> Result<Vec<Vec<Par
             "alpha" => parameter.within(ALPHAS[0], ALPHAS[2]),
             name if name.starts_with("alpha_") => parameter.within(least_alpha, OGDEN_ALPHA),
             // The law has no stiffness at rest without it.
-            "c10_pa" if matches!(law, SoughtLaw::ReducedPolynomial(_)) => {
+            "c10_pa" if matches!(law, CandidateLaw::ReducedPolynomial(_)) => {
                 parameter.within(least.max(0.0), f64::INFINITY)
             }
             _ => parameter.within(least, f64::INFINITY),
@@ -263,14 +271,14 @@ fn starts(law: SoughtLaw, pieces: &[Measured], least: f64) -> Result<Vec<Vec<Par
 }
 
 /// Shapes from which fits may start.
-fn shapes(law: SoughtLaw) -> Vec<Vec<f64>> {
+fn shapes(law: CandidateLaw) -> Vec<Vec<f64>> {
     match law {
-        SoughtLaw::NeoHookean => vec![Vec::new()],
-        SoughtLaw::MooneyRivlin => vec![vec![0.5]],
-        SoughtLaw::Exponential => STARTS.map(|alpha| vec![alpha]).to_vec(),
-        SoughtLaw::ReducedPolynomial(_) => vec![vec![0.0; law.count() - 1]],
-        SoughtLaw::HolzapfelGasserOgden => vec![law.start()],
-        SoughtLaw::Ogden(terms) => {
+        CandidateLaw::NeoHookean => vec![Vec::new()],
+        CandidateLaw::MooneyRivlin => vec![vec![0.5]],
+        CandidateLaw::Exponential => STARTS.map(|alpha| vec![alpha]).to_vec(),
+        CandidateLaw::ReducedPolynomial(_) => vec![vec![0.0; law.count() - 1]],
+        CandidateLaw::HolzapfelGasserOgden => vec![law.start()],
+        CandidateLaw::Ogden(terms) => {
             // Exponents in the order of the starts, so that terms do not change places.
             let mut all: Vec<Vec<f64>> = OGDEN_STARTS.map(|alpha| vec![alpha]).to_vec();
             for _ in 1..terms.count() {

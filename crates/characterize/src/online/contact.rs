@@ -24,7 +24,7 @@ const FEWEST: usize = 8;
 
 /// A contact that was found.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Touched {
+pub(super) struct DetectedContact {
     pub(super) time_s: f64,
     pub(super) depth_m: f64,
     pub(super) offset_n: f64,
@@ -33,7 +33,7 @@ pub(super) struct Touched {
 
 /// Watches for the first contact, and takes the sensor's zero before it.
 #[derive(Debug, Clone)]
-pub(super) struct ContactWatch {
+pub(super) struct ContactDetector {
     how: OnlineContact,
     shape: Option<IndenterShape>,
     /// What the sensor shows without load.
@@ -56,11 +56,11 @@ pub(super) struct ContactWatch {
     approach: Record,
     /// Samples of the approach that are still to come after the contact was seen.
     coming: usize,
-    touched: Option<Touched>,
+    touched: Option<DetectedContact>,
     is_refined: bool,
 }
 
-impl ContactWatch {
+impl ContactDetector {
     pub(super) fn new(how: OnlineContact, shape: Option<IndenterShape>) -> Self {
         Self {
             how,
@@ -95,7 +95,7 @@ impl ContactWatch {
                 press(sample);
             }
             OnlineContact::Stated { .. } => self.zero.add(sample),
-            OnlineContact::Sought => {
+            OnlineContact::Detected => {
                 self.approach.add(sample);
                 self.keep(sample);
                 if self.rises(sample.force_n) {
@@ -118,14 +118,14 @@ impl ContactWatch {
     }
 
     /// Whether the indenter is out of the tissue again.
-    pub(super) fn is_left_at(&self, sample: &OnlineSample) -> bool {
+    pub(super) fn is_withdrawn(&self, sample: &OnlineSample) -> bool {
         // Before the contact is found, its depth is where it was seen, which is deeper.
         self.touched
             .is_some_and(|touched| self.is_refined && sample.depth_m < touched.depth_m)
     }
 
     /// The contact, found anew until enough of the rise was seen.
-    pub(super) fn contact(&mut self) -> Option<Touched> {
+    pub(super) fn contact(&mut self) -> Option<DetectedContact> {
         let touched = self.touched?;
         if self.is_refined {
             return Some(touched);
@@ -138,7 +138,7 @@ impl ContactWatch {
             force: of(|block| block.force_n),
         };
         let (place, error) = rising_contact(&approach, self.shape);
-        let found = Touched {
+        let found = DetectedContact {
             time_s: blocks[place].time_s,
             ..self.at(touched.time_s, blocks[place].depth_m, error)
         };
@@ -149,9 +149,9 @@ impl ContactWatch {
         Some(found)
     }
 
-    fn at(&self, time_s: f64, depth_m: f64, error_m: f64) -> Touched {
+    fn at(&self, time_s: f64, depth_m: f64, error_m: f64) -> DetectedContact {
         let (offset_n, error) = self.zero_of_force();
-        Touched {
+        DetectedContact {
             time_s,
             depth_m,
             offset_n,

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! [`OnlineEstimator::add`] takes one sample: it adds to a mean and allocates nothing. The record holds at most
-//! [`MOST_BLOCKS`] blocks, each the mean of equally many samples; when it is full, neighbouring blocks are merged.
+//! [`MAX_BLOCKS`] blocks, each the mean of equally many samples; when it is full, neighbouring blocks are merged.
 //! [`OnlineEstimator::estimate`] fits that record as [`characterize`](crate::characterize) fits a recording: the same
 //! force F(t) = M [f(d) − Σ gᵢ hᵢ], the same covariance of correlated residuals, the same bounds of the model. It starts
 //! from the estimate before, and costs as much after an hour as after seconds. The force over depth is tabulated or solved
@@ -26,17 +26,17 @@ mod record;
 use palpate_files::recording::RecordingHeader;
 
 use crate::Error;
-use crate::inverse::{Body, Curves, SoughtLaw, has_curve};
-use contact::ContactWatch;
+use crate::inverse::{Body, CandidateLaw, Curves, has_curve};
+use contact::ContactDetector;
 use estimate::Fitted;
 pub use estimate::{OnlineEstimate, OnlineParameter};
 pub use record::OnlineSample;
 use record::Record;
 
 /// Blocks of the record, at most.
-pub const MOST_BLOCKS: usize = 1024;
+pub const MAX_BLOCKS: usize = 1024;
 /// The relative half interval at which a parameter is known well enough by default [-].
-pub const USUAL_TARGET: f64 = 0.1;
+pub const DEFAULT_TARGET: f64 = 0.1;
 /// Depth to which the force is known by default, in radii of the indenter [-]: that of the table.
 const DEEPEST: f64 = 8.0;
 
@@ -49,7 +49,7 @@ pub enum OnlineContact {
         error_m: f64,
     },
     /// Depths count from anywhere; the contact is where the force begins to rise.
-    Sought,
+    Detected,
 }
 
 /// What is pressed, and how.
@@ -74,7 +74,7 @@ impl OnlineSettings {
         let deepest = deepest.ok_or(unknown)?;
         match deepest > 0.0 && deepest.is_finite() {
             true => Ok(deepest),
-            false => Err(Error::NothingFelt),
+            false => Err(Error::NoContactForce),
         }
     }
 
@@ -84,7 +84,7 @@ impl OnlineSettings {
         let is_there = || {
             let deepest = self.deepest()?;
             let body = Body::of(&self.header, deepest)?;
-            Ok::<_, Error>(has_curve(&body, SoughtLaw::NeoHookean, deepest))
+            Ok::<_, Error>(has_curve(&body, CandidateLaw::NeoHookean, deepest))
         };
         is_there().unwrap_or(false)
     }
@@ -95,7 +95,7 @@ impl OnlineSettings {
 pub struct OnlineEstimator {
     settings: OnlineSettings,
     curves: Curves,
-    watch: ContactWatch,
+    watch: ContactDetector,
     pressed: Record,
     /// Time of the last sample [s].
     last: f64,
@@ -113,13 +113,13 @@ impl OnlineEstimator {
     pub fn new(settings: OnlineSettings) -> Result<Self, Error> {
         let deepest = settings.deepest()?;
         let body = Body::of(&settings.header, deepest)?;
-        let mut curves = Curves::new(body, SoughtLaw::NeoHookean, deepest);
+        let mut curves = Curves::new(body, CandidateLaw::NeoHookean, deepest);
         curves.of(f64::INFINITY, &[])?;
         Ok(Self {
-            watch: ContactWatch::new(settings.contact, settings.header.indenter_shape),
+            watch: ContactDetector::new(settings.contact, settings.header.indenter_shape),
             curves,
             settings,
-            pressed: Record::new(MOST_BLOCKS),
+            pressed: Record::new(MAX_BLOCKS),
             last: f64::NEG_INFINITY,
             skipped: 0,
             is_released: false,
@@ -129,7 +129,8 @@ impl OnlineEstimator {
 
     /// Forgets the press, for the next one.
     pub fn restart(&mut self) {
-        self.watch = ContactWatch::new(self.settings.contact, self.settings.header.indenter_shape);
+        self.watch =
+            ContactDetector::new(self.settings.contact, self.settings.header.indenter_shape);
         self.pressed.clear();
         self.last = f64::NEG_INFINITY;
         self.skipped = 0;
@@ -154,7 +155,7 @@ impl OnlineEstimator {
             self.watch.add(sample, &mut |own| pressed.add(own));
             return;
         }
-        if self.watch.is_left_at(&sample) {
+        if self.watch.is_withdrawn(&sample) {
             self.is_released = true;
             return;
         }

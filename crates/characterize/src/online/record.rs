@@ -1,8 +1,8 @@
 use palpate_files::recording::IndenterShape;
 
-use super::contact::Touched;
+use super::contact::DetectedContact;
 use super::estimate::FEWEST;
-use crate::clean::{Moving, Ripple, segments};
+use crate::clean::{MovingTissue, Ripple, segments};
 use crate::inverse::ZeroErrors;
 
 /// What is measured at one time.
@@ -98,7 +98,7 @@ impl Record {
     }
 
     /// What is fitted: from the first contact on, with the zeros taken off.
-    pub(super) fn since(&self, contact: &Touched) -> Samples {
+    pub(super) fn since(&self, contact: &DetectedContact) -> Samples {
         let pressed = self
             .blocks
             .iter()
@@ -141,7 +141,7 @@ impl Samples {
         let Some(ripple) = Ripple::find(&self.time, &self.force, &segments) else {
             return self;
         };
-        let moving = Moving {
+        let moving = MovingTissue {
             time: &self.time,
             depth: &self.depth,
             force: &self.force,

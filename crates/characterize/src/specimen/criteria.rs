@@ -1,11 +1,11 @@
 use super::Characterization;
 use crate::fit::simplest;
-use crate::inverse::SoughtLaw;
+use crate::inverse::CandidateLaw;
 
 impl Characterization {
     /// What the laws that were found come to by the information criterion [-]: the least is the best, and the
-    /// simplest is preferred that none beats by more than [`WORTH`](crate::fit::WORTH).
-    pub fn criteria(&self) -> Vec<(SoughtLaw, f64)> {
+    /// simplest is preferred that none beats by more than [`MIN_IMPROVEMENT`](crate::fit::MIN_IMPROVEMENT).
+    pub fn criteria(&self) -> Vec<(CandidateLaw, f64)> {
         let pressed = self.laws.iter().filter_map(|(law, found)| {
             let found = found.as_ref().ok()?;
             Some((

@@ -3,8 +3,8 @@ use std::ops::Range;
 use super::{Characterization, Pressed, is_piece};
 use crate::CleanRecording;
 use crate::fit::{Fit, correlated_uncertainty, with_systematic};
-use crate::inverse::{LawFit, SoughtLaw};
-use crate::lumped::Pulled;
+use crate::inverse::{CandidateLaw, LawFit};
+use crate::lumped::FittedPiece;
 
 /// A recording versus its fits, sample by sample.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,7 +34,7 @@ pub struct FittedRelaxation {
 #[derive(Debug, Clone, PartialEq)]
 pub struct FittedLaw {
     /// Which.
-    pub law: SoughtLaw,
+    pub law: CandidateLaw,
     /// What it gives [N or Pa].
     pub values: Vec<f64>,
     /// How far from them, up and down, the curve of the true parameters lies at most, with the probability
@@ -48,7 +48,7 @@ impl Characterization {
     pub fn fitted(&self, recordings: &[CleanRecording], level: f64) -> Vec<FittedRecording> {
         let samples = |recording: &CleanRecording| match self.uniaxial.is_empty() {
             true => Pressed::samples(recording),
-            false if is_piece(recording) => Pulled::of(recording).ok().map(|own| own.samples),
+            false if is_piece(recording) => FittedPiece::of(recording).ok().map(|own| own.samples),
             false => None,
         };
         let each = recordings.iter().enumerate();
@@ -74,7 +74,7 @@ impl Characterization {
         {
             let measured = all
                 .iter()
-                .filter_map(|own| Pulled::of(&recordings[own.place]).ok());
+                .filter_map(|own| FittedPiece::of(&recordings[own.place]).ok());
             let measured = measured.flat_map(|own| own.stresses);
             let residuals = &found.fit.residuals;
             let values: Vec<f64> = measured.zip(residuals).map(|(own, r)| own + r).collect();
@@ -114,7 +114,7 @@ impl Characterization {
 /// Hands each recording its part of the `values` of a law, with what is `systematic` in its errors.
 fn add(
     all: &mut [FittedRecording],
-    law: SoughtLaw,
+    law: CandidateLaw,
     systematic: &[Vec<f64>],
     values: &[f64],
     fit: &Fit,
@@ -123,7 +123,7 @@ fn add(
     let lengths: Vec<usize> = all.iter().map(|own| own.samples.len()).collect();
     let free = fit.unbounded();
     let known = with_systematic(correlated_uncertainty(&free, &lengths), &free, systematic);
-    let reach = known.reach_of_values(&free, level);
+    let reach = known.prediction_half_widths(&free, level);
     let mut first = 0;
     for (own, length) in all.iter_mut().zip(lengths) {
         let range = first..first + length;

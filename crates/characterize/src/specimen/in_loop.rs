@@ -16,7 +16,7 @@ use palpate_mechanics::{IndentationCurve, PronySeries};
 use super::{Characterization, CharacterizeSettings, Pressed, records, sought};
 use crate::Error;
 use crate::fit::Draws;
-use crate::inverse::{Body, Curves, LawDescription, SoughtLaw};
+use crate::inverse::{Body, CandidateLaw, Curves, LawDescription};
 use crate::viscoelastic::{Relaxation, relaxation};
 
 /// Rounds at most.
@@ -29,9 +29,9 @@ const PART: f64 = 0.15;
 /// A change of depth between two samples below which the indenter rests, over the largest depth [-].
 const RESTS: f64 = 1e-3;
 /// Samples of a run at most: some minutes.
-const MOST_SAMPLES: usize = 400;
+const MAX_SAMPLES: usize = 400;
 /// Least depth of a factor, over the largest [-]: before it there is hardly a force.
-const LEAST_DEPTH: f64 = 0.05;
+const MIN_DEPTH: f64 = 0.05;
 /// Halvings of the way to a shape whose run finds no equilibrium, at most.
 const HALVINGS: usize = 4;
 
@@ -68,7 +68,7 @@ pub(super) fn refine(
 struct Specimen<'a> {
     pressed: &'a [Pressed],
     body: Body,
-    law: SoughtLaw,
+    law: CandidateLaw,
     /// [m]
     deepest: f64,
 }
@@ -104,7 +104,7 @@ impl Specimen<'_> {
         settings: &CharacterizeSettings,
         at_step: &mut dyn FnMut(&'static str),
     ) -> Result<(Relaxation, LawDescription), Error> {
-        let (_, first) = found.laws.first().ok_or(Error::NothingFelt)?;
+        let (_, first) = found.laws.first().ok_or(Error::NoContactForce)?;
         let first = first.as_ref().map_err(Clone::clone)?;
         let relaxing = found.relaxation.as_ref().map_err(Clone::clone)?;
         let mut tissue = Tissue::of(relaxing, first);
@@ -136,7 +136,7 @@ impl Specimen<'_> {
                     draws => law(draws)?,
                 };
                 let law = &mut description.found;
-                law.solves = solves + curves.solves();
+                law.solves = solves + curves.solve_count();
                 multiply(&mut law.forces, &factors);
                 let with_force = self.pressed.iter().zip(&factors);
                 let with_force = with_force.filter(|(pressed, _)| pressed.has_force());
@@ -197,7 +197,7 @@ impl Specimen<'_> {
         let factor = depths.iter().zip(full.iter().zip(product));
         let factor: Vec<f64> = factor
             .map(|(depth, (full, product))| {
-                let has_force = *depth >= LEAST_DEPTH * self.deepest && product > 0.0;
+                let has_force = *depth >= MIN_DEPTH * self.deepest && product > 0.0;
                 if has_force { full / product } else { 1.0 }
             })
             .collect();
@@ -254,10 +254,10 @@ fn run_samples(pressed: &Pressed) -> Result<Vec<usize>, Error> {
             kept.push(place);
         }
     }
-    if kept.len() > MOST_SAMPLES {
+    if kept.len() > MAX_SAMPLES {
         return Err(Error::LoopMovesTooLong {
             samples: kept.len(),
-            most: MOST_SAMPLES,
+            most: MAX_SAMPLES,
         });
     }
     Ok(kept)

@@ -2,14 +2,14 @@ use palpate_files::{Estimate, PronyTerm, Tissue};
 
 use super::Characterization;
 use crate::Error;
-use crate::inverse::SoughtLaw;
+use crate::inverse::CandidateLaw;
 
 impl Characterization {
     /// The tissue of `law`, or else of the one to be preferred: without a name and the files it came from.
     ///
     /// # Errors
     /// When no law was found.
-    pub fn tissue(&self, law: Option<SoughtLaw>) -> Result<Tissue, Error> {
+    pub fn tissue(&self, law: Option<CandidateLaw>) -> Result<Tissue, Error> {
         let law = law
             .or_else(|| self.preferred_law())
             .ok_or_else(|| self.why_no_law())?;
@@ -22,10 +22,10 @@ impl Characterization {
         Ok(tissue)
     }
 
-    fn indented_tissue(&self, law: SoughtLaw) -> Result<Tissue, Error> {
+    fn indented_tissue(&self, law: CandidateLaw) -> Result<Tissue, Error> {
         let relaxation = self.relaxation.as_ref().map_err(Clone::clone)?;
         let found = self.laws.iter().find(|(of, _)| *of == law);
-        let (_, found) = found.ok_or(Error::NothingFelt)?;
+        let (_, found) = found.ok_or(Error::NoContactForce)?;
         let found = found.as_ref().map_err(Clone::clone)?;
         let parameters: Vec<_> = found
             .parameters
@@ -44,13 +44,13 @@ impl Characterization {
         Ok(tissue)
     }
 
-    fn uniaxial_tissue(&self, law: SoughtLaw) -> Result<Tissue, Error> {
+    fn uniaxial_tissue(&self, law: CandidateLaw) -> Result<Tissue, Error> {
         let found = self.uniaxial.iter().find(|(of, _)| *of == law);
-        let (_, found) = found.ok_or(Error::NothingFelt)?;
+        let (_, found) = found.ok_or(Error::NoContactForce)?;
         let found = found.as_ref().map_err(Clone::clone)?;
         let mut tissue = Tissue::new(found.elasticity);
         let method = match law {
-            SoughtLaw::HolzapfelGasserOgden => FIBRES,
+            CandidateLaw::HolzapfelGasserOgden => FIBRES,
             _ => UNIAXIAL,
         };
         tissue.source.method = Some(method.to_owned());
@@ -69,7 +69,7 @@ impl Characterization {
             .chain(pulled)
             .next()
             .cloned()
-            .unwrap_or(Error::NotSought)
+            .unwrap_or(Error::NotFitted)
     }
 }
 

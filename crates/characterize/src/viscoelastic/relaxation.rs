@@ -54,7 +54,7 @@ pub struct Relaxation {
 /// (`specimen::a_law_is_found_from_a_viscoelastic_run`).
 pub(crate) const QUASI_LINEAR: f64 = 0.02;
 /// Most terms that are tried.
-const MOST_TERMS: usize = 4;
+const MAX_TERMS: usize = 4;
 /// A root mean square of ε below which there is nothing left to fit [-]: elastic force is known no better.
 const NEGLIGIBLE: f64 = 3e-4;
 /// Part of Σ ε² that one more term must gain for yet another to be tried [-].
@@ -148,10 +148,10 @@ pub fn relaxation(
     settings: RelaxationSettings,
 ) -> Result<Relaxation, Error> {
     if records.is_empty() {
-        return Err(Error::NothingFelt);
+        return Err(Error::NoContactForce);
     }
     let mut fits: Vec<Fit> = Vec::new();
-    for count in settings.terms.map_or(1..=MOST_TERMS, |terms| terms..=terms) {
+    for count in settings.terms.map_or(1..=MAX_TERMS, |terms| terms..=terms) {
         let fit = with_terms(records, count, fits.last())?;
         let gained = fits.last().is_none_or(|before| {
             fit.sum_of_squares() < (1.0 - NOTHING_GAINED) * before.sum_of_squares()
@@ -164,7 +164,7 @@ pub fn relaxation(
     }
     // What the richest leaves is noise, so all are compared as if that noise had been seen.
     let lengths: Vec<usize> = records.iter().map(|course| course.time.len()).collect();
-    let richest = fits.last().ok_or(Error::NothingFelt)?;
+    let richest = fits.last().ok_or(Error::NoContactForce)?;
     let of_richest = correlated_uncertainty(richest, &lengths);
     let samples = of_richest.effective_samples;
     let (chosen, criteria) = simplest(&fits.iter().collect::<Vec<_>>(), samples);
@@ -219,7 +219,7 @@ pub(crate) fn expected_relaxation(
     let values = values_of(&fit);
     model
         .evaluate(&values, &mut fit.residuals, &mut fit.jacobian)
-        .ok_or(Error::NothingFelt)?;
+        .ok_or(Error::NoContactForce)?;
     let systematic = model.systematic(&values);
     let expected = Expected::of(fit, &systematic, weights);
     let known = expected.known(&expected.fit, systematic.len(), records.len());
@@ -261,7 +261,7 @@ fn with_terms(
             best = Some(fit);
         }
     }
-    let best = best.ok_or(Error::NothingFelt)?;
+    let best = best.ok_or(Error::NoContactForce)?;
     fitted(records, count, &best.parameters)
 }
 

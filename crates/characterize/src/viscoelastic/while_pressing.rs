@@ -102,7 +102,7 @@ fn sought(
             best = Some(fit);
         }
     }
-    best.ok_or(Error::NothingFelt)
+    best.ok_or(Error::NoContactForce)
 }
 
 /// The time in which the indenter comes down [s].

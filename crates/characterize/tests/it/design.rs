@@ -2,10 +2,10 @@
 
 use palpate_characterize::clean::{CleanSettings, clean};
 use palpate_characterize::design::{
-    Criterion, Designed, Expecting, Guess, Instrument, Limits, Presses, design,
+    Criterion, ExpectedCurve, Guess, Instrument, Limits, OptimizedProtocol, Presses, design,
 };
 use palpate_characterize::fit::{Draws, Random};
-use palpate_characterize::inverse::{Body, Curves, SoughtLaw, ZeroErrors};
+use palpate_characterize::inverse::{Body, CandidateLaw, Curves, ZeroErrors};
 use palpate_characterize::viscoelastic::RelaxationSettings;
 use palpate_characterize::{Characterization, CharacterizeSettings, characterize};
 use palpate_files::Recording;
@@ -59,7 +59,7 @@ fn instrument() -> Instrument {
 
 fn guess() -> Guess {
     Guess {
-        law: SoughtLaw::MooneyRivlin,
+        law: CandidateLaw::MooneyRivlin,
         modulus: 612.0,
         shape: vec![0.37],
         series: PronySeries::new(&LIVER).unwrap(),
@@ -75,7 +75,7 @@ fn specimen(seed: u64) -> Guess {
         (between(0.15, 0.25), between(4.5, 8.5)),
     ];
     Guess {
-        law: SoughtLaw::MooneyRivlin,
+        law: CandidateLaw::MooneyRivlin,
         modulus: between(400.0, 1000.0),
         shape: vec![between(0.25, 0.6)],
         series: PronySeries::new(&terms).unwrap(),
@@ -165,8 +165,8 @@ fn wanted() -> Vec<String> {
 }
 
 /// For tissue as guessed, and as it may be.
-fn designed(wanted: &[String]) -> Designed {
-    let base = Expecting::new(guess(), 6.0).unwrap();
+fn designed(wanted: &[String]) -> OptimizedProtocol {
+    let base = ExpectedCurve::new(guess(), 6.0).unwrap();
     let other = |stiffer, slower| base.with(guess().changed(stiffer, slower).unwrap());
     let guesses = [
         base.clone(),
@@ -202,7 +202,7 @@ fn judge(wanted: &[String], specimens: u64, [half, alike]: [f64; 2]) {
     let mut of_expected = [ratios.clone(), ratios.clone()];
     for seed in 0..specimens {
         let truth = specimen(seed);
-        let guess = Expecting::new(truth.clone(), 6.0).unwrap();
+        let guess = ExpectedCurve::new(truth.clone(), 6.0).unwrap();
         let own = both.each_ref().map(|presses| {
             let (expected, ..) = guess.expected(presses, &instrument()).unwrap();
             let expected = |name: &String| {
@@ -272,7 +272,7 @@ fn designed_intervals_of_times_are_half_of_default_ones() {
 #[test]
 fn designed_times_are_near_the_bound_of_any_stimulus() {
     const NEAR: f64 = 1.1;
-    let base = Expecting::new(guess(), 6.0).unwrap();
+    let base = ExpectedCurve::new(guess(), 6.0).unwrap();
     let exact = Instrument {
         noise: 1e-9,
         zeros: ZeroErrors {
@@ -314,7 +314,7 @@ fn designed_times_are_near_the_bound_of_any_stimulus() {
 
 #[test]
 fn what_no_protocol_can_do_is_refused() {
-    let base = Expecting::new(guess(), 6.0).unwrap();
+    let base = ExpectedCurve::new(guess(), 6.0).unwrap();
     let asked = |limits: &Limits, name: &str| {
         let wanted = [name.to_owned()];
         let found = design(
@@ -342,7 +342,7 @@ fn what_no_protocol_can_do_is_refused() {
 /// Judge: in the determinant's sense, the protocol that is the best of all is no worse than the minimax one.
 #[test]
 fn each_criterion_is_best_in_its_own_sense() {
-    let base = Expecting::new(guess(), 6.0).unwrap();
+    let base = ExpectedCurve::new(guess(), 6.0).unwrap();
     let wanted = wanted();
     let of = |criterion| {
         design(
@@ -358,7 +358,7 @@ fn each_criterion_is_best_in_its_own_sense() {
     let [minimax, determinant] = [Criterion::Minimax, Criterion::Determinant].map(of);
     assert!(minimax.worst <= determinant.worst);
     assert!(minimax.presses.duration() <= limits().time * (1.0 + 1e-12));
-    let volume = |designed: &Designed| {
+    let volume = |designed: &OptimizedProtocol| {
         let (found, correlations) = base.expected(&designed.presses, &instrument()).unwrap();
         let chosen: Vec<usize> = correlations
             .names

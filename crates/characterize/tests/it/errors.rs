@@ -78,7 +78,9 @@ fn what_cannot_be_characterized_is_said() {
         said(Error::Unknown { key: "area_m2" }),
         "the recording does not say `area_m2`; add the line `# area_m2 = ...` at its top, or state it with --set"
     );
-    assert!(said(Error::NothingFelt).ends_with("check the signs and the units of depth and force"));
+    assert!(
+        said(Error::NoContactForce).ends_with("check the signs and the units of depth and force")
+    );
     let law = palpate_files::tissue::LawName::MooneyRivlin;
     assert!(said(Error::TubeLaw { law }).starts_with("`mooney_rivlin` is not sought"));
     assert!(

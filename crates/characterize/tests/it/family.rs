@@ -1,7 +1,7 @@
 //! Laws whose curves are solved while they are sought.
 
 use palpate_characterize::inverse::{
-    Body, Curves, Indentation, LawDescription, SoughtLaw, Terms, law_fit,
+    Body, CandidateLaw, Curves, Indentation, LawDescription, Terms, law_fit,
 };
 use palpate_mechanics::PronySeries;
 use palpate_mechanics::contact::Friction;
@@ -17,12 +17,12 @@ fn an_exponential_law_needs_few_runs() {
     let body = Body::under_punch(radius);
     let time: Vec<f64> = (0..200).map(|i| 0.02 * f64::from(i)).collect();
     let depth: Vec<f64> = time.iter().map(|t| 1e-3 * (t / 0.5).min(1.0)).collect();
-    let mut of_truth = Curves::new(body, SoughtLaw::Exponential, 1e-3);
+    let mut of_truth = Curves::new(body, CandidateLaw::Exponential, 1e-3);
     let curve = of_truth.of(gamma, &[alpha]).unwrap().force;
     let force: Vec<f64> = curve.relaxed(&series, &time, &depth);
     let force: Vec<f64> = force.iter().map(|unit| gamma * unit).collect();
     let indentation = Indentation::new(&time, &depth, &force);
-    let mut curves = Curves::new(body, SoughtLaw::Exponential, 1e-3);
+    let mut curves = Curves::new(body, CandidateLaw::Exponential, 1e-3);
     let found = law_fit(&mut curves, &[indentation], &series).unwrap();
     let off = [
         found.modulus() / gamma - 1.0,
@@ -38,11 +38,11 @@ fn an_exponential_law_needs_few_runs() {
 /// where the force tells it, and else within its interval, which then is wide.
 #[test]
 fn laws_of_several_shapes_return_or_say_that_they_do_not() {
-    let truths: [(SoughtLaw, &[f64]); 4] = [
-        (SoughtLaw::Ogden(Terms::One), &[5.3]),
-        (SoughtLaw::ReducedPolynomial(Terms::Two), &[0.31]),
-        (SoughtLaw::ReducedPolynomial(Terms::Three), &[0.12, 0.11]),
-        (SoughtLaw::Ogden(Terms::Two), &[3.7, 0.4, -4.1]),
+    let truths: [(CandidateLaw, &[f64]); 4] = [
+        (CandidateLaw::Ogden(Terms::One), &[5.3]),
+        (CandidateLaw::ReducedPolynomial(Terms::Two), &[0.31]),
+        (CandidateLaw::ReducedPolynomial(Terms::Three), &[0.12, 0.11]),
+        (CandidateLaw::Ogden(Terms::Two), &[3.7, 0.4, -4.1]),
     ];
     let (modulus, series) = (800.0, PronySeries::default());
     let body = Body::under_punch(1e-3);
@@ -104,7 +104,7 @@ fn a_tube_under_pressure_gives_its_modulus() {
             face: Friction::Frictionless,
             pressure,
         };
-        Curves::new(body, SoughtLaw::NeoHookean, 1.5e-3)
+        Curves::new(body, CandidateLaw::NeoHookean, 1.5e-3)
     };
     let series = PronySeries::new(&[]).unwrap();
     let depth: Vec<f64> = (1..=40).map(|i| 1.5e-3 / 40.0 * f64::from(i)).collect();

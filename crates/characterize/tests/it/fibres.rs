@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use palpate_characterize::fit::Random;
-use palpate_characterize::inverse::SoughtLaw;
+use palpate_characterize::inverse::CandidateLaw;
 use palpate_characterize::lumped::UniaxialFit;
 use palpate_characterize::{
     Characterization, CharacterizeSettings, CleanRecording, CleanSettings, Error, characterize,
@@ -14,7 +14,7 @@ use palpate_characterize::{
 use palpate_files::Recording;
 use palpate_files::recording::{ForeignColumns, StimulusKind};
 
-const LAW: SoughtLaw = SoughtLaw::HolzapfelGasserOgden;
+const LAW: CandidateLaw = CandidateLaw::HolzapfelGasserOgden;
 const NAMES: [&str; 5] = ["c10_pa", "k1_pa", "k2", "dispersion", "fibre_angle_deg"];
 
 /// C10 [Pa], k1 [Pa], k2, dispersion and angle of the families [degrees].
@@ -110,7 +110,7 @@ fn read(text: &str) -> CleanRecording {
     clean(&recording, &CleanSettings::default()).unwrap()
 }
 
-fn found(recordings: &[CleanRecording], laws: &[SoughtLaw]) -> Characterization {
+fn found(recordings: &[CleanRecording], laws: &[CandidateLaw]) -> Characterization {
     let settings = CharacterizeSettings {
         laws: laws.to_vec(),
         ..CharacterizeSettings::default()
@@ -190,12 +190,12 @@ fn curves_without_noise_return_their_law() {
 fn strips_with_angles_are_fitted_with_fibres() {
     let truth = [2000.0, 15_000.0, 4.0, 0.12, 35.0];
     let strips = quiet(&STRIPS, &truth, "");
-    let all = found(&strips, &SoughtLaw::USUAL);
+    let all = found(&strips, &CandidateLaw::DEFAULT);
     assert_eq!(all.uniaxial.len(), 4);
     assert_eq!(all.preferred_law(), Some(LAW));
     let tissue = all.tissue(None).unwrap();
     assert!((tissue.elasticity.values()[1] / truth[1] - 1.0).abs() < 1e-4);
-    let isotropic = found(&strips, &[SoughtLaw::NeoHookean]);
+    let isotropic = found(&strips, &[CandidateLaw::NeoHookean]);
     let said = isotropic.warnings.concat();
     assert!(said.contains("no law here has fibres"), "{said}");
 }
@@ -243,7 +243,7 @@ fn what_does_not_fit_the_law_is_said() {
     let all = found(&strips, &[LAW]);
     let key = "fibre_axis_angle_deg";
     assert_eq!(all.uniaxial[0].1, Err(Error::Unknown { key }));
-    assert_eq!(found(&strips, &SoughtLaw::USUAL).uniaxial.len(), 3);
+    assert_eq!(found(&strips, &CandidateLaw::DEFAULT).uniaxial.len(), 3);
     // Under an indenter.
     let mut pressed = strips.remove(0);
     pressed.header.stimulus = Some(StimulusKind::RampAndHold);
@@ -259,7 +259,9 @@ fn what_does_not_fit_the_law_is_said() {
         .iter_mut()
         .for_each(|own| own.header.fibre_axis_angle_deg = None);
     stated[0].header.dispersion = Some(0.1);
-    let said = found(&stated, &[SoughtLaw::NeoHookean]).warnings.concat();
+    let said = found(&stated, &[CandidateLaw::NeoHookean])
+        .warnings
+        .concat();
     assert!(said.contains("`dispersion` is stated"), "{said}");
     // Beyond what there is.
     let text =

@@ -1,7 +1,7 @@
 //! Recordings beside what was found from them.
 
 use palpate_characterize::fit::Random;
-use palpate_characterize::inverse::{Correlations, ElasticForce, PUNCH, SoughtLaw};
+use palpate_characterize::inverse::{CandidateLaw, Correlations, ElasticForce, PUNCH};
 use palpate_characterize::{Characterization, CharacterizeSettings, CleanRecording};
 use palpate_characterize::{CleanSettings, characterize, clean};
 use palpate_files::Recording;
@@ -43,7 +43,7 @@ fn recording(seed: u64) -> CleanRecording {
     .unwrap()
 }
 
-fn found(recordings: &[CleanRecording], law: SoughtLaw) -> Characterization {
+fn found(recordings: &[CleanRecording], law: CandidateLaw) -> Characterization {
     let settings = CharacterizeSettings {
         laws: vec![law],
         ..CharacterizeSettings::default()
@@ -59,7 +59,7 @@ fn bands_hold_the_true_curve() {
     let (mut held, mut all) = (0, 0);
     for seed in 0..4 {
         let recordings = [recording(seed)];
-        let found = found(&recordings, SoughtLaw::NeoHookean);
+        let found = found(&recordings, CandidateLaw::NeoHookean);
         let [fitted] = &found.fitted(&recordings, 0.95)[..] else {
             panic!("one recording was fitted");
         };
@@ -89,7 +89,7 @@ fn bands_hold_the_true_curve() {
 #[test]
 fn relaxation_is_seen_over_the_instantaneous_force() {
     let recordings = [recording(1)];
-    let found = found(&recordings, SoughtLaw::NeoHookean);
+    let found = found(&recordings, CandidateLaw::NeoHookean);
     let fitted = &found.fitted(&recordings, 0.95)[0];
     let relaxation = fitted.relaxation.as_ref().unwrap();
     let count = fitted.samples.len();
@@ -111,7 +111,7 @@ fn relaxation_is_seen_over_the_instantaneous_force() {
 /// Judge: the correlation of both parameters that the law's own description has, and what holds of any.
 #[test]
 fn correlations_are_those_of_the_law() {
-    let found = found(&[recording(2)], SoughtLaw::MooneyRivlin);
+    let found = found(&[recording(2)], CandidateLaw::MooneyRivlin);
     let law = found.laws[0].1.as_ref().unwrap();
     let correlations = law.correlations();
     let matrix = &correlations.matrix;
@@ -128,7 +128,7 @@ fn correlations_are_those_of_the_law() {
     assert!(matrix.diagonal().iter().all(|own| (own - 1.0).abs() < 1e-9));
     let criteria = found.criteria();
     assert_eq!(criteria.len(), 1);
-    assert_eq!(criteria[0].0, SoughtLaw::MooneyRivlin);
+    assert_eq!(criteria[0].0, CandidateLaw::MooneyRivlin);
 }
 
 /// Judge: at its own depths a law that was found gives the forces of its fit, and its standard error is half the
@@ -136,7 +136,7 @@ fn correlations_are_those_of_the_law() {
 #[test]
 fn forces_of_a_found_law_and_their_errors_are_those_of_its_parameters() {
     let recordings = [recording(1)];
-    let found = found(&recordings, SoughtLaw::MooneyRivlin);
+    let found = found(&recordings, CandidateLaw::MooneyRivlin);
     let law = found.laws[0].1.as_ref().unwrap();
     let own = &found.fitted(&recordings, 0.95)[0];
     let of = |values: &[f64]| values[own.samples.clone()].to_vec();

@@ -2,7 +2,7 @@
 //! G(t), and to the errors of the elements with finite elements in the loop.
 
 use palpate_characterize::clean::{CleanSettings, clean};
-use palpate_characterize::inverse::{Body, LawParameter, SoughtLaw};
+use palpate_characterize::inverse::{Body, CandidateLaw, LawParameter};
 use palpate_characterize::viscoelastic::RelaxationSettings;
 use palpate_characterize::{CharacterizeSettings, CleanRecording, Error, characterize};
 use palpate_files::recording::{IndenterShape, RecordingHeader, Samples, Specimen, StimulusKind};
@@ -17,7 +17,7 @@ const RADIUS: f64 = 1e-3;
 /// A tissue, and how it is pressed.
 #[derive(Debug, Clone, Copy)]
 struct Press {
-    law: SoughtLaw,
+    law: CandidateLaw,
     /// [Pa]
     modulus: f64,
     /// [-]
@@ -126,7 +126,7 @@ const TOO_STIFF: f64 = 0.0022;
 #[test]
 fn a_shallow_full_run_comes_back() {
     let press = Press {
-        law: SoughtLaw::NeoHookean,
+        law: CandidateLaw::NeoHookean,
         modulus: 731.0,
         shape: &[],
         depth: 2e-3,
@@ -145,7 +145,7 @@ fn a_shallow_full_run_comes_back() {
 /// Judge: full runs with parameters that no table has, on halved elements where the law has an equilibrium there, else on
 /// the usual mesh, which is too stiff by its trend. Each parameter lies in its interval, by the product and in the loop,
 /// whose intervals are narrower.
-fn assert_comes_back(law: SoughtLaw, modulus: f64, shape: &'static [f64], halvings: [i32; 3]) {
+fn assert_comes_back(law: CandidateLaw, modulus: f64, shape: &'static [f64], halvings: [i32; 3]) {
     let presses = [(6e-3, 0.5), (3e-3, 2.0), (5e-3, 5.0)];
     for ((depth, ramp), halvings) in presses.into_iter().zip(halvings) {
         let press = Press {
@@ -173,26 +173,26 @@ fn assert_comes_back(law: SoughtLaw, modulus: f64, shape: &'static [f64], halvin
 #[test]
 #[ignore = "slow: full runs on halved elements"]
 fn a_deep_neo_hookean_run_comes_back() {
-    assert_comes_back(SoughtLaw::NeoHookean, 731.0, &[], [1; 3]);
+    assert_comes_back(CandidateLaw::NeoHookean, 731.0, &[], [1; 3]);
 }
 
 #[test]
 #[ignore = "slow: full runs on halved elements"]
 fn a_deep_mooney_rivlin_run_comes_back() {
-    assert_comes_back(SoughtLaw::MooneyRivlin, 612.0, &[0.37], [0, 1, 0]);
+    assert_comes_back(CandidateLaw::MooneyRivlin, 612.0, &[0.37], [0, 1, 0]);
 }
 
 #[test]
 #[ignore = "slow: full runs on halved elements"]
 fn a_deep_exponential_run_comes_back() {
-    assert_comes_back(SoughtLaw::Exponential, 900.0, &[1.7], [1; 3]);
+    assert_comes_back(CandidateLaw::Exponential, 900.0, &[1.7], [1; 3]);
 }
 
 /// A tube and a piece along one axis have no indented solid that a run could go through.
 #[test]
 fn what_has_no_solid_specimen_is_refused() {
     let press = Press {
-        law: SoughtLaw::NeoHookean,
+        law: CandidateLaw::NeoHookean,
         modulus: 731.0,
         shape: &[],
         depth: 1e-3,

@@ -3,7 +3,7 @@
 
 use palpate_characterize::clean::{CleanSettings, clean};
 use palpate_characterize::fit::Random;
-use palpate_characterize::inverse::{Body, SoughtLaw, Terms};
+use palpate_characterize::inverse::{Body, CandidateLaw, Terms};
 use palpate_characterize::{Characterization, CharacterizeSettings, characterize};
 use palpate_files::recording::{ForeignColumns, IndenterShape, RecordingHeader, Samples};
 use palpate_files::{Estimate, Recording};
@@ -23,16 +23,16 @@ const RATE: f64 = 100.0;
 const HOLD_S: f64 = 20.0;
 
 /// A tissue: a law with a modulus [Pa] and shapes [-] off the grid of any table.
-pub(crate) type Truth = (SoughtLaw, f64, &'static [f64]);
+pub(crate) type Truth = (CandidateLaw, f64, &'static [f64]);
 
 pub(crate) const TRUTHS: [Truth; 6] = [
-    (SoughtLaw::NeoHookean, 731.0, &[]),
-    (SoughtLaw::MooneyRivlin, 612.0, &[0.37]),
-    (SoughtLaw::Exponential, 1187.0, &[0.83]),
-    (SoughtLaw::Ogden(Terms::One), 1310.0, &[5.3]),
-    (SoughtLaw::ReducedPolynomial(Terms::Two), 580.0, &[0.31]),
+    (CandidateLaw::NeoHookean, 731.0, &[]),
+    (CandidateLaw::MooneyRivlin, 612.0, &[0.37]),
+    (CandidateLaw::Exponential, 1187.0, &[0.83]),
+    (CandidateLaw::Ogden(Terms::One), 1310.0, &[5.3]),
+    (CandidateLaw::ReducedPolynomial(Terms::Two), 580.0, &[0.31]),
     (
-        SoughtLaw::ReducedPolynomial(Terms::Three),
+        CandidateLaw::ReducedPolynomial(Terms::Three),
         580.0,
         &[0.12, 0.11],
     ),
@@ -103,7 +103,7 @@ fn recorded(curve: &IndentationCurve, seed: u64) -> (Recording, f64) {
     (recording, first)
 }
 
-fn found(recording: &Recording, law: SoughtLaw) -> Characterization {
+fn found(recording: &Recording, law: CandidateLaw) -> Characterization {
     let settings = CharacterizeSettings {
         laws: vec![law],
         draws: None,
@@ -250,7 +250,7 @@ fn a_stated_thickness_gives_the_tissue() {
             ..block
         },
         indenter,
-        law: SoughtLaw::NeoHookean.of(1000.0, &[]).unwrap(),
+        law: CandidateLaw::NeoHookean.of(1000.0, &[]).unwrap(),
         prony: PronySeries::default(),
         deepest: 2e-3,
         halvings: 1,
@@ -273,7 +273,7 @@ fn a_stated_thickness_gives_the_tissue() {
         };
         let recording = Recording::new(header, samples).unwrap();
         let settings = CharacterizeSettings {
-            laws: vec![SoughtLaw::NeoHookean],
+            laws: vec![CandidateLaw::NeoHookean],
             draws: None,
             ..CharacterizeSettings::default()
         };

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use palpate_characterize::fit::{Draws, Random};
-use palpate_characterize::inverse::{LawDescription, PUNCH, SoughtLaw};
+use palpate_characterize::inverse::{CandidateLaw, LawDescription, PUNCH};
 use palpate_characterize::{CharacterizeSettings, characterize};
 use palpate_mechanics::{IndentationCurve, PronySeries};
 
@@ -33,7 +33,7 @@ fn laws_felt_with(count: usize, mut noise: impl FnMut(f64) -> f64) -> (Vec<LawDe
     let felt = forces.iter().zip(&history.times);
     let felt: Vec<f64> = felt.map(|(f, t)| f + noise(t / last)).collect();
     let settings = CharacterizeSettings {
-        laws: vec![SoughtLaw::NeoHookean, SoughtLaw::MooneyRivlin],
+        laws: vec![CandidateLaw::NeoHookean, CandidateLaw::MooneyRivlin],
         draws: Some(Draws { count, seed: 2 }),
         ..CharacterizeSettings::default()
     };

@@ -2,7 +2,7 @@
 
 use palpate_characterize::fit::Random;
 use palpate_characterize::inverse::{
-    Body, Curves, Indentation, LawDescription, SoughtLaw, ZeroErrors, law_fit,
+    Body, CandidateLaw, Curves, Indentation, LawDescription, ZeroErrors, law_fit,
 };
 use palpate_characterize::{CharacterizeSettings, CleanSettings, Error, characterize, clean};
 use palpate_files::Recording;
@@ -52,7 +52,7 @@ fn held(contrast: f64, curve: &IndentationCurve, deepest: f64, recordings: u64) 
     };
     let mut curves = Curves::new(
         Body::of(&header, deepest).unwrap(),
-        SoughtLaw::NeoHookean,
+        CandidateLaw::NeoHookean,
         deepest,
     );
     let time: Vec<f64> = (0..=200).map(|i| 0.01 * f64::from(i)).collect();
@@ -123,7 +123,7 @@ const OF_RATIOS: [(f64, [f64; 16]); 4] = [
 fn forces_on_layers_are_those_of_another_code() {
     for (contrast, forces) in OF_RATIOS {
         let body = Body::of(&header_of_sphere(contrast), 2e-3).unwrap();
-        let mut curves = Curves::new(body, SoughtLaw::NeoHookean, 2e-3);
+        let mut curves = Curves::new(body, CandidateLaw::NeoHookean, 2e-3);
         let unit = curves.of(MODULUS, &[]).unwrap();
         let off = |depth: f64, force: f64| MODULUS * unit.force.force(depth) / force - 1.0;
         let [half, whole] = [off(1e-3, forces[7]), off(2e-3, forces[15])];
@@ -153,14 +153,18 @@ fn intervals_of_layers_hold_the_truth() {
 #[test]
 fn a_base_like_its_layer_is_no_base() {
     let deepest = 1.5 * RADIUS;
-    let mut table = Curves::new(Body::under_punch(RADIUS), SoughtLaw::MooneyRivlin, deepest);
+    let mut table = Curves::new(
+        Body::under_punch(RADIUS),
+        CandidateLaw::MooneyRivlin,
+        deepest,
+    );
     let of_ratio = RecordingHeader {
         base_modulus_pa: None,
         base_modulus_ratio: Some(1.0),
         ..header(2.0, 1.0)
     };
     let body = Body::of(&of_ratio, deepest).unwrap();
-    let mut layer = Curves::new(body, SoughtLaw::MooneyRivlin, deepest);
+    let mut layer = Curves::new(body, CandidateLaw::MooneyRivlin, deepest);
     let [expected, found] =
         [&mut table, &mut layer].map(|curves| curves.of(f64::INFINITY, &[0.0]).unwrap());
     for part in [0.1, 0.5, 1.0] {
@@ -191,7 +195,7 @@ fn recording(header: RecordingHeader, curve: &IndentationCurve, deepest: f64) ->
 
 fn settings() -> CharacterizeSettings {
     CharacterizeSettings {
-        laws: vec![SoughtLaw::NeoHookean],
+        laws: vec![CandidateLaw::NeoHookean],
         draws: None,
         ..CharacterizeSettings::default()
     }
@@ -209,7 +213,7 @@ fn a_layer_returns_with_the_error_of_its_base() {
         ..stated.clone()
     };
     let body = Body::of(&by_ratio, deepest).unwrap();
-    let curve = Curves::new(body, SoughtLaw::NeoHookean, deepest).of(1.0, &[]);
+    let curve = Curves::new(body, CandidateLaw::NeoHookean, deepest).of(1.0, &[]);
     let curve = curve.unwrap().force;
     let found = |header: RecordingHeader| {
         let recording = recording(header, &curve, deepest);
@@ -310,7 +314,7 @@ fn friction_is_that_of_the_header() {
             ..RecordingHeader::default()
         };
         let body = Body::of(&header, depth).unwrap();
-        let mut curves = Curves::new(body, SoughtLaw::NeoHookean, depth);
+        let mut curves = Curves::new(body, CandidateLaw::NeoHookean, depth);
         curves.of(f64::INFINITY, &[]).unwrap().force.force(depth)
     };
     let [bonded, smooth] = [IndenterFriction::Bonded, IndenterFriction::Frictionless].map(Some);
@@ -347,7 +351,7 @@ fn layers_that_cannot_be_are_refused() {
     assert!(of(no_thickness).contains("`thickness_m`"));
     // A base of a thousandth: whatever the layer is, both cannot be told apart.
     let body = Body::of(&header(2.0, 1e-4), deepest).unwrap();
-    let mut curves = Curves::new(body, SoughtLaw::NeoHookean, deepest);
+    let mut curves = Curves::new(body, CandidateLaw::NeoHookean, deepest);
     let (time, depth) = ([0.0, 0.5, 1.0], [0.0, 0.5 * deepest, deepest]);
     let force = depth.map(|d| 16.0 * MODULUS * RADIUS * d);
     let pressed = [Indentation {

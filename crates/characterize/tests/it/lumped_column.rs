@@ -101,7 +101,7 @@ fn the_law_follows_the_measured_organs() {
 #[test]
 fn nothing_felt_is_no_column() {
     let nothing = fit_column(FLAT, &[0.0, 1e-3], &[0.0, 0.0]);
-    assert_eq!(nothing.unwrap_err(), Error::NothingFelt);
+    assert_eq!(nothing.unwrap_err(), Error::NoContactForce);
     let one = fit_column(FLAT, &[1e-3], &[0.1]);
     assert!(matches!(one, Err(Error::TooShort { .. })));
 }

@@ -179,8 +179,8 @@ fn one_hold_does_not_know_all() {
 
 #[test]
 fn without_force_there_are_no_springs() {
-    assert_eq!(fit_springs(&[]).unwrap_err(), Error::NothingFelt);
+    assert_eq!(fit_springs(&[]).unwrap_err(), Error::NoContactForce);
     let (time, depth, force) = ([0.0, 1.0, 2.0], [0.0, 1e-3, 1e-3], [0.0; 3]);
     let still = Indentation::new(&time, &depth, &force);
-    assert_eq!(fit_springs(&[still]).unwrap_err(), Error::NothingFelt);
+    assert_eq!(fit_springs(&[still]).unwrap_err(), Error::NoContactForce);
 }

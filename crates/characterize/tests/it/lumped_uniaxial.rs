@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use palpate_characterize::fit::Random;
-use palpate_characterize::inverse::{SoughtLaw, Terms};
+use palpate_characterize::inverse::{CandidateLaw, Terms};
 use palpate_characterize::lumped::{UniaxialFit, fit_uniaxial, fit_uniaxial_recordings};
 use palpate_characterize::{CleanRecording, CleanSettings, Error, clean};
 use palpate_files::Recording;
@@ -13,38 +13,38 @@ use crate::data;
 use crate::made_up::{own, times};
 
 /// Nominal stresses [Pa], typed from textbooks.
-fn stress(law: SoughtLaw, p: &[f64], l: f64) -> f64 {
+fn stress(law: CandidateLaw, p: &[f64], l: f64) -> f64 {
     let bar = l - 1.0 / (l * l);
     match law {
-        SoughtLaw::NeoHookean => 2.0 * p[0] * bar,
-        SoughtLaw::MooneyRivlin => 2.0 * bar * (p[0] + p[1] / l),
-        SoughtLaw::Exponential => {
+        CandidateLaw::NeoHookean => 2.0 * p[0] * bar,
+        CandidateLaw::MooneyRivlin => 2.0 * bar * (p[0] + p[1] / l),
+        CandidateLaw::Exponential => {
             let (along, across) = (p[1] * (l * l - 1.0), p[1] * (1.0 / l - 1.0));
             p[0] / (p[1] + 1.0) * (l * along.exp() - across.exp() / (l * l))
         }
-        SoughtLaw::Ogden(_) => {
+        CandidateLaw::Ogden(_) => {
             let term =
                 |p: &[f64]| 2.0 * p[0] / p[1] * (l.powf(p[1] - 1.0) - l.powf(-0.5 * p[1] - 1.0));
             p.chunks(2).map(term).sum()
         }
-        SoughtLaw::ReducedPolynomial(_) => {
+        CandidateLaw::ReducedPolynomial(_) => {
             let i = l * l + 2.0 / l - 3.0;
             let c = |place: usize| p.get(place).copied().unwrap_or(0.0);
             2.0 * bar * (c(0) + 2.0 * c(1) * i + 3.0 * c(2) * i * i)
         }
-        SoughtLaw::HolzapfelGasserOgden => panic!("its strips are those of `fibres`"),
+        CandidateLaw::HolzapfelGasserOgden => panic!("its strips are those of `fibres`"),
     }
 }
 
-const TRUTHS: [(SoughtLaw, &[f64]); 7] = [
-    (SoughtLaw::NeoHookean, &[800.0]),
-    (SoughtLaw::MooneyRivlin, &[500.0, 300.0]),
-    (SoughtLaw::Exponential, &[1500.0, 2.0]),
-    (SoughtLaw::Ogden(Terms::One), &[900.0, 5.7]),
-    (SoughtLaw::Ogden(Terms::Two), &[700.0, 3.1, 200.0, -5.3]),
-    (SoughtLaw::ReducedPolynomial(Terms::Two), &[500.0, 180.0]),
+const TRUTHS: [(CandidateLaw, &[f64]); 7] = [
+    (CandidateLaw::NeoHookean, &[800.0]),
+    (CandidateLaw::MooneyRivlin, &[500.0, 300.0]),
+    (CandidateLaw::Exponential, &[1500.0, 2.0]),
+    (CandidateLaw::Ogden(Terms::One), &[900.0, 5.7]),
+    (CandidateLaw::Ogden(Terms::Two), &[700.0, 3.1, 200.0, -5.3]),
+    (CandidateLaw::ReducedPolynomial(Terms::Two), &[500.0, 180.0]),
     (
-        SoughtLaw::ReducedPolynomial(Terms::Three),
+        CandidateLaw::ReducedPolynomial(Terms::Three),
         &[500.0, 90.0, 40.0],
     ),
 ];
@@ -65,7 +65,7 @@ fn laws_return_from_their_closed_forms() {
 }
 
 /// Pieces of 4 cm² and 10 mm that are pressed by a third, with noise of 1 mN.
-fn pieces(law: SoughtLaw, truth: &[f64]) -> Vec<CleanRecording> {
+fn pieces(law: CandidateLaw, truth: &[f64]) -> Vec<CleanRecording> {
     let (area, height) = (4e-4, 10e-3);
     let mut random = Random::new(7);
     let speeds = [1e-4, 2e-4];
@@ -99,15 +99,19 @@ fn laws_return_from_recordings() {
     }
     let mut unknown = pieces(TRUTHS[0].0, TRUTHS[0].1);
     unknown[1].header.height_m = None;
-    let refused = fit_uniaxial_recordings(SoughtLaw::NeoHookean, &unknown);
+    let refused = fit_uniaxial_recordings(CandidateLaw::NeoHookean, &unknown);
     assert_eq!(refused.unwrap_err(), Error::Unknown { key: "height_m" });
 }
 
 #[test]
 fn a_stress_that_falls_is_no_law() {
-    let falls = fit_uniaxial(SoughtLaw::NeoHookean, &[1.0, 1.1, 1.2], &[0.0, -1.0, -2.0]);
-    assert_eq!(falls.unwrap_err(), Error::NothingFelt);
-    let few = fit_uniaxial(SoughtLaw::MooneyRivlin, &[1.1], &[100.0]);
+    let falls = fit_uniaxial(
+        CandidateLaw::NeoHookean,
+        &[1.0, 1.1, 1.2],
+        &[0.0, -1.0, -2.0],
+    );
+    assert_eq!(falls.unwrap_err(), Error::NoContactForce);
+    let few = fit_uniaxial(CandidateLaw::MooneyRivlin, &[1.1], &[100.0]);
     assert!(matches!(few, Err(Error::TooShort { .. })));
 }
 
@@ -131,13 +135,13 @@ fn rubber_is_missed_by_two_laws() {
         &folder.join("rubber/treloar1944_uniaxial.csv"),
         &columns,
     )];
-    let found = SoughtLaw::USUAL.map(|law| fit_uniaxial_recordings(law, &rubber).unwrap());
+    let found = CandidateLaw::DEFAULT.map(|law| fit_uniaxial_recordings(law, &rubber).unwrap());
     for fit in &found {
         println!("{:?} {:.3} {:#?}", fit.parameters, fit.misfit, fit.warnings);
     }
     let (mut products, mut squares) = (0.0, 0.0);
     for (depth, force) in rubber[0].depth.iter().zip(&rubber[0].force) {
-        let unit = stress(SoughtLaw::NeoHookean, &[1.0], 1.0 - depth);
+        let unit = stress(CandidateLaw::NeoHookean, &[1.0], 1.0 - depth);
         products -= unit * force;
         squares += unit * unit;
     }
@@ -192,15 +196,19 @@ fn silicone_is_what_its_authors_found() {
     for material in ["EF10_0T", "EF10_50T", "EF10_100T", "EF30_0T", "EF50_0T"] {
         let pieces = silicone(&folder, material);
         for (law, model, unit) in [
-            (SoughtLaw::NeoHookean, "Neo Hookean", 0.5),
-            (SoughtLaw::MooneyRivlin, "Mooney Rivlin_o1", 1.0),
-            (SoughtLaw::Ogden(Terms::One), "Ogden_o1", 1.0),
-            (SoughtLaw::ReducedPolynomial(Terms::Two), "Yeoh_o2", 1.0),
-            (SoughtLaw::ReducedPolynomial(Terms::Three), "Yeoh_o3", 1.0),
+            (CandidateLaw::NeoHookean, "Neo Hookean", 0.5),
+            (CandidateLaw::MooneyRivlin, "Mooney Rivlin_o1", 1.0),
+            (CandidateLaw::Ogden(Terms::One), "Ogden_o1", 1.0),
+            (CandidateLaw::ReducedPolynomial(Terms::Two), "Yeoh_o2", 1.0),
+            (
+                CandidateLaw::ReducedPolynomial(Terms::Three),
+                "Yeoh_o3",
+                1.0,
+            ),
         ] {
             let theirs = authors(&table, material, model).into_iter();
             let mut theirs: Vec<f64> = theirs.map(|value| 1e3 * unit * value).collect();
-            if let (SoughtLaw::Ogden(_), [mu, alpha]) = (law, &mut theirs[..]) {
+            if let (CandidateLaw::Ogden(_), [mu, alpha]) = (law, &mut theirs[..]) {
                 *alpha *= 1e-3;
                 *mu *= 0.5 * *alpha;
             }

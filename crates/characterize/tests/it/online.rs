@@ -4,7 +4,7 @@
 use nalgebra::DMatrix;
 use palpate_characterize::clean::{CleanSettings, clean};
 use palpate_characterize::fit::Random;
-use palpate_characterize::inverse::SoughtLaw;
+use palpate_characterize::inverse::CandidateLaw;
 use palpate_characterize::online::{
     OnlineContact, OnlineEstimate, OnlineEstimator, OnlineSample, OnlineSettings,
 };
@@ -110,7 +110,7 @@ const TIMES: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
 
 /// Estimates at each of [`TIMES`], and some between, as a window makes them.
 fn estimates(press: &Press) -> Vec<OnlineEstimate> {
-    let mut online = estimator(OnlineContact::Sought);
+    let mut online = estimator(OnlineContact::Detected);
     let (mut next, mut found) = (0.0, Vec::new());
     for sample in &press.samples {
         online.add(*sample);
@@ -237,7 +237,7 @@ fn last_estimates_are_those_of_the_whole_recording() {
         let mut recording = Recording::parse_foreign(&text, "pressed.csv", &columns).unwrap();
         recording.header = header();
         let settings = CharacterizeSettings {
-            laws: vec![SoughtLaw::NeoHookean],
+            laws: vec![CandidateLaw::NeoHookean],
             draws: None,
             ..CharacterizeSettings::default()
         };
@@ -322,7 +322,7 @@ fn five_seconds_do_not_separate_the_terms() {
 #[test]
 fn no_sample_makes_an_estimate_that_is_no_number() {
     for contact in [
-        OnlineContact::Sought,
+        OnlineContact::Detected,
         OnlineContact::Stated { error_m: 1e-5 },
     ] {
         for kind in 0..6 {
@@ -369,7 +369,7 @@ fn no_sample_makes_an_estimate_that_is_no_number() {
 fn a_sample_allocates_nothing() {
     let curve = elastic(TRUTHS[0], 0);
     let press = pressed(&curve, 1, 4.0, &WHITE);
-    let mut online = estimator(OnlineContact::Sought);
+    let mut online = estimator(OnlineContact::Detected);
     let before = assert_no_alloc::violation_count();
     assert_no_alloc::assert_no_alloc(|| {
         for sample in &press.samples {

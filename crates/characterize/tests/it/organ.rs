@@ -2,7 +2,7 @@
 
 use palpate_characterize::fit::Random;
 use palpate_characterize::inverse::{
-    Body, Curves, FarField, Indentation, LawDescription, Organ, SoughtLaw, Terms, law_fit,
+    Body, CandidateLaw, Curves, FarField, Indentation, LawDescription, Organ, Terms, law_fit,
 };
 use palpate_characterize::{CleanSettings, Error, characterize, characterize_organ, clean};
 use palpate_files::Recording;
@@ -68,7 +68,7 @@ fn a_hemisphere_is_stiffer_than_a_large_piece() {
 /// Elastic forces on the pole by axisymmetric elements at finite strain, extrapolated from two meshes.
 fn elastic(
     body: &Body,
-    law: SoughtLaw,
+    law: CandidateLaw,
     modulus: f64,
     shape: &[f64],
     deepest: f64,
@@ -103,10 +103,10 @@ fn elastic(
 
 /// Of each parameter, how many of `seeds` recordings with noise of 1 % of the largest force hold it in the interval of
 /// 95 %.
-fn held(law: SoughtLaw, body: Body, deepest: f64, seeds: u64) -> Vec<usize> {
+fn held(law: CandidateLaw, body: Body, deepest: f64, seeds: u64) -> Vec<usize> {
     let (modulus, shape) = (
         731.0,
-        if law == SoughtLaw::NeoHookean {
+        if law == CandidateLaw::NeoHookean {
             vec![]
         } else {
             vec![4.7]
@@ -146,7 +146,12 @@ fn held(law: SoughtLaw, body: Body, deepest: f64, seeds: u64) -> Vec<usize> {
 /// Judge: forces of axisymmetric elements at finite strain, to as deep as the punch is wide.
 #[test]
 fn a_modulus_on_a_hemisphere_is_within_its_interval() {
-    let held = held(SoughtLaw::NeoHookean, Body::under_punch(RADIUS), RADIUS, 1);
+    let held = held(
+        CandidateLaw::NeoHookean,
+        Body::under_punch(RADIUS),
+        RADIUS,
+        1,
+    );
     assert_eq!(held, [1]);
 }
 
@@ -172,7 +177,7 @@ fn under_sliding_punch() -> Body {
 #[ignore = "slow: finite elements of a hemisphere and of a large piece"]
 fn a_modulus_on_a_hemisphere_is_within_its_interval_without_friction() {
     let held = held(
-        SoughtLaw::NeoHookean,
+        CandidateLaw::NeoHookean,
         under_sliding_punch(),
         0.2 * RADIUS,
         1,
@@ -185,7 +190,7 @@ fn a_modulus_on_a_hemisphere_is_within_its_interval_without_friction() {
 #[ignore = "slow: finite elements of a hemisphere and of a large piece"]
 fn a_modulus_on_a_hemisphere_is_within_its_interval_under_a_sphere() {
     let body = Body::under_sphere(RADIUS);
-    let held = held(SoughtLaw::NeoHookean, body, 0.4 * RADIUS, 1);
+    let held = held(CandidateLaw::NeoHookean, body, 0.4 * RADIUS, 1);
     assert_eq!(held, [1]);
 }
 
@@ -195,10 +200,14 @@ fn a_modulus_on_a_hemisphere_is_within_its_interval_under_a_sphere() {
 fn intervals_on_a_hemisphere_hold_the_truth() {
     let (punch, round) = (Body::under_punch(RADIUS), 0.4 * RADIUS);
     for (law, body, deepest) in [
-        (SoughtLaw::NeoHookean, punch, RADIUS),
-        (SoughtLaw::Ogden(Terms::One), punch, RADIUS),
-        (SoughtLaw::NeoHookean, Body::under_sphere(RADIUS), round),
-        (SoughtLaw::NeoHookean, Body::under_cone(1.2, round), round),
+        (CandidateLaw::NeoHookean, punch, RADIUS),
+        (CandidateLaw::Ogden(Terms::One), punch, RADIUS),
+        (CandidateLaw::NeoHookean, Body::under_sphere(RADIUS), round),
+        (
+            CandidateLaw::NeoHookean,
+            Body::under_cone(1.2, round),
+            round,
+        ),
     ] {
         let held = held(law, body, deepest, 100);
         assert!(
@@ -240,7 +249,7 @@ fn real_kidney_returns_its_tissue() {
     let under = triangles.filter(|t| t.iter().any(|p| (p - location).norm() < RADIUS));
     let inward: Vec3 = under.map(|[a, b, c]| (c - a).cross(&(b - a))).sum();
     let depths = [0.1, 0.3, 0.5].map(|part| part * RADIUS);
-    let (modulus, law) = (1000.0, SoughtLaw::NeoHookean);
+    let (modulus, law) = (1000.0, CandidateLaw::NeoHookean);
     let forces = depths.map(|depth| {
         let problem = SolidProblem {
             patch: Some(MovedPatch {
@@ -320,7 +329,7 @@ fn a_recording_of_an_organ_needs_its_mesh() {
     )
     .unwrap()];
     let settings = palpate_characterize::CharacterizeSettings {
-        laws: vec![SoughtLaw::NeoHookean],
+        laws: vec![CandidateLaw::NeoHookean],
         draws: None,
         ..Default::default()
     };

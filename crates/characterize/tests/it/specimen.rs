@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use palpate_characterize::clean::{CleanSettings, clean};
 use palpate_characterize::fit::Random;
-use palpate_characterize::inverse::{Body, PUNCH, SoughtLaw};
+use palpate_characterize::inverse::{Body, CandidateLaw, PUNCH};
 use palpate_characterize::{Characterization, CharacterizeSettings, CleanRecording, characterize};
 use palpate_files::Recording;
 use palpate_files::recording::{IndenterShape, RecordingHeader, Samples, StimulusKind};
 use palpate_mechanics::finite_elements::indentation::{
-    History, IndentationProblem, Relaxing, solve_history,
+    History, IndentationProblem, RelaxationMethod, solve_history,
 };
 use palpate_mechanics::{IndentationCurve, Law, MooneyRivlin, NeoHookean, PronySeries};
 
@@ -47,7 +47,7 @@ pub(super) fn recording(history: &History, forces: &[f64], seed: u64) -> CleanRe
 }
 
 /// Forces [N] of a law in the block of the fits, on a mesh to 2 %, and their error [-].
-fn forces(law: Arc<dyn Law>, history: &History, relaxing: Relaxing) -> (Vec<f64>, f64) {
+fn forces(law: Arc<dyn Law>, history: &History, relaxing: RelaxationMethod) -> (Vec<f64>, f64) {
     let Body::Block { block, indenter } = Body::under_punch(RADIUS) else {
         panic!("a punch is pressed into a block");
     };
@@ -62,7 +62,7 @@ fn forces(law: Arc<dyn Law>, history: &History, relaxing: Relaxing) -> (Vec<f64>
     (points.map(|point| point.force).collect(), solved.error)
 }
 
-fn found(recordings: &[CleanRecording], laws: &[SoughtLaw]) -> Characterization {
+fn found(recordings: &[CleanRecording], laws: &[CandidateLaw]) -> Characterization {
     let settings = CharacterizeSettings {
         laws: laws.to_vec(),
         draws: None,
@@ -77,10 +77,10 @@ fn found(recordings: &[CleanRecording], laws: &[SoughtLaw]) -> Characterization 
 fn a_law_is_found_from_finite_elements() {
     let law = Arc::new(MooneyRivlin::incompressible(322.96, 161.47).unwrap());
     let history = history(1.5e-3);
-    let (forces, _) = forces(law, &history, Relaxing::Convolution);
+    let (forces, _) = forces(law, &history, RelaxationMethod::Convolution);
     let found = found(
         &[recording(&history, &forces, 3)],
-        &[SoughtLaw::NeoHookean, SoughtLaw::MooneyRivlin],
+        &[CandidateLaw::NeoHookean, CandidateLaw::MooneyRivlin],
     );
     let relaxation = found.relaxation.as_ref().unwrap();
     let truth = PronySeries::new(&LIVER).unwrap();
@@ -91,7 +91,7 @@ fn a_law_is_found_from_finite_elements() {
     // So little noise tells the laws apart.
     assert_eq!(
         found.preferred().unwrap().found.law,
-        SoughtLaw::MooneyRivlin
+        CandidateLaw::MooneyRivlin
     );
     let answer = found.laws[1].1.as_ref().unwrap();
     let sum: f64 = answer
@@ -133,7 +133,7 @@ fn intervals_hold_the_truth() {
         let felt: Vec<f64> = felt.collect();
         let found = found(
             &[recording(&history, &felt, seed)],
-            &[SoughtLaw::NeoHookean],
+            &[CandidateLaw::NeoHookean],
         );
         let relaxation = found.relaxation.as_ref().unwrap();
         let law = found.laws[0].1.as_ref().unwrap();
@@ -195,7 +195,7 @@ fn assert_answered(seeds: std::ops::Range<u64>) {
         };
         let found = found(
             &[recording],
-            &[SoughtLaw::NeoHookean, SoughtLaw::MooneyRivlin],
+            &[CandidateLaw::NeoHookean, CandidateLaw::MooneyRivlin],
         );
         for law in found.laws.iter().filter_map(|(_, law)| law.as_ref().ok()) {
             assert!(
@@ -219,8 +219,11 @@ fn assert_answered(seeds: std::ops::Range<u64>) {
 fn a_law_is_found_from_a_viscoelastic_run() {
     let law = Arc::new(NeoHookean::compressible(452.92, 49.33 * 2.0 * 452.92).unwrap());
     let history = history(4e-3);
-    let (forces, error) = forces(law, &history, Relaxing::Full);
-    let found = found(&[recording(&history, &forces, 7)], &[SoughtLaw::NeoHookean]);
+    let (forces, error) = forces(law, &history, RelaxationMethod::Full);
+    let found = found(
+        &[recording(&history, &forces, 7)],
+        &[CandidateLaw::NeoHookean],
+    );
     let relaxation = found.relaxation.as_ref().unwrap();
     let truth = PronySeries::new(&LIVER).unwrap();
     for time in [0.2, 1.0, 5.0, 30.0] {

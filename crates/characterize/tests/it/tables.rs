@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use palpate_characterize::inverse::{Body, Curves, PUNCH, SHAPES, SoughtLaw};
+use palpate_characterize::inverse::{Body, CandidateLaw, Curves, PUNCH, SHAPES};
 use palpate_mechanics::finite_elements::indentation::{IndentationRun, IndentationSettings};
 use palpate_mechanics::{Law, MooneyRivlin, PronySeries};
 
@@ -46,7 +46,7 @@ fn assert_column(place: usize, deepest: f64) {
 /// Between the columns, force changes with the shape as the run's own sensitivity says: to 3 %, of which 1.4 % is
 /// what the coarsest mesh is too stiff at six radii.
 fn assert_slopes(shape: f64, deepest: f64) {
-    let mut curves = Curves::new(Body::under_punch(1.0), SoughtLaw::MooneyRivlin, deepest);
+    let mut curves = Curves::new(Body::under_punch(1.0), CandidateLaw::MooneyRivlin, deepest);
     let tabulated = curves.of(f64::INFINITY, &[shape]).unwrap();
     let mut run = run(shape, 0).with_sensitivities();
     for depth in PUNCH.iter().map(|row| row.0).take_while(|x| *x <= deepest) {
@@ -69,7 +69,7 @@ fn a_shape_between_columns_changes_force_as_finite_elements_say() {
 #[test]
 fn the_last_column_is_no_end() {
     let [before, last] = [4, 5].map(|place| SHAPES[place]);
-    let mut curves = Curves::new(Body::under_punch(1.0), SoughtLaw::MooneyRivlin, 6.0);
+    let mut curves = Curves::new(Body::under_punch(1.0), CandidateLaw::MooneyRivlin, 6.0);
     let mut ratio = |shape: f64| {
         let curve = curves.of(f64::INFINITY, &[shape]).unwrap();
         let at = |d: f64| (curve.force.force(d), curve.by_shape[0].force(d));
@@ -132,7 +132,7 @@ fn a_column_begins_too_stiff_by_its_trend() {
 fn assert_trends(shapes: &[f64], deepest: f64) {
     for &shape in shapes {
         let [coarse, fine] = [0, 1].map(|halvings| forces(shape, halvings, deepest));
-        let mut curves = Curves::new(Body::under_punch(1.0), SoughtLaw::MooneyRivlin, deepest);
+        let mut curves = Curves::new(Body::under_punch(1.0), CandidateLaw::MooneyRivlin, deepest);
         let tabulated = curves.of(f64::INFINITY, &[shape]).unwrap().force;
         let pairs = coarse.iter().zip(&fine);
         let off = PUNCH.iter().zip(pairs).map(|(row, (coarse, fine))| {

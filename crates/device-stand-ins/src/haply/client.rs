@@ -91,17 +91,17 @@ fn answer_to(
 /// Sends a state as it should be, or not; whether the connection stands.
 fn send(socket: &mut Socket, text: String, wrong: Option<&Misbehaviour>) -> bool {
     let sent = match wrong {
-        Some(Misbehaviour::Drops) => return false,
-        Some(Misbehaviour::Swallows) => Ok(()),
-        Some(Misbehaviour::Says(other)) => socket.send(Message::text(other.as_str())),
-        Some(Misbehaviour::SaysBytes(bytes)) => socket.send(Message::binary(bytes.clone())),
-        Some(Misbehaviour::SaysRaw(bytes)) => return socket.get_mut().write_all(bytes).is_ok(),
-        Some(Misbehaviour::CutsOff(length)) => {
+        Some(Misbehaviour::Disconnects) => return false,
+        Some(Misbehaviour::NoReply) => Ok(()),
+        Some(Misbehaviour::SendsText(other)) => socket.send(Message::text(other.as_str())),
+        Some(Misbehaviour::SendsBinary(bytes)) => socket.send(Message::binary(bytes.clone())),
+        Some(Misbehaviour::SendsRaw(bytes)) => return socket.get_mut().write_all(bytes).is_ok(),
+        Some(Misbehaviour::Truncates(length)) => {
             let cut = text.get(..*length).unwrap_or(&text);
             socket.send(Message::text(cut))
         }
         Some(Misbehaviour::Fragments(length)) => send_fragments(socket, &text, *length),
-        Some(Misbehaviour::Dribbles(gap)) => return dribble(socket, text, *gap),
+        Some(Misbehaviour::SendsBytewise(gap)) => return dribble(socket, text, *gap),
         Some(Misbehaviour::Repeats(times)) => {
             (0..=*times).try_for_each(|_| socket.send(Message::text(text.as_str())))
         }

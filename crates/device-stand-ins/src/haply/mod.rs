@@ -127,13 +127,13 @@ impl HaplyStandIn {
 
     /// From now on this goes wrong; with none, nothing does.
     pub fn misbehave(&self, how: Option<Misbehaviour>) {
-        let drops = how == Some(Misbehaviour::Drops);
+        let drops = how == Some(Misbehaviour::Disconnects);
         *locked(&self.shared.misbehaviour) = how;
         self.shared.cut.store(drops, Ordering::Relaxed);
     }
 
     /// Tells whoever listens to events, and waits until that was sent, for five seconds at most.
-    pub fn tell(&self, event: &str) {
+    pub fn send_event(&self, event: &str) {
         let count = |number: &AtomicUsize| number.load(Ordering::Acquire);
         let told = count(&self.shared.told) + count(&self.shared.listeners);
         locked(&self.shared.events).push(event.to_owned());

@@ -15,7 +15,7 @@ pub(super) fn frame(
     wrong: Option<&Misbehaviour>,
     is_first: bool,
 ) -> String {
-    let vanished = wrong == Some(&Misbehaviour::Vanishes);
+    let vanished = wrong == Some(&Misbehaviour::DevicesMissing);
     let there = robots.iter().enumerate().filter(|_| !vanished);
     let inverse3: Vec<Value> = there
         .map(|(number, robot)| {

@@ -45,7 +45,7 @@ pub fn list(named: Option<&Path>) -> Result<Vec<Found>, OpenError> {
                 _ => Vec::new(),
             },
             capabilities: capabilities(&device),
-            forces: Origin::Ours,
+            forces: Origin::Assumed,
         });
     }
     Ok(found)

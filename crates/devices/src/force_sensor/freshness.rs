@@ -45,7 +45,7 @@ pub(super) struct Sequence {
 }
 
 /// More lost readings than that are a fault: ten at once, or one in a hundred for long.
-const MOST_MISSING: f64 = 10.0;
+const MAX_MISSING: f64 = 10.0;
 /// Decrease for each reading that arrived.
 const FORGIVEN: f64 = 0.01;
 
@@ -66,7 +66,7 @@ impl Sequence {
         }
         self.last = Some(number);
         self.missing = (self.missing - FORGIVEN).max(0.0) + f64::from(gap - 1);
-        if self.missing > MOST_MISSING {
+        if self.missing > MAX_MISSING {
             let lost = self.missing.ceil() as u32;
             self.missing = 0.0;
             return Err(SensorFault::Lost { lost });
@@ -75,7 +75,7 @@ impl Sequence {
     }
 
     /// A sensor that was silent may count from any number.
-    pub(super) fn forget(&mut self) {
+    pub(super) fn reset(&mut self) {
         self.last = None;
     }
 }

@@ -169,7 +169,7 @@ impl ForceSensor for NetFt {
         }
         self.freshness
             .check()
-            .inspect_err(|_| self.sequence.forget())?;
+            .inspect_err(|_| self.sequence.reset())?;
         Ok(self.last)
     }
 }

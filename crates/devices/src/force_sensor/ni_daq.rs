@@ -137,7 +137,7 @@ impl ForceSensor for NiDaq {
     }
 
     fn read(&mut self) -> Result<ForceTorque, SensorFault> {
-        if self.read.has_news() {
+        if self.read.has_update() {
             self.last = *self.read.latest();
             self.freshness.renew();
         }

@@ -254,7 +254,7 @@ mod unix {
             }
             self.freshness
                 .check()
-                .inspect_err(|_| self.sequence.forget())?;
+                .inspect_err(|_| self.sequence.reset())?;
             Ok(self.last)
         }
     }

@@ -62,7 +62,7 @@ struct Status {
 /// # Errors
 /// When there is no service.
 pub fn list(address: &HaplyAddress) -> Result<Vec<Found>, OpenError> {
-    let (mut channel, snapshot) = meet(address)?;
+    let (mut channel, snapshot) = connect(address)?;
     channel.close();
     let robots = snapshot.robots.iter().enumerate();
     let found = robots.map(|(number, robot)| {
@@ -83,13 +83,13 @@ pub fn list(address: &HaplyAddress) -> Result<Vec<Found>, OpenError> {
             serial: robot.id.clone(),
             remarks,
             capabilities: capabilities(robot),
-            forces: Origin::Ours,
+            forces: Origin::Assumed,
         }
     });
     Ok(found.collect())
 }
 
-fn meet(address: &HaplyAddress) -> Result<(Channel, ServiceInventory), OpenError> {
+fn connect(address: &HaplyAddress) -> Result<(Channel, ServiceInventory), OpenError> {
     let mut channel = Channel::open(&address.host, address.port)?;
     let first = channel.receive(Instant::now() + FIRST_WITHIN);
     let snapshot = first.and_then(|text| ServiceInventory::parse(&text));
@@ -119,7 +119,7 @@ impl HaplyDevice {
     /// # Errors
     /// When there is no service, or no such device.
     pub fn open(address: &HaplyAddress, number: usize) -> Result<Self, OpenError> {
-        let (channel, snapshot) = meet(address)?;
+        let (channel, snapshot) = connect(address)?;
         let robot = snapshot.robots.get(number).ok_or(OpenError::NoDevice {
             address: address.to_string(),
             there: snapshot.robots.len(),
@@ -172,7 +172,7 @@ impl HaplyDevice {
     }
 
     /// Whether the service sends events.
-    pub fn hears_events(&self) -> bool {
+    pub fn receives_events(&self) -> bool {
         self.events.is_some()
     }
 

@@ -10,7 +10,7 @@ use nalgebra::UnitQuaternion;
 use palpate_servo::{Fault, Vec3};
 use serde::Deserialize;
 
-use super::frame::{our_place, our_turn, ours, theirs};
+use super::frame::{from_device_axes, position_from_device, rotation_from_device, to_device_axes};
 
 /// The JSON form of forces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -221,14 +221,15 @@ impl State {
         let held = held.and_then(|grip| grip.state.as_ref());
         let orientation = held.and_then(|state| state.orientation);
         Ok(Self {
-            position: our_place(&place.vector()),
+            position: position_from_device(&place.vector()),
             displayed: state
                 .current_cursor_force
-                .map(|force| ours(&force.vector())),
+                .map(|force| from_device_axes(&force.vector())),
             calibrated: robot.status.calibrated,
             ready: robot.status.ready,
             powered: robot.status.power_supply,
-            orientation: orientation.and_then(|turn| our_turn([turn.w, turn.x, turn.y, turn.z])),
+            orientation: orientation
+                .and_then(|turn| rotation_from_device([turn.w, turn.x, turn.y, turn.z])),
             buttons: held.map_or(0, GripState::pressed),
         })
     }
@@ -237,7 +238,7 @@ impl State {
 /// Writes the command to `message` that the device `id`, quoted as in JSON, displays `force` [N], given in our axes; to
 /// a millionth of a newton.
 pub fn force_command(message: &mut String, quoted_id: &str, generation: Generation, force: &Vec3) {
-    let force = theirs(force);
+    let force = to_device_axes(force);
     message.clear();
     // Writing to a string cannot fail.
     let _ = write!(

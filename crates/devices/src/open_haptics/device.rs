@@ -73,7 +73,7 @@ fn capabilities(functions: &Functions) -> (Capabilities, Origin) {
         .all(|force| force.is_finite() && *force > 0.0);
     let ([peak, continuous], origin) = match is_reported {
         true => (reported, Origin::Device),
-        false => (TOUCH, Origin::Ours),
+        false => (TOUCH, Origin::Assumed),
     };
     let [a, b, c, d, e, f] = functions.workspace().map(|length| 1e-3 * length);
     let corners = [Vec3::new(a, b, c), Vec3::new(d, e, f)];

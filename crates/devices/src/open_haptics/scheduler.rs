@@ -66,7 +66,7 @@ unsafe extern "system" fn call(data: *mut c_void) -> u32 {
     let called = unsafe { &*data.cast::<Called>() };
     // No panic may unwind into the library.
     match catch_unwind(AssertUnwindSafe(|| called.tick())) {
-        Ok(Next::Again) => CONTINUE,
+        Ok(Next::Continue) => CONTINUE,
         Ok(Next::End) => DONE,
         Err(_) => {
             called.ended.store(true, Ordering::Release);
@@ -82,7 +82,7 @@ impl Called {
         }
         // An overlapping call finds it locked, and the scheduler never waits.
         let Ok(mut tick) = self.tick.try_lock() else {
-            return Next::Again;
+            return Next::Continue;
         };
         let Some(tick) = tick.as_mut() else {
             return Next::End;

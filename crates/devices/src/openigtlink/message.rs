@@ -53,7 +53,7 @@ pub fn append(
 }
 
 /// A position [m] of the scene in the axes of medical images [mm].
-pub fn in_room(place: &Vec3) -> [f32; 3] {
+pub fn in_image_axes(place: &Vec3) -> [f32; 3] {
     [-place.x, -place.y, place.z].map(|length| (1e3 * length) as f32)
 }
 
@@ -67,7 +67,7 @@ pub fn transform(bytes: &mut Vec<u8>, place: &Vec3, orientation: &UnitQuaternion
             append_single(bytes, (sign * matrix[(row, column)]) as f32);
         }
     }
-    in_room(place)
+    in_image_axes(place)
         .into_iter()
         .for_each(|number| append_single(bytes, number));
 }

@@ -5,14 +5,14 @@ use std::time::{Instant, SystemTime};
 use super::message::{self, Status, append};
 use super::{Request, Requests};
 use crate::publisher::{
-    MOST_CLIENTS, PublishedState, SURFACE_PERIOD, Serve, SharedSource, ShownTool, fill, locked,
+    MAX_CLIENTS, PublishedState, SURFACE_PERIOD, Serve, SharedSource, ShownTool, fill, locked,
 };
 
 /// The default port of this protocol.
 pub const PORT: u16 = 18_944;
 
 /// Capacity for unsent bytes of a client: several organs.
-const MOST_BEHIND: usize = 16 << 20;
+const MAX_BEHIND: usize = 16 << 20;
 
 /// The types of sent messages.
 const KINDS: [&str; 4] = ["TRANSFORM", "SENSOR", "STATUS", "POLYDATA"];
@@ -69,7 +69,7 @@ impl Server {
 
     fn accept(&mut self) {
         while let Ok((stream, _)) = self.listener.accept() {
-            let is_welcome = self.clients.len() < MOST_CLIENTS;
+            let is_welcome = self.clients.len() < MAX_CLIENTS;
             let is_set = stream.set_nonblocking(true).and(stream.set_nodelay(true));
             if is_welcome && is_set.is_ok() {
                 self.clients.push(Client {
@@ -175,7 +175,7 @@ impl Client {
 
     /// Whether it is still connected, keeps up and sends valid requests.
     fn write(&mut self) -> bool {
-        if self.requests.is_lost() || self.behind.len() > MOST_BEHIND {
+        if self.requests.is_lost() || self.behind.len() > MAX_BEHIND {
             return false;
         }
         loop {

@@ -23,7 +23,7 @@ const PERIOD: Duration = Duration::from_millis(20);
 pub(crate) const SURFACE_PERIOD: Duration = Duration::from_millis(100);
 
 /// Largest number of clients of a server.
-pub(crate) const MOST_CLIENTS: usize = 16;
+pub(crate) const MAX_CLIENTS: usize = 16;
 
 /// The protocol of a server.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

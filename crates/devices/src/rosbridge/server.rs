@@ -11,22 +11,22 @@ use tungstenite::{Error, Message, ServerHandshake, Utf8Bytes, WebSocket};
 
 use super::message::{self, Content};
 use crate::publisher::{
-    MOST_CLIENTS, PublishedState, SURFACE_PERIOD, Serve, SharedSource, fill, locked,
+    MAX_CLIENTS, PublishedState, SURFACE_PERIOD, Serve, SharedSource, fill, locked,
 };
 
 /// The largest message of a client [B].
 const LARGEST: usize = 1 << 16;
 
 /// Capacity for unsent bytes of a client: several organs.
-const MOST_BEHIND: usize = 32 << 20;
+const MAX_BEHIND: usize = 32 << 20;
 
 /// Timeout of the WebSocket handshake of a client.
 const HANDSHAKE_WITHIN: Duration = Duration::from_secs(2);
 
 /// Largest number of topics of a client, of letters of a topic, and of messages that are read from it in a period.
-const MOST_TOPICS: usize = 64;
+const MAX_TOPICS: usize = 64;
 const LONGEST_TOPIC: usize = 256;
-const MOST_READ: usize = 16;
+const MAX_READ: usize = 16;
 
 /// The server, on its thread.
 pub(crate) struct Server {
@@ -77,9 +77,9 @@ impl Server {
             .max_message_size(Some(LARGEST))
             .max_frame_size(Some(LARGEST))
             .write_buffer_size(0)
-            .max_write_buffer_size(MOST_BEHIND);
+            .max_write_buffer_size(MAX_BEHIND);
         while let Ok((stream, _)) = self.listener.accept() {
-            let is_welcome = self.clients.len() + self.arriving.len() < MOST_CLIENTS;
+            let is_welcome = self.clients.len() + self.arriving.len() < MAX_CLIENTS;
             let is_set = stream.set_nonblocking(true).and(stream.set_nodelay(true));
             if is_welcome && is_set.is_ok() {
                 let outcome = tungstenite::accept_with_config(stream, Some(limits));
@@ -188,7 +188,7 @@ impl Client {
 
     /// Reads its messages, and answers. Returns whether it is still connected.
     fn read(&mut self, topics: &[(String, Content)]) -> bool {
-        for _ in 0..MOST_READ {
+        for _ in 0..MAX_READ {
             match self.socket.read() {
                 Ok(Message::Text(text)) => self.process_command(&text, topics),
                 Ok(Message::Binary(_)) => self.refuse("a binary message; send JSON as text"),
@@ -243,7 +243,7 @@ impl Client {
             ));
         }
         // A tool may appear later, with another scene.
-        if topic.len() <= LONGEST_TOPIC && self.subscriptions.len() < MOST_TOPICS {
+        if topic.len() <= LONGEST_TOPIC && self.subscriptions.len() < MAX_TOPICS {
             let period = command["throttle_rate"].as_f64().unwrap_or(0.0);
             self.subscriptions.insert(
                 topic.to_owned(),

@@ -26,11 +26,11 @@ fn a_wall_feels_as_without_a_library() {
         for (found, expected) in found.iter().zip(&expected) {
             // Millimetres and back.
             assert!(
-                (found.sent - expected.sent).norm() < 1e-9,
+                (found.output - expected.output).norm() < 1e-9,
                 "{kind}: {found:?}"
             );
         }
-        assert_eq!(library.force(0), found.last().unwrap().held);
+        assert_eq!(library.force(0), found.last().unwrap().applied);
         servo.end();
     }
 }
@@ -82,7 +82,10 @@ fn a_panic_in_contact_leaves_no_force() {
 #[test]
 fn arming_enables_the_forces_of_a_device_that_took_them_off() {
     let (library, places) = library(Kind::ForceDimension);
-    let hand = VirtualDevice::new(Trajectory::Way(vec![Waypoint::new(0.0, Vec3::zeros())]));
+    let hand = VirtualDevice::new(Trajectory::Waypoints(vec![Waypoint::new(
+        0.0,
+        Vec3::zeros(),
+    )]));
     library.carry(Box::new(hand), CLOCK, 0);
     let device = Kind::ForceDimension.open(0, &places).unwrap();
     let mut commanded = Commanded::new(device, Some(&library));
@@ -130,7 +133,7 @@ fn an_inkwell_calibrates_and_takes_the_force_off() {
     library.set("stand_in_inkwell", 1);
     let inside = after(&mut servo, 700);
     assert!(inside.state.ready && !inside.state.present);
-    assert_eq!((inside.stage, inside.sent), (Stage::Off, Vec3::zeros()));
+    assert_eq!((inside.stage, inside.output), (Stage::Off, Vec3::zeros()));
     library.set("stand_in_inkwell", 0);
     let taken = after(&mut servo, 700);
     assert!(taken.state.present && taken.stage == Stage::Live);
@@ -173,7 +176,7 @@ fn buttons_are_dead_mans_switches_where_that_is_asked_for() {
             ..places
         };
         for (buttons, most) in [(0b10, 3.0), (0b01, 0.0)] {
-            let hand = VirtualDevice::new(Trajectory::Way(vec![Waypoint {
+            let hand = VirtualDevice::new(Trajectory::Waypoints(vec![Waypoint {
                 buttons,
                 ..Waypoint::new(0.0, Vec3::zeros())
             }]));
@@ -213,7 +216,7 @@ fn buttons_are_stops_where_no_dead_mans_switch_is_asked_for() {
         let device = kind.open(0, &places).unwrap();
         let mut servo = Ticked::new(device, Some(&library), wall);
         let hand = InTime {
-            device: VirtualDevice::new(Trajectory::way(way).unwrap()),
+            device: VirtualDevice::new(Trajectory::waypoints(way).unwrap()),
             time: servo.time.clone(),
         };
         library.carry(Box::new(hand), CLOCK, 0);

@@ -67,7 +67,7 @@ fn net_ft(stand_in: &NetFtStandIn) -> Box<dyn ForceSensor> {
 fn packets_of_a_net_ft_are_newtons() {
     let stand_in = NetFtStandIn::start(COUNTS).unwrap();
     let mut sensor = net_ft(&stand_in);
-    stand_in.feeler()(ForceTorque::from_components(FELT));
+    stand_in.force_setter()(ForceTorque::from_components(FELT));
     reads(&mut *sensor, FELT, 0.6e-6);
     assert!(sensor.spec().has_six_axes);
 }
@@ -77,7 +77,7 @@ fn packets_of_a_net_ft_are_newtons() {
 fn faults_of_a_net_ft_have_names() {
     let stand_in = NetFtStandIn::start(COUNTS).unwrap();
     let mut sensor = net_ft(&stand_in);
-    stand_in.feeler()(ForceTorque::from_components(FELT));
+    stand_in.force_setter()(ForceTorque::from_components(FELT));
     let mut found = Vec::new();
     for wrong in [
         NetFtFault::Silent,

@@ -22,7 +22,7 @@ pub(crate) const DOWN: f64 = 1.0;
 pub(crate) fn pressing() -> VirtualDevice {
     let place = |time, height| Waypoint::new(time, Vec3::new(0.02, height, -0.01));
     let places = vec![place(0.0, 2e-3), place(0.7, 2e-3), place(DOWN, -DEPTH)];
-    VirtualDevice::new(Trajectory::way(places).unwrap())
+    VirtualDevice::new(Trajectory::waypoints(places).unwrap())
 }
 
 /// A wall below y = 0.
@@ -158,7 +158,7 @@ pub(crate) fn press(servo: &mut Ticked<'_>) -> Result<Vec<Sample>, Fault> {
     let end = samples.last().unwrap();
     assert_eq!(end.stage, Stage::Live);
     assert!(
-        (end.sent.norm() - STIFFNESS * DEPTH).abs() < 1e-3,
+        (end.output.norm() - STIFFNESS * DEPTH).abs() < 1e-3,
         "{end:?}"
     );
     Ok(samples)

@@ -94,7 +94,7 @@ fn both_generations_take_a_force() {
         );
         let device = open(&service, 0);
         assert_eq!(device.generation(), generation);
-        assert!(device.hears_events());
+        assert!(device.receives_events());
         let mut commanded = Commanded::new(Box::new(device), None);
         let force = Vec3::new(0.1, 0.2, -0.3);
         let state = commanded.exchange(force);
@@ -126,9 +126,9 @@ fn disabling_waits_for_the_zero() {
     let mut device = device.with_timeout(std::time::Duration::from_millis(20));
     assert_eq!(device.disable(), Disabled::NoForce);
     assert_eq!(service.forces(0), [Vec3::zeros()]);
-    service.misbehave(Some(Misbehaviour::Swallows));
+    service.misbehave(Some(Misbehaviour::NoReply));
     assert_eq!(device.disable(), Disabled::Unknown);
-    service.misbehave(Some(Misbehaviour::Drops));
+    service.misbehave(Some(Misbehaviour::Disconnects));
     assert_eq!(device.disable(), Disabled::Unknown);
 }
 
@@ -156,7 +156,7 @@ fn a_force_in_other_words_is_a_fault() {
 #[test]
 fn a_grip_with_other_buttons_has_a_dead_mans_switch() {
     for (buttons, most) in [(0b010, 3.0), (0b100, 3.0), (0b001, 0.0), (0b000, 0.0)] {
-        let hand = VirtualDevice::new(Trajectory::Way(vec![Waypoint {
+        let hand = VirtualDevice::new(Trajectory::Waypoints(vec![Waypoint {
             buttons,
             ..Waypoint::new(0.0, Vec3::zeros())
         }]));
@@ -171,7 +171,7 @@ fn a_grip_with_other_buttons_has_a_dead_mans_switch() {
         };
         let mut servo = Ticked::new(Box::new(device), None, push);
         let last = (0..800).map(|_| servo.tick().unwrap()).last().unwrap();
-        assert_eq!(last.sent.norm(), most, "{buttons:#b}");
+        assert_eq!(last.output.norm(), most, "{buttons:#b}");
         assert_eq!(last.stage == Stage::Live, most > 0.0);
     }
     for grip in [StandInGrip::None, StandInGrip::Wired] {
@@ -189,7 +189,7 @@ fn a_grip_with_other_buttons_has_a_dead_mans_switch() {
 fn a_grip_turns_shuts_and_cuts() {
     let turned = UnitQuaternion::from_euler_angles(0.3, -0.2, 0.9);
     for grip in [StandInGrip::Wired, StandInGrip::Wireless, StandInGrip::None] {
-        let hand = VirtualDevice::new(Trajectory::Way(vec![Waypoint {
+        let hand = VirtualDevice::new(Trajectory::Waypoints(vec![Waypoint {
             orientation: Some(turned),
             buttons: 0b101,
             ..Waypoint::new(0.0, Vec3::zeros())
@@ -250,11 +250,11 @@ fn a_wall_feels_as_without_a_service() {
     assert_eq!(found.len(), expected.len());
     for (found, expected) in found.iter().zip(&expected) {
         assert!((found.state.position - expected.state.position).norm() < 1e-12);
-        assert!((found.sent - expected.sent).norm() < 1e-9);
+        assert!((found.output - expected.output).norm() < 1e-9);
     }
     let forces = service.forces(0);
     for (force, expected) in forces[1..].iter().zip(&expected) {
-        assert!((force - expected.sent).norm() < 1e-6, "{force}");
+        assert!((force - expected.output).norm() < 1e-6, "{force}");
     }
 }
 

@@ -47,7 +47,7 @@ fn after(begin: impl FnOnce(&HaplyStandIn), expected: Option<Fault>) -> Duration
             Err(fault) => Some(fault),
             Ok(sample) => match sample.stage {
                 Stage::Faulted(fault) => {
-                    assert_eq!(sample.sent, Vec3::zeros());
+                    assert_eq!(sample.output, Vec3::zeros());
                     Some(fault)
                 }
                 _ => None,
@@ -85,12 +85,12 @@ const NOT_AS_DOCUMENTED: &str = "a message that is not as its documents have it"
 #[test]
 fn every_fault_takes_the_force_off_and_has_a_name() {
     use Misbehaviour::*;
-    let says = |text: &str| Says(text.to_owned());
+    let says = |text: &str| SendsText(text.to_owned());
     let table = [
-        (Drops, Some(Fault::Disconnected)),
-        (Swallows, Some(Fault::Silent)),
+        (Disconnects, Some(Fault::Disconnected)),
+        (NoReply, Some(Fault::Silent)),
         (Stalls(Duration::from_millis(200)), Some(Fault::Silent)),
-        (Dribbles(Duration::from_millis(1)), Some(Fault::Silent)),
+        (SendsBytewise(Duration::from_millis(1)), Some(Fault::Silent)),
         (says("{"), bad(NOT_AS_DOCUMENTED)),
         (says(""), bad(NOT_AS_DOCUMENTED)),
         (says("[]"), Some(Fault::Vanished)),
@@ -110,10 +110,10 @@ fn every_fault_takes_the_force_off_and_has_a_name() {
             says(&" ".repeat(2 << 20)),
             bad("a message that is too long"),
         ),
-        (SaysBytes(vec![0xff; 100]), bad("bytes instead of a text")),
-        (CutsOff(100), bad(NOT_AS_DOCUMENTED)),
+        (SendsBinary(vec![0xff; 100]), bad("bytes instead of a text")),
+        (Truncates(100), bad(NOT_AS_DOCUMENTED)),
         (Repeats(20), bad("more than it was asked for")),
-        (Vanishes, Some(Fault::Vanished)),
+        (DevicesMissing, Some(Fault::Vanished)),
         (NoPosition, bad("a state without a position")),
         (Coordinate("NaN"), bad(NOT_AS_DOCUMENTED)),
         (Coordinate("null"), bad(NOT_AS_DOCUMENTED)),
@@ -143,7 +143,7 @@ fn a_place_out_of_this_world_is_no_force() {
         let (service, mut servo) = pressed(PATIENT);
         leap(&service);
         let sample = servo.tick().unwrap();
-        assert_eq!(sample.sent, Vec3::zeros());
+        assert_eq!(sample.output, Vec3::zeros());
         // The way over the time is itself beyond all numbers, at times.
         let expected = [Stage::Faulted(Fault::NonFiniteState)];
         let is_too_fast = matches!(sample.stage, Stage::Faulted(Fault::TooFast { .. }));
@@ -206,7 +206,7 @@ fn events_of_the_service_are_faults() {
         ),
     ];
     for (event, expected) in table {
-        let wall = after(|service| service.tell(&event), expected);
+        let wall = after(|service| service.send_event(&event), expected);
         println!(
             "{:6.1} ms  {event} → {expected:?}",
             1e3 * wall.as_secs_f64()

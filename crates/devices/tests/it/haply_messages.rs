@@ -147,7 +147,7 @@ proptest! {
         let rest: Box<dyn palpate_device_stand_ins::Mechanics> = Box::new(NoDevice::new(Vec3::zeros()));
         let service = HaplyStandIn::start(vec![rest], HaplyStandInSettings::default()).unwrap();
         let mut device = HaplyDevice::open(service.address(), 0).unwrap();
-        service.misbehave(Some(Misbehaviour::SaysRaw(wire)));
+        service.misbehave(Some(Misbehaviour::SendsRaw(wire)));
         let command = Command::without_force(0.0);
         let began = Instant::now();
         let answer = device.exchange(&command);

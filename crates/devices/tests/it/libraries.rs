@@ -56,7 +56,7 @@ fn places_turns_buttons_and_forces_are_in_our_axes() {
     let place = Vec3::new(0.01, 0.02, -0.02);
     for kind in BOTH {
         let (library, places) = library(kind);
-        let hand = VirtualDevice::new(Trajectory::Way(vec![Waypoint {
+        let hand = VirtualDevice::new(Trajectory::Waypoints(vec![Waypoint {
             orientation: Some(turned),
             buttons: 0b1,
             ..Waypoint::new(0.0, place)
@@ -101,7 +101,7 @@ fn what_is_found_has_its_limits() {
                 assert_eq!((&*device.model, &*device.serial), ("Stand-in Touch", "S-1"));
             }
             _ => {
-                assert_eq!(device.forces, Origin::Ours);
+                assert_eq!(device.forces, Origin::Assumed);
                 assert_eq!(device.model, "stand-in.3");
             }
         }
@@ -169,7 +169,7 @@ fn two_hands_of_a_library_have_a_device_each() {
     library.set("stand_in_devices", 2);
     let places_of_hands = [Vec3::x() * 0.05, Vec3::x() * -0.05];
     for (number, place) in (0..).zip(places_of_hands) {
-        let still = Trajectory::way(vec![Waypoint::new(0.0, place)]).unwrap();
+        let still = Trajectory::waypoints(vec![Waypoint::new(0.0, place)]).unwrap();
         library.carry(Box::new(VirtualDevice::new(still)), CLOCK, number);
     }
     let hands = [0, 1].map(|number| Kind::ForceDimension.open(number, &places).unwrap());

@@ -18,7 +18,7 @@ fn after(kind: Kind, switch: &'static str, value: i32, expected: Fault) {
             Err(fault) => Some(fault),
             Ok(sample) => match sample.stage {
                 Stage::Faulted(fault) => {
-                    assert_eq!(sample.sent, Vec3::zeros());
+                    assert_eq!(sample.output, Vec3::zeros());
                     Some(fault)
                 }
                 _ => None,

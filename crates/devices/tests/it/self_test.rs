@@ -7,7 +7,7 @@ use palpate_devices::self_test;
 use palpate_servo::{Clock, Fault, HandImpedance, Trajectory, Vec3, VirtualDevice, Waypoint};
 
 fn held() -> HaplyStandIn {
-    let still = Trajectory::way(vec![Waypoint::new(0.0, Vec3::zeros())]).unwrap();
+    let still = Trajectory::waypoints(vec![Waypoint::new(0.0, Vec3::zeros())]).unwrap();
     let hand = VirtualDevice::new(still)
         .with_hand(HandImpedance::default())
         .unwrap();
@@ -40,7 +40,7 @@ fn a_device_that_is_well_passes() {
 fn one_that_is_not_does_not() {
     for (wrong, fault) in [
         (Misbehaviour::NoForce, Some(Fault::Ignored)),
-        (Misbehaviour::Vanishes, Some(Fault::Vanished)),
+        (Misbehaviour::DevicesMissing, Some(Fault::Vanished)),
         // It was never ready, and no force is armed.
         (Misbehaviour::NoCalibration, None),
     ] {

@@ -2,7 +2,7 @@ use super::NoCard;
 use crate::Tissue;
 
 /// Most numbers on a line of data.
-const MOST_ON_LINE: usize = 8;
+const MAX_ON_LINE: usize = 8;
 
 /// Keywords of a material: moduli at time zero, Prony terms relative to them, as here.
 pub(super) fn card(tissue: &Tissue) -> Result<String, NoCard> {
@@ -21,7 +21,7 @@ pub(super) fn card(tissue: &Tissue) -> Result<String, NoCard> {
         tissue.density_kg_m3.value,
         written.keyword,
     );
-    for numbers in written.numbers.chunks(MOST_ON_LINE) {
+    for numbers in written.numbers.chunks(MAX_ON_LINE) {
         let numbers: Vec<_> = numbers.iter().map(|number| format!("{number:?}")).collect();
         text += &format!("{}\n", numbers.join(", "));
     }

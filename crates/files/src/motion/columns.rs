@@ -51,7 +51,7 @@ impl Columns {
 
     pub(super) fn tool_name<'r>(&self, row: &Row<'r>) -> Result<&'r str, Error> {
         match row.text(&self.tool) {
-            "" => Err(row.bad(&self.tool, "the name of a tool of the scene")),
+            "" => Err(row.invalid(&self.tool, "the name of a tool of the scene")),
             name => Ok(name),
         }
     }
@@ -77,7 +77,7 @@ impl Columns {
             Some([x, y, z, w]) => {
                 let q = [finite(x)?, finite(y)?, finite(z)?, finite(w)?];
                 let expected = "a quaternion (qx, qy, qz, qw) that is not zero";
-                Some(normalised(q).ok_or_else(|| row.bad(x, expected))?)
+                Some(normalised(q).ok_or_else(|| row.invalid(x, expected))?)
             }
             None => None,
         };
@@ -86,7 +86,7 @@ impl Columns {
             None => 0.0,
         };
         let cut = match &self.cut {
-            Some(column) => row.truth(column)?,
+            Some(column) => row.boolean(column)?,
             None => false,
         };
         let pose = Pose {

@@ -10,9 +10,9 @@ use std::path::Path;
 pub use pose::{IDENTITY, Pose};
 pub use tool_motion::{Cursor, MotionRow, ToolMotion};
 
+use crate::atomic_write::{MAX_TABLE_BYTES, read_text};
 use crate::error::Place;
 use crate::table::{Ended, TableText};
-use crate::whole_file::{MOST_OF_TABLE, read_text};
 use crate::{Error, Incomplete};
 
 /// The motions of one or two tools.
@@ -63,7 +63,7 @@ impl Motion {
     /// When the file cannot be read or does not hold a motion.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        Self::parse(&read_text(path, MOST_OF_TABLE)?, path)
+        Self::parse(&read_text(path, MAX_TABLE_BYTES)?, path)
     }
 
     /// Reads the text of a motion file; `path` is its name in errors. A session is a motion too: columns that a
@@ -90,7 +90,7 @@ impl Motion {
                     tools.push(ToolMotion::without_rows(name));
                     tools.last_mut().expect("a tool was just added")
                 }
-                None => return Err(row.bad(&columns.tool, "one of the two tools named above")),
+                None => return Err(row.invalid(&columns.tool, "one of the two tools named above")),
             };
             row.check_after(&columns.time, read.time_s, tool.last_time_s())?;
             last_is_inside = tool.is_in_box(&read.pose);

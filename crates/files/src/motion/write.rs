@@ -3,7 +3,7 @@ use std::path::Path;
 
 use super::{IDENTITY, Motion, MotionRow, Pose};
 use crate::table::{end_mark, field};
-use crate::{Error, write_whole};
+use crate::{Error, write_atomically};
 
 const COLUMNS: &str = "time_s,tool,x_m,y_m,z_m,grip,cut";
 const COLUMNS_WITH_ORIENTATION: &str = "time_s,tool,x_m,y_m,z_m,qx,qy,qz,qw,grip,cut";
@@ -44,7 +44,7 @@ impl Motion {
     /// # Errors
     /// When the operating system refuses.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Error> {
-        write_whole(path, self.to_csv().as_bytes())
+        write_atomically(path, self.to_csv().as_bytes())
     }
 }
 

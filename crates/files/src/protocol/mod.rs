@@ -16,7 +16,7 @@ pub use serial_line::{SerialField, SerialLine, SerialSeparator};
 pub use specimen::{Measured, MeasuredTissue, PublishedOrgan};
 pub use stimulus::{Stimulus, StimulusPlan, Sweep};
 
-use crate::whole_file::{MOST_OF_DOCUMENT, read_text};
+use crate::atomic_write::{MAX_DOCUMENT_BYTES, read_text};
 use crate::{Document, Error, Key};
 
 /// A protocol: every stimulus on every specimen. Keys that the file leaves out have their defaults here.
@@ -61,7 +61,7 @@ impl Protocol {
     /// When the file cannot be read or does not describe a protocol.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        Self::parse(&read_text(path, MOST_OF_DOCUMENT)?, path)
+        Self::parse(&read_text(path, MAX_DOCUMENT_BYTES)?, path)
     }
 
     /// Reads the text of a protocol file; `path` is its name in errors, and relative paths in it begin in its
@@ -91,7 +91,7 @@ impl Protocol {
         let sensor_plan = SensorPlan::from_keys(sensor.as_ref())?;
         let is_virtual = sensor_plan.source == SensorSource::Virtual;
         if let Some(sensor) = sensor.filter(|_| !is_virtual && rig.has_virtual_device()) {
-            return Err(sensor.bad(
+            return Err(sensor.invalid(
                 "kind",
                 "\"virtual\", or a device in [rig] that presses what this sensor feels: a virtual one cannot",
             ));

@@ -29,7 +29,7 @@ impl MeasuredPlace {
         Ok(Self {
             place_m: keys.vector("place_m")?.unwrap_or_default(),
             normal: upward(keys, "normal")?.unwrap_or(UP),
-            measure_normal: keys.truth("measure_normal")?.unwrap_or(false),
+            measure_normal: keys.boolean("measure_normal")?.unwrap_or(false),
         })
     }
 }
@@ -49,7 +49,7 @@ pub(super) const PLACE: Domain = Domain::POSITION.usually(-0.2, 0.2);
 /// A direction with an upward component.
 pub(super) fn upward(keys: &Keys<'_>, key: &'static str) -> Result<Option<[f64; 3]>, Error> {
     match keys.direction(key)? {
-        Some(direction) if direction[2] <= 0.0 => Err(keys.bad(
+        Some(direction) if direction[2] <= 0.0 => Err(keys.invalid(
             key,
             "a direction whose z is above 0, such as [0.0, 0.2, 1.0]: tissue lies below, and the tip hangs from its device",
         )),

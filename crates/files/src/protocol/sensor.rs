@@ -239,12 +239,12 @@ impl Voltages {
         let channels = keys.text("channels")?;
         let channels = channels.ok_or_else(|| keys.missing("channels", CHANNELS))?;
         if !channels.is_ascii() {
-            return Err(keys.bad("channels", CHANNELS));
+            return Err(keys.invalid("channels", CHANNELS));
         }
         let matrix = keys.numbers("matrix")?;
         let matrix = matrix.ok_or_else(|| keys.missing("matrix", MATRIX))?;
         if matrix.len() != 36 {
-            return Err(keys.bad("matrix", MATRIX));
+            return Err(keys.invalid("matrix", MATRIX));
         }
         Ok(Self {
             channels,
@@ -273,7 +273,7 @@ fn axes(keys: &Keys<'_>) -> Result<[[f64; 3]; 3], Error> {
     let words = keys.texts("axes")?;
     if words.is_empty() {
         return match keys.contains("axes") {
-            true => Err(keys.bad("axes", EXPECTED)),
+            true => Err(keys.invalid("axes", EXPECTED)),
             false => Ok(SensorPlan::default().axes),
         };
     }
@@ -297,5 +297,5 @@ fn axes(keys: &Keys<'_>) -> Result<[[f64; 3]; 3], Error> {
         cross.iter().zip(z).map(|(a, b)| a * b).sum::<f64>() > 0.5
     };
     rows.filter(is_right_handed)
-        .ok_or_else(|| keys.bad("axes", EXPECTED))
+        .ok_or_else(|| keys.invalid("axes", EXPECTED))
 }

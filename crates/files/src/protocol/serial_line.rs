@@ -64,13 +64,13 @@ impl SerialLine {
             .iter()
             .map(|text| SerialField::from_word(text))
             .collect();
-        let fields = fields.ok_or_else(|| keys.bad("columns", FIELDS))?;
+        let fields = fields.ok_or_else(|| keys.invalid("columns", FIELDS))?;
         let times = |wanted| fields.iter().filter(|field| **field == wanted).count();
         use SerialField::{Fx, Fy, Fz, Sequence, Tx, Ty, Tz};
         let others = [Fx, Fy, Tx, Ty, Tz].map(times);
         let is_six = others == [1; 5];
         if times(Fz) != 1 || times(Sequence) > 1 || !(is_six || others == [0; 5]) {
-            return Err(keys.bad("columns", FIELDS));
+            return Err(keys.invalid("columns", FIELDS));
         }
         let per_newton_metre = match is_six {
             true => Some(keys.required_number("counts_per_newton_metre")?),

@@ -75,7 +75,7 @@ impl Measured {
         Key::label("site", "The place on the organ.").optional("\"left lobe\"", "not said"),
         Key::word("condition", Condition::MEANINGS, "The state of the tissue.")
             .optional("\"ex_vivo\"", "not said"),
-        Key::truth("alive", "Whether a heart beats in it and breath moves it.").default("false"),
+        Key::boolean("alive", "Whether a heart beats in it and breath moves it.").default("false"),
         Key::number("factor", Domain::FACTOR, "How much stiffer than its tissue it is.")
             .default("1.0"),
         Key::number(
@@ -95,7 +95,7 @@ impl Measured {
             "The direction out of the tissue, along which the indenter approaches, presses and withdraws; it leads up.",
         )
         .default("[0.0, 0.0, 1.0]"),
-        Key::truth(
+        Key::boolean(
             "measure_normal",
             "Whether the surface is touched around the place first, and the normal that is measured there taken.",
         )
@@ -153,7 +153,7 @@ impl Measured {
             weight_kg: keys.number("weight_kg")?,
             site: keys.text_or_integer("site")?,
             condition: keys.word("condition", Condition::WORDS)?,
-            alive: keys.truth("alive")?.unwrap_or(false),
+            alive: keys.boolean("alive")?.unwrap_or(false),
             factor: keys.number("factor")?.unwrap_or(1.0),
             indenter_radius_m: keys.number("indenter_radius_m")?.unwrap_or(0.001),
             place: MeasuredPlace::from_keys(keys)?,

@@ -129,7 +129,7 @@ impl StimulusPlan {
             | StimulusKind::UniaxialTension
             | StimulusKind::PlanarTension
             | StimulusKind::SimpleShear
-            | StimulusKind::Other => return Err(keys.bad("kind", EXPECTED)),
+            | StimulusKind::Other => return Err(keys.invalid("kind", EXPECTED)),
         };
         let repeats = keys.integer("repeats")?.unwrap_or(1);
         let plan = |stimulus| Self { stimulus, repeats };

@@ -8,8 +8,8 @@ use super::{
     Origin, Recording, RecordingHeader, foreign_table, foreign_units, stated_speed, stretches,
 };
 use crate::Error;
+use crate::atomic_write::{MAX_TABLE_BYTES, read_bytes};
 use crate::table::{Column, Row};
-use crate::whole_file::{MOST_OF_TABLE, read_bytes};
 
 /// The columns of time, depth and force in a table of another program. A column that is not named is recognised by
 /// its name, if the match is unique.
@@ -54,7 +54,7 @@ impl Recording {
     /// When the file cannot be read, or as for [`Recording::parse_foreign`].
     pub fn read_foreign(path: impl AsRef<Path>, columns: &ForeignColumns) -> Result<Self, Error> {
         let path = path.as_ref();
-        Self::parse_foreign(&text(&read_bytes(path, MOST_OF_TABLE)?), path, columns)
+        Self::parse_foreign(&text(&read_bytes(path, MAX_TABLE_BYTES)?), path, columns)
     }
 
     /// Reads the text of a table with other columns; `path` is its name in errors.

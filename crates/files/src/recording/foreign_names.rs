@@ -2,7 +2,7 @@ use super::ForeignColumns;
 use super::foreign_units::base;
 use crate::Error;
 use crate::table::TableText;
-use crate::words::either;
+use crate::words::or_list;
 
 const TIME: &[&str] = &[
     "time",
@@ -33,7 +33,7 @@ const DEPTH: &[&str] = &[
 ];
 const FORCE: &[&str] = &["force", "load", "f", "kraft", "standardkraft", "last"];
 /// A name with more words, its unit included, is a sentence.
-const MOST_WORDS: usize = 6;
+const MAX_WORDS: usize = 6;
 
 /// A quantity and the names of its column.
 #[derive(Debug, Clone, Copy)]
@@ -110,7 +110,7 @@ impl<'c> Wanted<'c> {
         if let Some(named) = self.named {
             return (own == named).then_some(0);
         }
-        if words(own).count() > MOST_WORDS {
+        if words(own).count() > MAX_WORDS {
             return None;
         }
         let base = base(own).to_lowercase();
@@ -147,7 +147,7 @@ impl<'c> Wanted<'c> {
             several => Err(Error::AmbiguousColumn {
                 place: table.column_place(),
                 quantity: self.quantity,
-                found: either(&quoted(several)),
+                found: or_list(&quoted(several)),
                 first: (*several[0]).to_owned(),
             }),
         }

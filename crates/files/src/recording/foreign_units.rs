@@ -2,7 +2,7 @@ use super::ForeignColumns;
 use crate::Error;
 use crate::table::{Column, Row, TableText};
 use crate::units::Unit;
-use crate::words::either;
+use crate::words::or_list;
 
 /// A quantity of a recording: the name of its column, its unit if the user states one, and its SI unit.
 struct Quantity<'c> {
@@ -160,7 +160,7 @@ impl<'c> Quantity<'c> {
             key: key.to_owned(),
             accepted: format!(
                 "{}, in brackets behind the name or next to it",
-                either(&units)
+                or_list(&units)
             ),
         }
     }

@@ -2,7 +2,7 @@ use super::header_keys::header_keys;
 use crate::scene::{LengthUnit, Region};
 use crate::table::ExtraKey;
 use crate::words::words;
-use crate::{Domain, Error, Holds, Key, Keys};
+use crate::{Domain, Error, Key, Keys, ValueType};
 
 words! {
     /// The state of the tissue.
@@ -102,110 +102,110 @@ header_keys! {
     /// The comments above a recording; none where they state nothing. The fields have the names of the keys.
     pub struct RecordingHeader {
         /// The organ.
-        organ: String = Holds::Text,
+        organ: String = ValueType::Text,
         /// The animal, person or body.
-        subject: String = Holds::Label,
+        subject: String = ValueType::Label,
         /// The subject's weight [kg].
-        weight_kg: f64 = Holds::Number(Domain::WEIGHT),
+        weight_kg: f64 = ValueType::Number(Domain::WEIGHT),
         /// The place on the organ.
-        site: String = Holds::Label,
+        site: String = ValueType::Label,
         /// Which repetition it is.
-        repeat: u64 = Holds::Integer(0, u64::MAX),
+        repeat: u64 = ValueType::Integer(0, u64::MAX),
         /// The state of the tissue.
-        condition: Condition = Holds::Word(Condition::MEANINGS),
+        condition: Condition = ValueType::Word(Condition::MEANINGS),
         /// Time since death [s].
-        post_mortem_s: f64 = Holds::Number(Domain::POST_MORTEM),
+        post_mortem_s: f64 = ValueType::Number(Domain::POST_MORTEM),
         /// Whether breath was held.
-        breath_held: bool = Holds::Truth,
+        breath_held: bool = ValueType::Boolean,
         /// What the indenter did.
-        stimulus: StimulusKind = Holds::Word(StimulusKind::MEANINGS),
+        stimulus: StimulusKind = ValueType::Word(StimulusKind::MEANINGS),
         /// Duration of the ramp [s].
-        ramp_s: f64 = Holds::Number(Domain::DURATION_OR_NONE),
+        ramp_s: f64 = ValueType::Number(Domain::DURATION_OR_NONE),
         /// Depth of the hold, or amplitude of the swing [m].
-        amplitude_m: f64 = Holds::Number(Domain::DEPTH_OR_NONE),
+        amplitude_m: f64 = ValueType::Number(Domain::DEPTH_OR_NONE),
         /// Depth around which the indenter swings [m].
-        pre_indentation_m: f64 = Holds::Number(Domain::DEPTH_OR_NONE),
+        pre_indentation_m: f64 = ValueType::Number(Domain::DEPTH_OR_NONE),
         /// Frequency of a sine, or that with which a chirp begins [Hz].
-        frequency_hz: f64 = Holds::Number(Domain::FREQUENCY),
+        frequency_hz: f64 = ValueType::Number(Domain::FREQUENCY),
         /// Frequency with which a chirp ends [Hz].
-        end_frequency_hz: f64 = Holds::Number(Domain::FREQUENCY),
+        end_frequency_hz: f64 = ValueType::Number(Domain::FREQUENCY),
         /// Samples per second [Hz].
-        sample_rate_hz: f64 = Holds::Number(Domain::FREQUENCY),
+        sample_rate_hz: f64 = ValueType::Number(Domain::FREQUENCY),
         /// The shape of the indenter.
-        indenter_shape: IndenterShape = Holds::Word(IndenterShape::MEANINGS),
+        indenter_shape: IndenterShape = ValueType::Word(IndenterShape::MEANINGS),
         /// The radius, not the diameter, of the indenter [m].
-        indenter_radius_m: f64 = Holds::Number(Domain::TIP_RADIUS),
+        indenter_radius_m: f64 = ValueType::Number(Domain::TIP_RADIUS),
         /// The angle between a cone's axis and its side [degrees].
-        indenter_half_angle_deg: f64 = Holds::Number(Domain::HALF_ANGLE),
+        indenter_half_angle_deg: f64 = ValueType::Number(Domain::HALF_ANGLE),
         /// Whether tissue moves along the indenter; not stated, it sticks to a flat one and slides along a sphere or a cone.
-        indenter_friction: IndenterFriction = Holds::Word(IndenterFriction::MEANINGS),
+        indenter_friction: IndenterFriction = ValueType::Word(IndenterFriction::MEANINGS),
         /// What measured the force.
-        force_sensor: String = Holds::Text,
+        force_sensor: String = ValueType::Text,
         /// The spring constant of the cantilever that measured the force, where an instrument's file does not state it [N/m].
-        spring_constant_n_per_m: f64 = Holds::Number(Domain::STIFFNESS),
+        spring_constant_n_per_m: f64 = ValueType::Number(Domain::STIFFNESS),
         /// How far the cantilever bends for each volt of its optical lever, where an instrument's file does not state it [m/V].
-        sensitivity_m_per_v: f64 = Holds::Number(Domain::SENSITIVITY),
+        sensitivity_m_per_v: f64 = ValueType::Number(Domain::SENSITIVITY),
         /// Where on the specimen's surface it was pressed, in the axes of the instrument's stage [m].
-        position_m: [f64; 3] = Holds::Vector(Domain::COORDINATE),
+        position_m: [f64; 3] = ValueType::Vector(Domain::COORDINATE),
         /// The direction out of the tissue along which the indenter was moved, in the rig's axes [-].
-        approach_normal: [f64; 3] = Holds::Direction,
+        approach_normal: [f64; 3] = ValueType::Direction,
         /// The direction from the indenter's tip to the device, in the rig's axes [-].
-        indenter_axis: [f64; 3] = Holds::Direction,
+        indenter_axis: [f64; 3] = ValueType::Direction,
         /// From the sensor's origin, about which torques are, to the tip [m].
-        tip_distance_m: f64 = Holds::Number(Domain::LENGTH),
+        tip_distance_m: f64 = ValueType::Number(Domain::LENGTH),
         /// Thickness of the specimen under the indenter [m].
-        thickness_m: f64 = Holds::Number(Domain::LENGTH),
+        thickness_m: f64 = ValueType::Number(Domain::LENGTH),
         /// Radius of a round specimen, indented in its middle [m].
-        specimen_radius_m: f64 = Holds::Number(Domain::LENGTH),
+        specimen_radius_m: f64 = ValueType::Number(Domain::LENGTH),
         /// Width of a square specimen, indented in its middle [m].
-        specimen_width_m: f64 = Holds::Number(Domain::LENGTH),
+        specimen_width_m: f64 = ValueType::Number(Domain::LENGTH),
         /// What the specimen rests on.
-        support: Support = Holds::Word(Support::MEANINGS),
+        support: Support = ValueType::Word(Support::MEANINGS),
         /// Density of the specimen [kg/m³].
-        density_kg_per_m3: f64 = Holds::Number(Domain::DENSITY),
+        density_kg_per_m3: f64 = ValueType::Number(Domain::DENSITY),
         /// Cross-section of a piece that is pressed or pulled along one axis; of a sheet, its width times its thickness; in
         /// simple shear, the face that moves [m²].
-        area_m2: f64 = Holds::Number(Domain::AREA),
+        area_m2: f64 = ValueType::Number(Domain::AREA),
         /// Height of a piece that is pressed or pulled along one axis; of a strip or a sheet, between its clamps; in simple
         /// shear, between its faces [m].
-        height_m: f64 = Holds::Number(Domain::LENGTH),
+        height_m: f64 = ValueType::Number(Domain::LENGTH),
         /// Angle from the direction in which a piece is pulled, pressed or sheared to the reference axis of its fibres, in the
         /// plane of the fibres; in simple shear positive towards the face that moves [degrees].
-        fibre_axis_angle_deg: f64 = Holds::Number(Domain::AXIS_ANGLE),
+        fibre_axis_angle_deg: f64 = ValueType::Number(Domain::AXIS_ANGLE),
         /// Angle of the two families of fibres to that axis, where it is known; fitted if not stated [degrees].
-        fibre_angle_deg: f64 = Holds::Number(Domain::FIBRE_ANGLE),
+        fibre_angle_deg: f64 = ValueType::Number(Domain::FIBRE_ANGLE),
         /// Dispersion of the fibres of a family around its direction, where it is known; fitted if not stated [-].
-        dispersion: f64 = Holds::Number(Domain::DISPERSION),
+        dispersion: f64 = ValueType::Number(Domain::DISPERSION),
         /// The shape of the specimen.
-        specimen: Specimen = Holds::Word(Specimen::MEANINGS),
+        specimen: Specimen = ValueType::Word(Specimen::MEANINGS),
         /// Young's modulus of the base under a layer, at the speed of the press [Pa].
-        base_modulus_pa: f64 = Holds::Number(Domain::MODULUS),
+        base_modulus_pa: f64 = ValueType::Number(Domain::MODULUS),
         /// The modulus of the base over that of the layer, where only that is known [-].
-        base_modulus_ratio: f64 = Holds::Number(Domain::BASE_RATIO),
+        base_modulus_ratio: f64 = ValueType::Number(Domain::BASE_RATIO),
         /// Standard error of the base's modulus or ratio, over that [-]; exact if not stated.
-        base_modulus_error: f64 = Holds::Number(Domain::FRACTION),
+        base_modulus_error: f64 = ValueType::Number(Domain::FRACTION),
         /// Thickness of the base, which is on a rigid plate [m]; large if not stated.
-        base_thickness_m: f64 = Holds::Number(Domain::LENGTH),
+        base_thickness_m: f64 = ValueType::Number(Domain::LENGTH),
         /// Inner radius of a tube [m].
-        inner_radius_m: f64 = Holds::Number(Domain::LENGTH),
+        inner_radius_m: f64 = ValueType::Number(Domain::LENGTH),
         /// Outer radius of a tube [m].
-        outer_radius_m: f64 = Holds::Number(Domain::LENGTH),
+        outer_radius_m: f64 = ValueType::Number(Domain::LENGTH),
         /// Length of a tube [m].
-        length_m: f64 = Holds::Number(Domain::LENGTH),
+        length_m: f64 = ValueType::Number(Domain::LENGTH),
         /// Pressure inside a tube [Pa].
-        pressure_pa: f64 = Holds::Number(Domain::PRESSURE_OR_SUCTION),
+        pressure_pa: f64 = ValueType::Number(Domain::PRESSURE_OR_SUCTION),
         /// The surface of a whole organ, a mesh file, from the recording's own folder.
-        mesh: String = Holds::Path,
+        mesh: String = ValueType::Path,
         /// The unit of its coordinates.
-        mesh_unit: LengthUnit = Holds::Word(LengthUnit::MEANINGS),
+        mesh_unit: LengthUnit = ValueType::Word(LengthUnit::MEANINGS),
         /// Where the indenter touches it, in its coordinates [m].
-        location_m: [f64; 3] = Holds::Vector(Domain::COORDINATE),
+        location_m: [f64; 3] = ValueType::Vector(Domain::COORDINATE),
         /// Where it is fixed: its triangles whose centroid lies in these regions.
-        fixed: Region = Holds::Table(Region::KEYS),
+        fixed: Region = ValueType::Table(Region::KEYS),
         /// Where the recording comes from.
-        source: String = Holds::Text,
+        source: String = ValueType::Text,
         /// How it ended: `whole`, `unfinished` while it is made, or why it was cut short.
-        ended: String = Holds::Text,
+        ended: String = ValueType::Text,
     }
 }
 
@@ -223,7 +223,7 @@ impl RecordingHeader {
 
     fn check_wall(&self, keys: &Keys<'_>) -> Result<(), Error> {
         match (self.inner_radius_m, self.outer_radius_m) {
-            (Some(inner), Some(outer)) if outer <= inner => Err(keys.bad(
+            (Some(inner), Some(outer)) if outer <= inner => Err(keys.invalid(
                 "outer_radius_m",
                 format!("a radius above inner_radius_m, {inner:?} m"),
             )),
@@ -236,7 +236,7 @@ impl RecordingHeader {
             return Err(keys.given_twice("specimen_radius_m", "specimen_width_m"));
         }
         match self.contradiction() {
-            Some((key, expected)) => Err(keys.bad(key, expected)),
+            Some((key, expected)) => Err(keys.invalid(key, expected)),
             None => Ok(()),
         }
     }
@@ -320,11 +320,13 @@ impl RecordingHeader {
     }
 
     /// [`ended`](Self::ended) of a recording with all its samples.
-    pub const WHOLE: &str = "whole";
+    pub const COMPLETE: &str = "whole";
 
     /// Why it ends before its stimulus; none when it is whole, or does not state it.
     pub fn cut_short(&self) -> Option<&str> {
-        self.ended.as_deref().filter(|ended| *ended != Self::WHOLE)
+        self.ended
+            .as_deref()
+            .filter(|ended| *ended != Self::COMPLETE)
     }
 
     /// The same, with missing entries taken from `other`.

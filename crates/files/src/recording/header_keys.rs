@@ -3,7 +3,7 @@
 use crate::scene::Region;
 use crate::toml_document::{quoted, toml_number};
 use crate::words::Worded;
-use crate::{Error, Holds, Keys};
+use crate::{Error, Keys, ValueType};
 
 /// A value of a header's key.
 pub(super) trait HeaderValue: Sized {
@@ -16,8 +16,8 @@ pub(super) trait HeaderValue: Sized {
 
 impl HeaderValue for String {
     fn read(keys: &Keys<'_>, key: &'static str) -> Result<Option<Self>, Error> {
-        match keys.declared(key).holds {
-            Holds::Label => keys.text_or_integer(key),
+        match keys.declared(key).value_type {
+            ValueType::Label => keys.text_or_integer(key),
             _ => keys.text(key),
         }
     }
@@ -49,7 +49,7 @@ impl HeaderValue for u64 {
 
 impl HeaderValue for bool {
     fn read(keys: &Keys<'_>, key: &'static str) -> Result<Option<Self>, Error> {
-        keys.truth(key)
+        keys.boolean(key)
     }
 
     fn written(&self) -> String {
@@ -59,8 +59,8 @@ impl HeaderValue for bool {
 
 impl HeaderValue for [f64; 3] {
     fn read(keys: &Keys<'_>, key: &'static str) -> Result<Option<Self>, Error> {
-        match keys.declared(key).holds {
-            Holds::Vector(_) => keys.vector(key),
+        match keys.declared(key).value_type {
+            ValueType::Vector(_) => keys.vector(key),
             _ => keys.direction(key),
         }
     }
@@ -127,7 +127,7 @@ macro_rules! header_keys {
             /// The known keys.
             pub const KEYS: &'static [Key] = &[$(Key {
                 name: stringify!($key),
-                holds: $holds,
+                value_type: $holds,
                 meaning: concat!($($meaning),+),
                 omitted: $crate::Omitted::Means("not said"),
                 example: "",

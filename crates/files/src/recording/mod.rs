@@ -29,8 +29,8 @@ pub use writer::RecordingWriter;
 
 pub use crate::table::ExtraKey;
 
+use crate::atomic_write::{MAX_TABLE_BYTES, read_text};
 use crate::table::{Ended, TableText};
-use crate::whole_file::{MOST_OF_TABLE, read_text};
 use crate::{Error, Incomplete};
 
 /// The origin of a recording, which determines the known zeros and signs.
@@ -116,7 +116,7 @@ impl Recording {
     /// When the file cannot be read or does not hold a recording.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        Self::parse(&read_text(path, MOST_OF_TABLE)?, path)
+        Self::parse(&read_text(path, MAX_TABLE_BYTES)?, path)
     }
 
     /// Reads the text of a recording file; `path` is its name in errors.

@@ -7,7 +7,7 @@ use crate::units::Unit;
 use crate::{Domain, Error};
 
 /// Lines above a table in which a speed is sought.
-const MOST_LINES: usize = 100;
+const MAX_LINES: usize = 100;
 /// Names of a speed, and of one that is not that of the test.
 const SPEED: [&str; 4] = ["speed", "velocity", "geschwindigkeit", "crosshead rate"];
 const OTHERS: [&str; 6] = ["pre", "post", "return", "approach", "vor", "rück"];
@@ -90,7 +90,7 @@ fn samples(
 
 /// The one speed of the test [m/s] that lines above a table state, such as `Test Speed;1,00;mm/s` or `Speed (mm/min): 10`.
 fn speed(text: &str) -> Option<f64> {
-    let stated = text.lines().take(MOST_LINES).filter_map(of_line);
+    let stated = text.lines().take(MAX_LINES).filter_map(of_line);
     let speeds: Vec<f64> = stated.collect();
     let first = *speeds.first()?;
     speeds.iter().all(|own| *own == first).then_some(first)

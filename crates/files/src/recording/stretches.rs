@@ -65,7 +65,7 @@ fn stressed(
         Some(StimulusKind::SimpleShear) => {
             let expected =
                 "no `simple_shear` of a table of stretches; give displacements and forces";
-            return Err(keys.bad("stimulus", expected));
+            return Err(keys.invalid("stimulus", expected));
         }
         _ => header.stimulus = Some(StimulusKind::Uniaxial),
     }

@@ -3,7 +3,7 @@ use std::path::Path;
 
 use super::{Recording, RecordingHeader, SensorAxes};
 use crate::table::{TableText, end_mark, field, header_line};
-use crate::{Error, write_whole};
+use crate::{Error, write_atomically};
 
 /// The columns that every recording has.
 pub(super) const COLUMNS: &str = "time_s,depth_m,force_n";
@@ -32,7 +32,7 @@ impl Recording {
     /// refuses.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Error> {
         self.header.check(path.as_ref())?;
-        write_whole(path, self.to_csv().as_bytes())
+        write_atomically(path, self.to_csv().as_bytes())
     }
 
     fn print(&self, text: &mut String) -> fmt::Result {

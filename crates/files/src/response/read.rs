@@ -4,7 +4,7 @@ use std::path::Path;
 use super::checked::Checked;
 use super::{DIGEST, FIRST_LINE, LONGEST_HEADER, StoredResponse};
 use crate::Error;
-use crate::whole_file::open_regular;
+use crate::atomic_write::open_regular;
 
 /// The lines before the numbers.
 struct Header {

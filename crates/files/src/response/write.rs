@@ -4,7 +4,7 @@ use std::path::Path;
 use super::checked::Checked;
 use super::{FIRST_LINE, StoredResponse};
 use crate::Error;
-use crate::whole_file::write_whole_by;
+use crate::atomic_write::write_atomically_with;
 
 impl StoredResponse<'_> {
     /// Writes the file, whole or not at all.
@@ -12,7 +12,7 @@ impl StoredResponse<'_> {
     /// # Errors
     /// When the operating system refuses.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Error> {
-        write_whole_by(path, |file| self.put(file))
+        write_atomically_with(path, |file| self.put(file))
     }
 
     fn put(&self, file: &mut dyn Write) -> io::Result<()> {

@@ -19,7 +19,7 @@ impl CavityContent {
              else loads the body.",
         )
         .optional("2000.0", "none: the cavity is empty, or its fluid under no pressure"),
-        Key::truth(
+        Key::boolean(
             "constant_volume",
             "Whether it is full of a fluid that keeps its volume.",
         )
@@ -32,7 +32,7 @@ impl CavityContent {
     /// When a value is invalid.
     pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         let pressure = keys.number("pressure_pa")?.unwrap_or(0.0);
-        Ok(match keys.truth("constant_volume")?.unwrap_or(false) {
+        Ok(match keys.boolean("constant_volume")?.unwrap_or(false) {
             false => Self::Pressure(pressure),
             true => Self::Fluid(pressure),
         })

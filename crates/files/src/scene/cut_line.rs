@@ -87,7 +87,7 @@ impl CutLine {
                 let [from_m, to_m] =
                     [cut.required_vector("from_m")?, cut.required_vector("to_m")?];
                 if from_m == to_m {
-                    return Err(cut.bad("to_m", "another place than `from_m`"));
+                    return Err(cut.invalid("to_m", "another place than `from_m`"));
                 }
                 Ok(Self::straight(from_m, to_m))
             }

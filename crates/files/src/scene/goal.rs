@@ -3,7 +3,7 @@ use std::ops::Bound::{Excluded, Included};
 
 use super::task::TaskScene;
 use super::{CutLine, Tool, ToolKind};
-use crate::words::either;
+use crate::words::or_list;
 use crate::{Domain, Error, Key, Keys};
 
 /// The goal of a task.
@@ -19,7 +19,7 @@ pub enum Goal {
         /// The tolerance from it, along the surface [m].
         tolerance_m: f64,
         /// The size of the target, where the trainee must state it.
-        size: Option<SoughtSize>,
+        size: Option<SizeGoal>,
     },
     /// A force is held for long enough.
     Traction {
@@ -75,14 +75,14 @@ pub struct TouchGoal {
 
 /// The size of the target; the trainee states its diameter after marking it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SoughtSize {
+pub struct SizeGoal {
     /// Its radius [m].
     pub radius_m: f64,
     /// The largest error of the stated diameter that counts [m].
     pub diameter_tolerance_m: f64,
 }
 
-impl SoughtSize {
+impl SizeGoal {
     /// The error of a stated diameter [m]; negative where it is too small.
     pub fn error_of(&self, stated_diameter_m: f64) -> f64 {
         stated_diameter_m - 2.0 * self.radius_m
@@ -264,10 +264,10 @@ impl Goal {
         }
     }
 
-    fn size(find: &Keys<'_>) -> Result<Option<SoughtSize>, Error> {
+    fn size(find: &Keys<'_>) -> Result<Option<SizeGoal>, Error> {
         let tolerance = find.number("diameter_tolerance_m")?;
         match find.number("radius_m")? {
-            Some(radius_m) => Ok(Some(SoughtSize {
+            Some(radius_m) => Ok(Some(SizeGoal {
                 radius_m,
                 diameter_tolerance_m: tolerance.unwrap_or(0.5 * radius_m),
             })),
@@ -320,7 +320,7 @@ impl TouchGoal {
             .as_ref()
             .is_some_and(|name| *name == tool || !is_grasper(name))
         {
-            return Err(keys.bad("holder", "the other tool, a grasper"));
+            return Err(keys.invalid("holder", "the other tool, a grasper"));
         }
         if holder.is_none() {
             keys.refuse("tear_force_n", "no such force, or the `holder` that pulls")?;
@@ -329,7 +329,7 @@ impl TouchGoal {
         if !around.neighbours.iter().any(|own| own.collides) {
             let expected =
                 "a place of a `[[neighbour]]` with `collides = true`, and the scene has none";
-            return Err(keys.bad("target_m", expected));
+            return Err(keys.invalid("target_m", expected));
         }
         Ok(Self {
             tool,
@@ -353,7 +353,7 @@ impl TouchGoal {
 fn above(keys: &Keys<'_>, key: &'static str, expected: &'static str) -> Result<Option<f64>, Error> {
     let wanted = keys.required_number("force_n")?;
     match keys.number(key)? {
-        Some(force) if force <= wanted => Err(keys.bad(key, expected)),
+        Some(force) if force <= wanted => Err(keys.invalid(key, expected)),
         force => Ok(force),
     }
 }
@@ -363,7 +363,7 @@ fn named(keys: &Keys<'_>, key: &'static str, tools: &[Tool]) -> Result<Option<St
     let name = keys.text(key)?;
     let is_known = |name: &String| tools.iter().any(|tool| tool.name == *name);
     match name {
-        Some(name) if !is_known(&name) => Err(keys.bad(key, names(tools))),
+        Some(name) if !is_known(&name) => Err(keys.invalid(key, names(tools))),
         name => Ok(name),
     }
 }
@@ -374,5 +374,5 @@ fn names(tools: &[Tool]) -> String {
         .map(|tool| format!("{:?}", tool.name))
         .collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    format!("a tool of the scene, {}", either(&names))
+    format!("a tool of the scene, {}", or_list(&names))
 }

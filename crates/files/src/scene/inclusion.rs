@@ -312,7 +312,7 @@ impl InclusionShape {
     }
 
     /// Whether a point [m] lies in it or on its border.
-    pub fn holds(&self, point: [f64; 3]) -> bool {
+    pub fn contains(&self, point: [f64; 3]) -> bool {
         self.off(point) <= 0.0
     }
 
@@ -437,12 +437,12 @@ mod tests {
                 let unit = [around * turn.cos(), around * turn.sin(), height];
                 for part in [0.0, 0.3, 1.0] {
                     let inside = shape.point(unit.map(|x| 0.999 * x), part);
-                    assert!(shape.holds(inside), "{shape:?}");
+                    assert!(shape.contains(inside), "{shape:?}");
                 }
                 // The capsule's segment goes along (1, 1, −½).
                 let end = f64::from(u8::from(unit[0] + unit[1] - 0.5 * unit[2] > 0.0));
                 let outside = shape.point(unit.map(|x| 1.001 * x), end);
-                assert!(!shape.holds(outside), "{shape:?}");
+                assert!(!shape.contains(outside), "{shape:?}");
             }
         }
     }

@@ -13,8 +13,8 @@ mod neighbour;
 mod organ;
 mod part;
 mod region;
+mod self_contained;
 mod shape;
-mod standing_alone;
 mod task;
 mod tissue_choice;
 mod tool;
@@ -26,7 +26,7 @@ pub use cavity::CavityContent;
 pub use cut_line::CutLine;
 pub use cutting::{CutMode, Cutting};
 pub use draw::{Drawn, Draws, FindOnSurface, LARGEST_SEED, OnSurface, SurfacePoint, Variant};
-pub use goal::{Goal, SoughtSize, TouchGoal};
+pub use goal::{Goal, SizeGoal, TouchGoal};
 pub use inclusion::{EstimatedInclusion, Inclusion, InclusionPlace, InclusionShape};
 pub use jaws::Jaws;
 use model::Requirements;
@@ -39,15 +39,15 @@ pub use neighbour::{Location, Neighbour, SoftNeighbour};
 pub use organ::{Layer, Organ};
 pub use part::{BodyPart, PartContent, PartPlace};
 pub use region::{Region, RegionBox, RegionPlane, RegionSphere};
+pub use self_contained::self_contained;
 pub use shape::{BuiltinOrgan, LengthUnit, Shape};
-pub use standing_alone::standing_alone;
 pub use task::Task;
 use task::TaskScene;
 pub use tissue_choice::TissueChoice;
 pub use tool::{DeviceKind, Tip, TipContact, TipShape, Tool, ToolKind, ToolMesh};
 pub use view::{Shading, View};
 
-use crate::whole_file::{MOST_OF_DOCUMENT, read_text};
+use crate::atomic_write::{MAX_DOCUMENT_BYTES, read_text};
 use crate::{Document, Error, Key};
 
 /// A scene. Keys that the file leaves out have their defaults here.
@@ -73,7 +73,7 @@ pub struct Scene {
     pub draws: Option<Draws>,
     /// Which variant of a task it is; none for a scene that was not drawn.
     pub variant: Option<Variant>,
-    /// Its text, which means the same in any folder ([`standing_alone`]); none after a change.
+    /// Its text, which means the same in any folder ([`self_contained`]); none after a change.
     pub written: Option<String>,
     /// Warnings about its numbers, as sentences; none after a change.
     pub warnings: Vec<String>,
@@ -128,7 +128,7 @@ impl Scene {
     /// When the file cannot be read or does not describe a scene.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        Self::parse(&read_text(path, MOST_OF_DOCUMENT)?, path)
+        Self::parse(&read_text(path, MAX_DOCUMENT_BYTES)?, path)
     }
 
     /// Reads the text of a scene file; `path` is its name in errors, and relative paths in the
@@ -170,7 +170,7 @@ impl Scene {
                 let shape = ["mesh", "builtin"]
                     .into_iter()
                     .find(|key| second.contains(key));
-                return Err(second.bad(
+                return Err(second.invalid(
                     shape.unwrap_or("mesh"),
                     "one organ, for only `model.kind = \"nonlinear\"` has several; or a rigid `[[neighbour]]`",
                 ));
@@ -205,7 +205,7 @@ impl Scene {
             folder,
             draws,
             variant: Variant::from_keys(&keys)?,
-            written: Some(standing_alone(text, path)?),
+            written: Some(self_contained(text, path)?),
             warnings: keys.warnings(),
         };
         if let Some(reason) = model.reason {

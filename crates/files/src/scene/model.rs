@@ -323,7 +323,7 @@ impl LocalSettings {
                 .unwrap_or(default.calibration),
         };
         if settings.assembly == Assembly::Reused && settings.placement == Placement::Source {
-            return Err(keys.bad(
+            return Err(keys.invalid(
                 "assembly",
                 "\"every_step\", for particles placed on the mesh are elsewhere at each contact",
             ));
@@ -337,7 +337,7 @@ fn integration_points(keys: &Keys<'_>) -> Result<IntegrationPoints, Error> {
         None | Some(415) => Ok(IntegrationPoints::Standard),
         Some(130) => Ok(IntegrationPoints::Few),
         Some(957) => Ok(IntegrationPoints::Many),
-        Some(_) => Err(keys.bad("integration_points", "130, 415 or 957")),
+        Some(_) => Err(keys.invalid("integration_points", "130, 415 or 957")),
     }
 }
 

@@ -11,8 +11,8 @@ const RIGID_STIFFNESS: f64 = 1000.0;
 const SOFT_NODES: usize = 500;
 
 /// As for `model.nodes`.
-pub(super) const LEAST_NODES: u64 = 200;
-pub(super) const MOST_NODES: u64 = 6_000;
+pub(super) const MIN_NODES: u64 = 200;
+pub(super) const MAX_NODES: u64 = 6_000;
 
 /// A body next to the organ.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,7 +93,7 @@ impl Neighbour {
             "How much larger it is than its shape.",
         )
         .default("1.0"),
-        Key::truth(
+        Key::boolean(
             "collides",
             "Whether it stops the tips of tools and an organ of the nonlinear model.",
         )
@@ -114,13 +114,13 @@ impl Neighbour {
         Key::table(
             "anchor",
             Region::KEYS,
-            "Where it is held, if it bends: its surface in one of these regions of the scene.",
+            "Where it is fixed, if it bends: its surface in one of these regions of the scene.",
         )
         .optional("", "the attachment of a built-in organ"),
         Key::integer(
             "nodes",
-            LEAST_NODES,
-            MOST_NODES,
+            MIN_NODES,
+            MAX_NODES,
             "About how many nodes carry its mechanics, if it bends.",
         )
         .default("500"),
@@ -143,7 +143,7 @@ impl Neighbour {
         Ok(Self {
             shape: Shape::from_keys(keys, folder)?,
             location: Location::from_keys(keys)?,
-            collides: keys.truth("collides")?.unwrap_or(false),
+            collides: keys.boolean("collides")?.unwrap_or(false),
             friction: keys.number("friction")?.unwrap_or(0.0),
             stiffness_n_per_m: keys.number("stiffness_n_per_m")?.unwrap_or(RIGID_STIFFNESS),
             soft: SoftNeighbour::from_keys(keys, folder)?,
@@ -214,8 +214,8 @@ impl SoftNeighbour {
             }
             return Ok(None);
         }
-        if keys.truth("collides")? == Some(true) {
-            return Err(keys.bad(
+        if keys.boolean("collides")? == Some(true) {
+            return Err(keys.invalid(
                 "collides",
                 "nothing, for a neighbour with `tissue` bends, and is touched anyhow",
             ));
@@ -230,7 +230,7 @@ impl SoftNeighbour {
         if keys.contains("mesh") && !is_fixed {
             return Err(keys.missing(
                 "anchor",
-                "fixed regions, with `planes`, `boxes` or `spheres`, for a body that bends has to be held somewhere",
+                "fixed regions, with `planes`, `boxes` or `spheres`, for a body that bends has to be fixed somewhere",
             ));
         }
         let nodes = keys

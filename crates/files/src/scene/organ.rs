@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use super::neighbour::{LEAST_NODES, MOST_NODES};
+use super::neighbour::{MAX_NODES, MIN_NODES};
 use super::{
     BodyPart, EstimatedInclusion, Inclusion, Neighbour, PartContent, PartPlace, Region, Shape,
     TissueChoice,
@@ -96,7 +96,7 @@ impl Organ {
             "Earlier form of an `inclusion` with a `ball` and a `stiffness_ratio`, which is still read.",
         )
         .optional("", "none"),
-        Key::truth(
+        Key::boolean(
             "self_contact",
             "Nonlinear model: whether its parts stay out of one another where it folds or closes.",
         )
@@ -112,8 +112,8 @@ impl Organ {
         Neighbour::KEYS[6].optional("1.0", OF_FURTHER),
         Key::integer(
             "nodes",
-            LEAST_NODES,
-            MOST_NODES,
+            MIN_NODES,
+            MAX_NODES,
             "A further organ: about how many nodes carry its mechanics; `model.nodes` says it of the first.",
         )
         .optional("500", "500 of a further organ"),
@@ -146,7 +146,7 @@ impl Organ {
             estimated_inclusions.push(EstimatedInclusion::from_ball_keys(keys, number)?);
         }
         Ok(Self {
-            self_contact: keys.truth("self_contact")?.unwrap_or(false),
+            self_contact: keys.boolean("self_contact")?.unwrap_or(false),
             self_friction: keys.number("self_friction")?.unwrap_or(0.0),
             estimated_inclusions,
             shape: Shape::from_keys(keys, folder)?,
@@ -201,7 +201,7 @@ impl Parts {
             match place {
                 PartPlace::Layer(thickness_m) => {
                     let PartContent::Tissue(tissue) = content else {
-                        return Err(keys.bad("cavity", "a tissue, as a layer is of one"));
+                        return Err(keys.invalid("cavity", "a tissue, as a layer is of one"));
                     };
                     key = "region";
                     layers.push(Layer {
@@ -218,7 +218,7 @@ impl Parts {
                     content,
                 }),
                 PartPlace::Label(_) | PartPlace::Group(_) => {
-                    return Err(keys.bad(
+                    return Err(keys.invalid(
                     shape,
                     "`surface = \"file.stl\"` or another shape, for the mesh of an organ is a surface, which has no numbered \
                      regions",
@@ -227,7 +227,7 @@ impl Parts {
             }
         }
         if layers.len() > Event::OPENS_LAYER.len() {
-            return Err(keys.bad(key, "at most 6 layers: a session has an event for each"));
+            return Err(keys.invalid(key, "at most 6 layers: a session has an event for each"));
         }
         Ok(Self {
             layers,

@@ -157,7 +157,7 @@ impl PartContent {
             }
         }
         if keys.contains("layer") {
-            return Err(keys.bad("layer", "a shape that tissue encloses"));
+            return Err(keys.invalid("layer", "a shape that tissue encloses"));
         }
         Ok(Self::Cavity(CavityContent::from_keys(&cavity)?))
     }

@@ -63,10 +63,10 @@ impl Region {
     }
 
     /// Whether a point [m] lies in it or on its border.
-    pub fn holds(&self, point: [f64; 3]) -> bool {
-        self.planes.iter().any(|plane| plane.holds(point))
-            || self.boxes.iter().any(|region| region.holds(point))
-            || self.spheres.iter().any(|sphere| sphere.holds(point))
+    pub fn contains(&self, point: [f64; 3]) -> bool {
+        self.planes.iter().any(|plane| plane.contains(point))
+            || self.boxes.iter().any(|region| region.contains(point))
+            || self.spheres.iter().any(|sphere| sphere.contains(point))
     }
 
     /// A region from its table, which was opened with [`Region::KEYS`].
@@ -106,7 +106,7 @@ impl RegionPlane {
     ];
 
     /// Whether a point [m] lies in it or on its border.
-    pub fn holds(&self, point: [f64; 3]) -> bool {
+    pub fn contains(&self, point: [f64; 3]) -> bool {
         (0..3)
             .map(|axis| (point[axis] - self.point_m[axis]) * self.normal[axis])
             .sum::<f64>()
@@ -141,7 +141,7 @@ impl RegionBox {
     ];
 
     /// Whether a point [m] lies in it or on its border.
-    pub fn holds(&self, point: [f64; 3]) -> bool {
+    pub fn contains(&self, point: [f64; 3]) -> bool {
         (0..3).all(|axis| (self.min_m[axis]..=self.max_m[axis]).contains(&point[axis]))
     }
 
@@ -173,7 +173,7 @@ impl RegionSphere {
     ];
 
     /// Whether a point [m] lies in it or on its border.
-    pub fn holds(&self, point: [f64; 3]) -> bool {
+    pub fn contains(&self, point: [f64; 3]) -> bool {
         let squares = (0..3).map(|axis| (point[axis] - self.center_m[axis]).powi(2));
         squares.sum::<f64>() <= self.radius_m.powi(2)
     }

@@ -18,11 +18,11 @@ words! {
         Spleen = "spleen",
         /// The diaphragm around the esophagus.
         Diaphragm = "diaphragm",
-        /// Radius 0.05 m, base at z = 0 centred on the origin and held, pole at +z.
+        /// Radius 0.05 m, base at z = 0 centred on the origin and fixed, pole at +z.
         Hemisphere = "hemisphere",
-        /// Edge 0.1 m, from -0.05 m to 0.05 m along each axis, bottom held.
+        /// Edge 0.1 m, from -0.05 m to 0.05 m along each axis, bottom fixed.
         Cube = "cube",
-        /// 0.1 m along x and y, 15 mm thick, bottom face at z = 0 centred on the origin and held.
+        /// 0.1 m along x and y, 15 mm thick, bottom face at z = 0 centred on the origin and fixed.
         Slab = "slab",
     }
 }

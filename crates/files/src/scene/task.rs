@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
 use super::goal::{CUT, FIND, TOUCH, TRACTION};
-use super::standing_alone::plain;
+use super::self_contained::plain;
 use super::{Goal, Neighbour, Tool};
 use crate::{Domain, Error, Key, Keys};
 
@@ -35,7 +35,7 @@ pub(super) struct TaskScene<'a> {
 /// The folder of the expert's session. The scene's own folder may only hold the judged session.
 fn expert(keys: &Keys<'_>, folder: &Path) -> Result<Option<PathBuf>, Error> {
     match keys.text("expert")? {
-        Some(path) if plain(Path::new(&path)).as_os_str().is_empty() => Err(keys.bad(
+        Some(path) if plain(Path::new(&path)).as_os_str().is_empty() => Err(keys.invalid(
             "expert",
             "the folder of an expert's session; with its own scene a session would be judged against itself",
         )),

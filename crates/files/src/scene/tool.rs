@@ -291,7 +291,7 @@ impl Tip {
         let contact = match keys.is_table("contact") {
             true => {
                 if friction.is_some() {
-                    return Err(keys.bad(
+                    return Err(keys.invalid(
                         "friction",
                         "no `friction` beside `contact = { coulomb }`, which says the same",
                     ));
@@ -305,7 +305,7 @@ impl Tip {
             false => keys.word("contact", TipContact::WORDS)?,
         };
         if contact == Some(TipContact::Slip) && friction.is_some() {
-            return Err(keys.bad(
+            return Err(keys.invalid(
                 "friction",
                 "no friction of a tip that slips: it is that of `contact = \"stick\"`, beyond which it slides",
             ));

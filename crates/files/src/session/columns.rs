@@ -1,7 +1,7 @@
 use super::row::STATED_DIAMETER;
 use super::{Event, Events, SessionRow};
 use crate::table::{Column, Row, TableText};
-use crate::words::either;
+use crate::words::or_list;
 use crate::{Domain, Error};
 
 /// The columns of a session.
@@ -49,7 +49,7 @@ impl Columns {
 
     pub(super) fn tool_name<'r>(&self, row: &Row<'r>) -> Result<&'r str, Error> {
         match row.text(&self.tool) {
-            "" => Err(row.bad(&self.tool, "the name of a tool")),
+            "" => Err(row.invalid(&self.tool, "the name of a tool")),
             name => Ok(name),
         }
     }
@@ -67,10 +67,10 @@ impl Columns {
             position_m: three(&self.position)?,
             orientation: [finite(qx)?, finite(qy)?, finite(qz)?, finite(qw)?],
             grip: row.number(&self.grip, Domain::FRACTION)?,
-            cut: row.truth(&self.cut)?,
+            cut: row.boolean(&self.cut)?,
             force_n: three(&self.force)?,
             torque_nm: self.torque.as_ref().map_or(Ok([0.0; 3]), three)?,
-            contact: row.truth(&self.contact)?,
+            contact: row.boolean(&self.contact)?,
             depth_m: finite(&self.depth)?,
             events,
             grip_force_n: self.grip_force.as_ref().map_or(Ok(0.0), finite)?,
@@ -88,15 +88,15 @@ impl Columns {
                 let diameter = number.filter(|own| own.is_finite() && *own > 0.0);
                 let diameter = diameter.ok_or_else(|| {
                     let expected = format!("a length [m] above 0 after `{STATED_DIAMETER}`");
-                    row.bad(&self.event, expected)
+                    row.invalid(&self.event, expected)
                 })?;
                 (words, Some(diameter))
             }
         };
         let events = Events::from_words(words).ok_or_else(|| {
             let words: Vec<_> = Event::WORDS.iter().map(|(word, _)| *word).collect();
-            let expected = format!("events such as {}, with `;` between them", either(&words));
-            row.bad(&self.event, expected)
+            let expected = format!("events such as {}, with `;` between them", or_list(&words));
+            row.invalid(&self.event, expected)
         })?;
         Ok((events, stated))
     }

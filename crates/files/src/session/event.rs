@@ -30,7 +30,7 @@ words! {
         /// Before the step the last cut was closed again.
         UndoCut = "undo_cut",
         /// Before the step the organ was made whole and at rest.
-        BeginAnew = "begin_anew",
+        Restart = "begin_anew",
         /// It moved faster than a hand can: it lost what it touched and held, and touches anew where it is now.
         Jump = "jump",
         /// The organ gave back more work than was done on it.

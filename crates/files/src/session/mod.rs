@@ -13,9 +13,9 @@ pub use header::SessionHeader;
 pub use row::SessionRow;
 pub use writer::SessionWriter;
 
+use crate::atomic_write::{MAX_TABLE_BYTES, read_text};
 use crate::motion::{Motion, MotionRow, Pose, ToolMotion};
 use crate::table::{Ended, RowDigest, TableText};
-use crate::whole_file::{MOST_OF_TABLE, read_text};
 use crate::{Error, Incomplete};
 
 /// A recorded session.
@@ -40,7 +40,7 @@ impl Session {
     /// When the file cannot be read or does not hold a session.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        Self::parse(&read_text(path, MOST_OF_TABLE)?, path)
+        Self::parse(&read_text(path, MAX_TABLE_BYTES)?, path)
     }
 
     /// Reads the text of a session file; `path` is its name in errors.
@@ -108,7 +108,7 @@ impl Session {
             let known = &mut is_known[row.tool];
             // After a restart the session states an unknown direction again.
             *known |= row.events.contains(Event::ShaftKnown);
-            *known |= row.events.contains(Event::BeginAnew);
+            *known |= row.events.contains(Event::Restart);
             *known &= !row.events.contains(Event::ShaftUnknown);
             Pose {
                 position_m: row.position_m,

@@ -14,8 +14,8 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 use super::header::{comments_above, key_and_value};
+use crate::atomic_write::newlines;
 use crate::toml_document::{Value, parse_toml};
-use crate::whole_file::newlines;
 
 /// Why a table may lack rows.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -6,7 +6,7 @@ use crate::words::near_miss;
 use crate::{Error, Key, Keys, units};
 
 /// Keys that may stand above a table: each is compared with all that are known, and no instrument writes more.
-const MOST_KEYS: usize = 1000;
+const MAX_KEYS: usize = 1000;
 
 /// The comments above a table.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -53,10 +53,10 @@ impl Header {
             };
             let place = Place::line(path, line);
             keys += 1;
-            if keys > MOST_KEYS {
+            if keys > MAX_KEYS {
                 return Err(Error::BadRow {
                     place,
-                    found: format!("more than {MOST_KEYS} keys above the table"),
+                    found: format!("more than {MAX_KEYS} keys above the table"),
                     expected: "fewer, or the names of the columns before them".to_owned(),
                 });
             }

@@ -40,7 +40,7 @@ impl Layout {
 }
 
 /// Columns of a table at most: each name is compared with all that are known.
-const MOST_COLUMNS: usize = 1000;
+const MAX_COLUMNS: usize = 1000;
 
 /// A table whose header is read and whose rows are still text.
 #[derive(Debug, Clone)]
@@ -103,11 +103,11 @@ impl<'t> TableText<'t> {
         };
         if names
             .as_ref()
-            .is_some_and(|names| names.len() > MOST_COLUMNS)
+            .is_some_and(|names| names.len() > MAX_COLUMNS)
         {
             return Err(Error::BadRow {
                 place: Place::line(path, line),
-                found: format!("more than {MOST_COLUMNS} columns"),
+                found: format!("more than {MAX_COLUMNS} columns"),
                 expected: "fewer columns, and a line end after their names".to_owned(),
             });
         }

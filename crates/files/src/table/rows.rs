@@ -4,8 +4,8 @@ use std::path::Path;
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::{Column, Layout, TableText};
+use crate::atomic_write::newlines;
 use crate::error::Place;
-use crate::whole_file::newlines;
 use crate::{Domain, Error, cell_text};
 
 /// The rows of a table, one after the other. Blank lines and comments are skipped.
@@ -131,11 +131,11 @@ impl<'r> Row<'r> {
     pub(crate) fn number(&self, column: &Column, domain: Domain) -> Result<f64, Error> {
         let given = self
             .as_number(column)
-            .ok_or_else(|| self.bad(column, domain.expected()))?;
+            .ok_or_else(|| self.invalid(column, domain.expected()))?;
         let value = column.convert(given);
         match domain.contains(value) {
             true => Ok(value),
-            false => Err(self.bad(
+            false => Err(self.invalid(
                 column,
                 domain.expected() + &domain.meant(&column.name, given),
             )),
@@ -151,15 +151,15 @@ impl<'r> Row<'r> {
     }
 
     /// 0 or 1.
-    pub(crate) fn truth(&self, column: &Column) -> Result<bool, Error> {
+    pub(crate) fn boolean(&self, column: &Column) -> Result<bool, Error> {
         match self.as_number(column) {
             Some(0.0) => Ok(false),
             Some(1.0) => Ok(true),
-            _ => Err(self.bad(column, "0 or 1")),
+            _ => Err(self.invalid(column, "0 or 1")),
         }
     }
 
-    pub(crate) fn bad(&self, column: &Column, expected: impl Into<Cow<'static, str>>) -> Error {
+    pub(crate) fn invalid(&self, column: &Column, expected: impl Into<Cow<'static, str>>) -> Error {
         Error::BadValue {
             place: self.place(),
             key: column.name.clone(),

@@ -2,7 +2,7 @@ use std::fmt;
 
 use super::Tissue;
 use super::laws::LawName;
-use crate::words::either;
+use crate::words::or_list;
 use crate::{Error, Estimate, Keys};
 
 /// Most parameters of a law.
@@ -66,7 +66,7 @@ impl Elasticity {
         let law = keys.word_or_former("law", LawName::WORDS, LawName::FORMER)?;
         let law = law.ok_or_else(|| {
             let words = LawName::WORDS.iter().map(|(word, _)| format!("\"{word}\""));
-            keys.missing("law", either(&words.collect::<Vec<_>>()))
+            keys.missing("law", or_list(&words.collect::<Vec<_>>()))
         })?;
         // A parameter of another law is a mistake and must not be ignored.
         let has = |law: LawName, key: &str| law.row().keys().any(|own| own == key);

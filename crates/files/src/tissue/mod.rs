@@ -18,7 +18,7 @@ pub use lumped::{EffectiveColumn, Kelvin, Lumped, NonlinearSprings};
 pub use prony::PronyTerm;
 pub use source::TissueSource;
 
-use crate::whole_file::{MOST_OF_DOCUMENT, read_text};
+use crate::atomic_write::{MAX_DOCUMENT_BYTES, read_text};
 use crate::{Document, Domain, Error, Estimate, Key, Keys};
 
 /// Density of soft tissue when a tissue does not state its own [kg/m³].
@@ -107,7 +107,7 @@ impl Tissue {
     /// When the file cannot be read or does not describe a tissue.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        Self::parse(&read_text(path, MOST_OF_DOCUMENT)?, path)
+        Self::parse(&read_text(path, MAX_DOCUMENT_BYTES)?, path)
     }
 
     /// Reads the text of a tissue file; `path` is its name in errors.

@@ -3,7 +3,7 @@ use std::path::Path;
 
 use super::{Tissue, TissueSource};
 use crate::toml_document::quoted;
-use crate::{Error, write_whole};
+use crate::{Error, write_atomically};
 
 impl Tissue {
     /// The text of a tissue file, which [`Tissue::parse`] reads back to the same tissue.
@@ -42,7 +42,7 @@ impl Tissue {
         let text = self.to_toml();
         // The writer checks the text with the reader.
         Self::parse(&text, &path).map_err(Error::of_content)?;
-        write_whole(path, text.as_bytes())
+        write_atomically(path, text.as_bytes())
     }
 }
 

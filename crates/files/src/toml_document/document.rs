@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
+use crate::atomic_write::{MAX_DOCUMENT_BYTES, read_text};
 use crate::error::Place;
-use crate::whole_file::{MOST_OF_DOCUMENT, read_text};
 use crate::{Error, Keys};
 
 use super::key::Key;
@@ -23,7 +23,7 @@ impl Document {
     /// When it cannot be read, is not TOML or is not in format 1.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        Self::parse(&read_text(path, MOST_OF_DOCUMENT)?, path)
+        Self::parse(&read_text(path, MAX_DOCUMENT_BYTES)?, path)
     }
 
     /// Reads a text; `path` is its name in errors.

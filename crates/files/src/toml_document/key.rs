@@ -9,7 +9,7 @@ pub struct Key {
     /// Its name, which ends in the unit of its value.
     pub name: &'static str,
     /// The type of its value.
-    pub holds: Holds,
+    pub value_type: ValueType,
     /// Its meaning, as sentences.
     pub meaning: &'static str,
     /// Its default.
@@ -22,7 +22,7 @@ pub struct Key {
 
 /// The type of a key's value.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Holds {
+pub enum ValueType {
     /// A number [unit of the key].
     Number(Domain),
     /// A number, or a table of a value and its standard error [unit of the key].
@@ -38,7 +38,7 @@ pub enum Holds {
     /// A whole number, from the first to the second.
     Integer(u64, u64),
     /// `true` or `false`.
-    Truth,
+    Boolean,
     /// A text.
     Text,
     /// A text or a whole number.
@@ -84,10 +84,10 @@ pub enum Omitted {
 pub type Word = (&'static str, &'static str);
 
 impl Key {
-    const fn new(name: &'static str, holds: Holds, meaning: &'static str) -> Self {
+    const fn new(name: &'static str, value_type: ValueType, meaning: &'static str) -> Self {
         Self {
             name,
-            holds,
+            value_type,
             meaning,
             omitted: Omitted::Refused,
             example: "",
@@ -97,67 +97,67 @@ impl Key {
 
     /// A number.
     pub const fn number(name: &'static str, domain: Domain, meaning: &'static str) -> Self {
-        Self::new(name, Holds::Number(domain), meaning)
+        Self::new(name, ValueType::Number(domain), meaning)
     }
 
     /// A number, or a table of a value and its standard error.
     pub const fn estimate(name: &'static str, domain: Domain, meaning: &'static str) -> Self {
-        Self::new(name, Holds::Estimate(domain), meaning)
+        Self::new(name, ValueType::Estimate(domain), meaning)
     }
 
     /// Three numbers.
     pub const fn vector(name: &'static str, domain: Domain, meaning: &'static str) -> Self {
-        Self::new(name, Holds::Vector(domain), meaning)
+        Self::new(name, ValueType::Vector(domain), meaning)
     }
 
     /// Three numbers, not all zero.
     pub const fn direction(name: &'static str, meaning: &'static str) -> Self {
-        Self::new(name, Holds::Direction, meaning)
+        Self::new(name, ValueType::Direction, meaning)
     }
 
     /// A list of numbers.
     pub const fn numbers(name: &'static str, domain: Domain, meaning: &'static str) -> Self {
-        Self::new(name, Holds::Numbers(domain), meaning)
+        Self::new(name, ValueType::Numbers(domain), meaning)
     }
 
     /// A list of three numbers each.
     pub const fn vectors(name: &'static str, domain: Domain, meaning: &'static str) -> Self {
-        Self::new(name, Holds::Vectors(domain), meaning)
+        Self::new(name, ValueType::Vectors(domain), meaning)
     }
 
     /// A whole number from `least` to `most`.
     pub const fn integer(name: &'static str, least: u64, most: u64, meaning: &'static str) -> Self {
-        Self::new(name, Holds::Integer(least, most), meaning)
+        Self::new(name, ValueType::Integer(least, most), meaning)
     }
 
     /// `true` or `false`.
-    pub const fn truth(name: &'static str, meaning: &'static str) -> Self {
-        Self::new(name, Holds::Truth, meaning)
+    pub const fn boolean(name: &'static str, meaning: &'static str) -> Self {
+        Self::new(name, ValueType::Boolean, meaning)
     }
 
     /// A text.
     pub const fn text(name: &'static str, meaning: &'static str) -> Self {
-        Self::new(name, Holds::Text, meaning)
+        Self::new(name, ValueType::Text, meaning)
     }
 
     /// A text or a whole number.
     pub const fn label(name: &'static str, meaning: &'static str) -> Self {
-        Self::new(name, Holds::Label, meaning)
+        Self::new(name, ValueType::Label, meaning)
     }
 
     /// A list of texts.
     pub const fn texts(name: &'static str, meaning: &'static str) -> Self {
-        Self::new(name, Holds::Texts, meaning)
+        Self::new(name, ValueType::Texts, meaning)
     }
 
     /// The path of a file or folder.
     pub const fn path(name: &'static str, meaning: &'static str) -> Self {
-        Self::new(name, Holds::Path, meaning)
+        Self::new(name, ValueType::Path, meaning)
     }
 
     /// One of `words`.
     pub const fn word(name: &'static str, words: &'static [Word], meaning: &'static str) -> Self {
-        Self::new(name, Holds::Word(words), meaning)
+        Self::new(name, ValueType::Word(words), meaning)
     }
 
     /// One of `words`, or a table with these keys.
@@ -167,7 +167,7 @@ impl Key {
         keys: &'static [Self],
         meaning: &'static str,
     ) -> Self {
-        Self::new(name, Holds::WordOrTable(words, keys), meaning)
+        Self::new(name, ValueType::WordOrTable(words, keys), meaning)
     }
 
     /// A table with these keys, or a list of such tables.
@@ -176,12 +176,12 @@ impl Key {
         keys: &'static [Self],
         meaning: &'static str,
     ) -> Self {
-        Self::new(name, Holds::TableOrTables(keys), meaning)
+        Self::new(name, ValueType::TableOrTables(keys), meaning)
     }
 
     /// A table with these keys.
     pub const fn table(name: &'static str, keys: &'static [Self], meaning: &'static str) -> Self {
-        Self::new(name, Holds::Table(keys), meaning)
+        Self::new(name, ValueType::Table(keys), meaning)
     }
 
     /// The path of a file, or a table with these keys.
@@ -190,27 +190,31 @@ impl Key {
         keys: &'static [Self],
         meaning: &'static str,
     ) -> Self {
-        Self::new(name, Holds::PathOrTable(keys), meaning)
+        Self::new(name, ValueType::PathOrTable(keys), meaning)
     }
 
     /// A list of tables with these keys.
     pub const fn tables(name: &'static str, keys: &'static [Self], meaning: &'static str) -> Self {
-        Self::new(name, Holds::Tables(keys), meaning)
+        Self::new(name, ValueType::Tables(keys), meaning)
     }
 
     /// A table of tables with these keys, under names of somebody's choice.
     pub const fn named(name: &'static str, keys: &'static [Self], meaning: &'static str) -> Self {
-        Self::new(name, Holds::Named(keys), meaning)
+        Self::new(name, ValueType::Named(keys), meaning)
     }
 
     /// A number, or the name of a draw of numbers.
     pub const fn number_or_draw(name: &'static str, domain: Domain, meaning: &'static str) -> Self {
-        Self::new(name, Holds::NumberOrDraw(domain), meaning)
+        Self::new(name, ValueType::NumberOrDraw(domain), meaning)
     }
 
     /// A value described by the words `holds`.
-    pub const fn other(name: &'static str, holds: &'static str, meaning: &'static str) -> Self {
-        Self::new(name, Holds::Other(holds), meaning)
+    pub const fn other(
+        name: &'static str,
+        value_type: &'static str,
+        meaning: &'static str,
+    ) -> Self {
+        Self::new(name, ValueType::Other(value_type), meaning)
     }
 
     /// The same, but required; with an `example`.
@@ -250,7 +254,7 @@ impl Key {
     /// The same estimate in another domain.
     pub const fn within(self, domain: Domain) -> Self {
         Self {
-            holds: Holds::Estimate(domain),
+            value_type: ValueType::Estimate(domain),
             ..self
         }
     }
@@ -268,27 +272,27 @@ impl Key {
     /// # Panics
     /// When it holds none: a mistake in the program, not in a document.
     pub(crate) fn domain(&self) -> Domain {
-        match self.holds {
-            Holds::Number(domain)
-            | Holds::Estimate(domain)
-            | Holds::Vector(domain)
-            | Holds::NumberOrDraw(domain)
-            | Holds::Vectors(domain)
-            | Holds::Numbers(domain) => domain,
-            Holds::Direction => Domain::FINITE,
+        match self.value_type {
+            ValueType::Number(domain)
+            | ValueType::Estimate(domain)
+            | ValueType::Vector(domain)
+            | ValueType::NumberOrDraw(domain)
+            | ValueType::Vectors(domain)
+            | ValueType::Numbers(domain) => domain,
+            ValueType::Direction => Domain::FINITE,
             _ => unreachable!("`{}` is declared without a domain", self.name),
         }
     }
 
     /// The keys of the tables in it; empty where there are none.
     pub fn keys(&self) -> &'static [Self] {
-        match self.holds {
-            Holds::Table(keys)
-            | Holds::TableOrTables(keys)
-            | Holds::WordOrTable(_, keys)
-            | Holds::PathOrTable(keys)
-            | Holds::Tables(keys)
-            | Holds::Named(keys) => keys,
+        match self.value_type {
+            ValueType::Table(keys)
+            | ValueType::TableOrTables(keys)
+            | ValueType::WordOrTable(_, keys)
+            | ValueType::PathOrTable(keys)
+            | ValueType::Tables(keys)
+            | ValueType::Named(keys) => keys,
             _ => &[],
         }
     }

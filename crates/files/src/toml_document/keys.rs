@@ -47,7 +47,7 @@ impl Warnings {
 }
 
 impl Found<'_> {
-    pub(crate) fn bad(&self, expected: impl Into<Cow<'static, str>>) -> Error {
+    pub(crate) fn invalid(&self, expected: impl Into<Cow<'static, str>>) -> Error {
         Error::BadValue {
             place: self.place.clone(),
             key: self.key.clone(),
@@ -227,7 +227,7 @@ impl<'d> Keys<'d> {
     }
 
     /// The error for the value of an entry, under its full `name`.
-    pub(crate) fn bad_entry(&self, name: &str, entry: &Entry, expected: &'static str) -> Error {
+    pub(crate) fn invalid_entry(&self, name: &str, entry: &Entry, expected: &'static str) -> Error {
         Error::BadValue {
             place: self.place_of(entry),
             key: self.full_name(name),
@@ -246,9 +246,9 @@ impl<'d> Keys<'d> {
     }
 
     /// The error for a key with an invalid value.
-    pub fn bad(&self, key: &'static str, expected: impl Into<Cow<'static, str>>) -> Error {
+    pub fn invalid(&self, key: &'static str, expected: impl Into<Cow<'static, str>>) -> Error {
         match self.find(key) {
-            Ok(Some(found)) => found.bad(expected),
+            Ok(Some(found)) => found.invalid(expected),
             Ok(None) => self.missing(key, expected),
             Err(error) => error,
         }
@@ -260,7 +260,7 @@ impl<'d> Keys<'d> {
     /// When it is there.
     pub fn refuse(&self, key: &'static str, expected: &'static str) -> Result<(), Error> {
         match self.find(key)? {
-            Some(found) => Err(found.bad(expected)),
+            Some(found) => Err(found.invalid(expected)),
             None => Ok(()),
         }
     }

@@ -10,7 +10,7 @@ mod values;
 
 pub use document::Document;
 pub(crate) use document::check_format;
-pub use key::{Holds, Key, Omitted, Word};
+pub use key::{Key, Omitted, ValueType, Word};
 pub use keys::Keys;
 pub(crate) use keys::Warnings;
 pub(crate) use value::{Entry, Table, Value, number as toml_number, parse as parse_toml, quoted};

@@ -3,7 +3,7 @@ use std::ops::RangeInclusive;
 use crate::error::Place;
 use crate::{Domain, Error, Keys};
 
-use super::key::Holds;
+use super::key::ValueType;
 use super::keys::Found;
 use super::value::Value;
 
@@ -49,7 +49,7 @@ impl Keys<'_> {
         };
         let domain = self.declared(key).domain();
         let Value::List(values) = found.value else {
-            return Err(found.bad("a list of points, each three numbers [x, y, z]"));
+            return Err(found.invalid("a list of points, each three numbers [x, y, z]"));
         };
         let each = values.iter().enumerate();
         let each = each.map(|(number, value)| found.item(number, value).vector(domain));
@@ -75,7 +75,7 @@ impl Keys<'_> {
         if direction.is_some_and(|v| !(v.iter().map(|c| c * c).sum::<f64>().is_normal()))
             && let Some(found) = self.find(key)?
         {
-            return Err(found.bad("a direction whose length is not 0, such as [0.0, 0.0, 1.0]"));
+            return Err(found.invalid("a direction whose length is not 0, such as [0.0, 0.0, 1.0]"));
         }
         Ok(direction)
     }
@@ -107,7 +107,7 @@ impl Keys<'_> {
     /// # Errors
     /// When the value is anything else.
     pub fn integer(&self, key: &'static str) -> Result<Option<u64>, Error> {
-        let Holds::Integer(least, most) = self.declared(key).holds else {
+        let ValueType::Integer(least, most) = self.declared(key).value_type else {
             unreachable!("`{key}` is not declared as a whole number");
         };
         self.integer_within(key, least..=most)
@@ -130,7 +130,7 @@ impl Keys<'_> {
             _ => None,
         };
         inside.map(Some).ok_or_else(|| {
-            found.bad(match *range.end() {
+            found.invalid(match *range.end() {
                 u64::MAX => format!("a whole number of {} or more", range.start()),
                 end => format!("a whole number from {} to {end}", range.start()),
             })
@@ -140,11 +140,11 @@ impl Keys<'_> {
 
 impl Found<'_> {
     pub(crate) fn number(&self, domain: Domain) -> Result<f64, Error> {
-        let given = as_number(self.value).ok_or_else(|| self.bad(domain.expected()))?;
+        let given = as_number(self.value).ok_or_else(|| self.invalid(domain.expected()))?;
         let value = self.unit.convert(given);
         if !domain.contains(value) {
             let meant = domain.meant(&self.key, given);
-            return Err(self.bad(domain.expected() + &meant));
+            return Err(self.invalid(domain.expected() + &meant));
         }
         if let Some(warning) = domain.warning(&self.key, given, self.unit) {
             self.warnings.add(format!(
@@ -159,7 +159,7 @@ impl Found<'_> {
 
     fn numbers(&self, domain: Domain, expected: &'static str) -> Result<Vec<f64>, Error> {
         let Value::List(values) = self.value else {
-            return Err(self.bad(expected));
+            return Err(self.invalid(expected));
         };
         let each = values.iter().enumerate();
         each.map(|(number, value)| self.item(number, value).number(domain))
@@ -169,7 +169,7 @@ impl Found<'_> {
     fn vector(&self, domain: Domain) -> Result<[f64; 3], Error> {
         const EXPECTED: &str = "a list of three numbers [x, y, z]";
         let numbers = self.numbers(domain, EXPECTED)?;
-        <[f64; 3]>::try_from(numbers).map_err(|_| self.bad(EXPECTED))
+        <[f64; 3]>::try_from(numbers).map_err(|_| self.invalid(EXPECTED))
     }
 }
 

@@ -15,7 +15,7 @@ pub(crate) enum Value {
     Integer(i128, String),
     /// A number with its digits as written.
     Number(f64, String),
-    Truth(bool),
+    Boolean(bool),
     Date(String),
     List(Vec<Value>),
     Table(Table),
@@ -38,7 +38,7 @@ impl Value {
             Self::Integer(_, written) | Self::Number(_, written) | Self::Date(written) => {
                 written.clone()
             }
-            Self::Truth(truth) => truth.to_string(),
+            Self::Boolean(truth) => truth.to_string(),
             Self::List(values) if values.len() <= 4 => {
                 let values: Vec<_> = values.iter().map(Self::described).collect();
                 format!("[{}]", values.join(", "))
@@ -94,7 +94,7 @@ fn node(
             let value = float.as_str().parse().map_err(|_| bad(float.as_str()))?;
             Value::Number(value, float.as_str().to_owned())
         }
-        DeValue::Boolean(truth) => Value::Truth(*truth),
+        DeValue::Boolean(truth) => Value::Boolean(*truth),
         DeValue::Datetime(date) => Value::Date(date.to_string()),
         DeValue::Array(values) => Value::List(
             values

@@ -1,10 +1,10 @@
 use std::borrow::Cow;
 
 use crate::error::Place;
-use crate::words::either;
+use crate::words::or_list;
 use crate::{Error, Keys};
 
-use super::key::{Holds, Key};
+use super::key::{Key, ValueType};
 use super::value::{Entry, Table, Value};
 
 impl<'d> Keys<'d> {
@@ -58,9 +58,9 @@ impl<'d> Keys<'d> {
     ///
     /// # Errors
     /// When the value is anything else.
-    pub fn truth(&self, key: &'static str) -> Result<Option<bool>, Error> {
+    pub fn boolean(&self, key: &'static str) -> Result<Option<bool>, Error> {
         self.read(key, "true or false", |value| match value {
-            Value::Truth(truth) => Some(*truth),
+            Value::Boolean(truth) => Some(*truth),
             _ => None,
         })
     }
@@ -79,8 +79,8 @@ impl<'d> Keys<'d> {
             "`{key}` is declared with other words than are read"
         );
         let names: Vec<_> = words.iter().map(|(word, _)| format!("{word:?}")).collect();
-        let mut expected = either(&names);
-        if let Holds::WordOrTable(_, keys) = self.declared(key).holds {
+        let mut expected = or_list(&names);
+        if let ValueType::WordOrTable(_, keys) = self.declared(key).value_type {
             let keys: Vec<_> = keys.iter().map(|key| key.name).collect();
             expected += &format!(", or a table {{ {} }}", keys.join(", "));
         }
@@ -148,7 +148,7 @@ impl<'d> Keys<'d> {
             return Ok(None);
         };
         let Value::Table(table) = found.value else {
-            return Err(found.bad("a table"));
+            return Err(found.invalid("a table"));
         };
         let keys = Keys::of_table(found.place, found.key, table, known, found.warnings);
         keys.only_declared()?;
@@ -193,19 +193,20 @@ impl<'d> Keys<'d> {
             return Ok(Vec::new());
         };
         // A table in place of a list is a list of one here.
-        if let (Holds::TableOrTables(_), Value::Table(_)) = (self.declared(key).holds, found.value)
+        if let (ValueType::TableOrTables(_), Value::Table(_)) =
+            (self.declared(key).value_type, found.value)
         {
             return Ok(self.table_of(key, known)?.into_iter().collect());
         }
         let Value::List(values) = found.value else {
-            return Err(found.bad("a list of tables"));
+            return Err(found.invalid("a list of tables"));
         };
         values
             .iter()
             .enumerate()
             .map(|(number, value)| {
                 let Value::Table(table) = value else {
-                    return Err(found.bad("a list of tables"));
+                    return Err(found.invalid("a list of tables"));
                 };
                 // Each table of a list has its own lines; the list is on the line of its first key.
                 let line = table.values().map(|entry| entry.line).min();
@@ -223,8 +224,8 @@ impl<'d> Keys<'d> {
     /// Whether a key is declared with these words.
     fn lists<T>(&self, key: &str, words: &[(&'static str, T)]) -> bool {
         let own = words.iter().map(|(word, _)| *word);
-        match self.declared(key).holds {
-            Holds::Word(declared) | Holds::WordOrTable(declared, _) => {
+        match self.declared(key).value_type {
+            ValueType::Word(declared) | ValueType::WordOrTable(declared, _) => {
                 declared.iter().map(|(word, _)| *word).eq(own)
             }
             _ => false,
@@ -242,7 +243,7 @@ impl<'d> Keys<'d> {
         };
         match understand(found.value) {
             Some(value) => Ok(Some(value)),
-            None => Err(found.bad(expected)),
+            None => Err(found.invalid(expected)),
         }
     }
 }

@@ -1,7 +1,9 @@
 //! Every error names the place, the key, what was found, what is expected and the remedy.
 
 use palpate_files::recording::{ExtraColumn, RecordingHeader, Samples};
-use palpate_files::{BuiltinTissue, Error, Motion, Recording, Scene, Session, Tissue, write_whole};
+use palpate_files::{
+    BuiltinTissue, Error, Motion, Recording, Scene, Session, Tissue, write_atomically,
+};
 
 use crate::{MOTION, RECORDING, SCENE, SESSION};
 
@@ -64,7 +66,7 @@ fn read_and_write() {
         message.ends_with("check the name and that you may read it"),
         "{message}"
     );
-    let message = refused(write_whole(path.join("a"), b"x"));
+    let message = refused(write_atomically(path.join("a"), b"x"));
     assert!(message.contains("cannot be written"), "{message}");
     let full = Error::Write {
         path,

@@ -123,7 +123,7 @@ fn a_recording_with_six_axes_comes_back() {
     let later = RecordingRow { time_s: 0.1, ..row };
     writer.write(later).unwrap();
     assert!(writer.write([0.2, 0.0, 0.0]).is_err());
-    writer.finish(RecordingHeader::WHOLE).unwrap();
+    writer.finish(RecordingHeader::COMPLETE).unwrap();
     let read = Recording::read(&file).unwrap();
     assert_eq!(read.incomplete(), None);
     assert_eq!(read.header.approach_normal, Some([0.1, 0.0, 0.9]));

@@ -224,13 +224,13 @@ fn jaws_are_those_of_the_kind() {
 #[test]
 fn an_anchor_holds_what_lies_in_its_regions() {
     let anchor = parse(SCENE).organ.anchor.unwrap();
-    assert!(anchor.holds([0.5, 0.5, 0.0]), "behind the plane");
-    assert!(anchor.holds([0.5, 0.5, 0.001]), "on the plane");
-    assert!(!anchor.holds([0.5, 0.5, 0.0011]));
-    assert!(anchor.holds([-0.5, 0.5, 0.5]), "in the box");
-    assert!(anchor.holds([0.1, 0.0, 0.004]), "in the sphere");
-    assert!(!anchor.holds([0.1, 0.0, 0.006]));
-    assert!(!Region::default().holds([0.0; 3]) && Region::default().is_empty());
+    assert!(anchor.contains([0.5, 0.5, 0.0]), "behind the plane");
+    assert!(anchor.contains([0.5, 0.5, 0.001]), "on the plane");
+    assert!(!anchor.contains([0.5, 0.5, 0.0011]));
+    assert!(anchor.contains([-0.5, 0.5, 0.5]), "in the box");
+    assert!(anchor.contains([0.1, 0.0, 0.004]), "in the sphere");
+    assert!(!anchor.contains([0.1, 0.0, 0.006]));
+    assert!(!Region::default().contains([0.0; 3]) && Region::default().is_empty());
 }
 
 #[test]
@@ -255,7 +255,7 @@ fn the_hybrid_model_has_its_own_settings() {
         "{error}"
     );
     let touchable = scene.organ.touchable.unwrap();
-    assert!(touchable.holds([0.0, 0.0, 0.1]) && !touchable.holds([0.0, 0.0, -0.1]));
+    assert!(touchable.contains([0.0, 0.0, 0.1]) && !touchable.contains([0.0, 0.0, -0.1]));
 }
 
 #[test]
@@ -309,13 +309,13 @@ fn those_that_come_along_are_read() {
 
 #[test]
 fn a_scene_that_stands_alone_is_the_same_elsewhere() {
-    let text = standing_alone(SCENE, "scenes/deep/../scene.toml").unwrap();
+    let text = self_contained(SCENE, "scenes/deep/../scene.toml").unwrap();
     let here = Scene::parse(&text, "other/place/scene.toml").unwrap();
     let mut expected =
         Scene::parse(SCENE, std::path::absolute("scenes/scene.toml").unwrap()).unwrap();
     expected.folder = here.folder.clone();
     assert_eq!(here, expected);
-    let refused = standing_alone("[organ", "s.toml").unwrap_err().to_string();
+    let refused = self_contained("[organ", "s.toml").unwrap_err().to_string();
     assert!(refused.starts_with("s.toml:"), "{refused}");
 }
 

@@ -41,7 +41,7 @@ fn a_whole_recording_is_not_cut_short() {
     let file = folder.path().join("one.csv");
     let mut writer = RecordingWriter::create(&file, &RecordingHeader::default()).unwrap();
     writer.write([0.0, 0.0, 0.0]).unwrap();
-    writer.finish(RecordingHeader::WHOLE).unwrap();
+    writer.finish(RecordingHeader::COMPLETE).unwrap();
     let read = Recording::read(&file).unwrap();
     assert_eq!(read.header.ended.as_deref(), Some("whole"));
     assert_eq!(read.header.cut_short(), None);

@@ -57,7 +57,7 @@ pub fn inspect(mesh: &TriangleMesh) -> MeshReport {
     let topology = Topology::new(mesh, &Adjacency::new(mesh));
     let (low, high) = mesh.bounds();
     let volume_m3 = mesh.volume();
-    let oriented = topology.twisted_edges == 0 && !(topology.closed() && volume_m3 <= 0.0);
+    let oriented = topology.misoriented_edges == 0 && !(topology.closed() && volume_m3 <= 0.0);
     let mut report = MeshReport {
         vertices: mesh.vertices().len(),
         triangles: mesh.triangles().len(),
@@ -81,7 +81,7 @@ pub fn inspect(mesh: &TriangleMesh) -> MeshReport {
 
 fn problems(mesh: &TriangleMesh, topology: &Topology, report: &MeshReport) -> Vec<MeshProblem> {
     use ProblemKind as Kind;
-    let misdirected = match topology.twisted_edges {
+    let misdirected = match topology.misoriented_edges {
         0 if !report.oriented => report.triangles,
         twisted => twisted,
     };
@@ -93,7 +93,7 @@ fn problems(mesh: &TriangleMesh, topology: &Topology, report: &MeshReport) -> Ve
         (Kind::NotClosed, topology.boundary_edges),
         (
             Kind::NotManifold,
-            topology.crowded_edges + topology.split_vertices,
+            topology.non_manifold_edges + topology.split_vertices,
         ),
         (Kind::NotOriented, misdirected),
         (Kind::SeveralPieces, other_than_one(topology.components)),

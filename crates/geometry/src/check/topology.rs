@@ -7,9 +7,9 @@ pub(crate) struct Topology {
     /// Edges with one triangle.
     pub(crate) boundary_edges: usize,
     /// Edges with more than two triangles.
-    pub(crate) crowded_edges: usize,
+    pub(crate) non_manifold_edges: usize,
     /// Edges whose two triangles run along them in the same direction.
-    pub(crate) twisted_edges: usize,
+    pub(crate) misoriented_edges: usize,
     /// Vertices where several fans of triangles touch.
     pub(crate) split_vertices: usize,
     /// Vertices of no triangle.
@@ -25,8 +25,8 @@ impl Topology {
         let sides = sides(mesh.triangles());
         let mut found = Self {
             boundary_edges: 0,
-            crowded_edges: 0,
-            twisted_edges: 0,
+            non_manifold_edges: 0,
+            misoriented_edges: 0,
             split_vertices: 0,
             unused_vertices: 0,
             components: pieces(mesh.triangles().len(), &sides).1,
@@ -37,9 +37,9 @@ impl Topology {
             match edge {
                 [_] => found.boundary_edges += 1,
                 [one, other] => {
-                    found.twisted_edges += usize::from(one.ascending == other.ascending);
+                    found.misoriented_edges += usize::from(one.ascending == other.ascending);
                 }
-                _ => found.crowded_edges += 1,
+                _ => found.non_manifold_edges += 1,
             }
         }
         for vertex in 0..mesh.vertices().len() {
@@ -60,7 +60,7 @@ impl Topology {
     }
 
     pub(crate) fn manifold(&self) -> bool {
-        self.crowded_edges == 0 && self.split_vertices == 0
+        self.non_manifold_edges == 0 && self.split_vertices == 0
     }
 
     /// Handles, summed over the pieces; only a closed manifold has them.

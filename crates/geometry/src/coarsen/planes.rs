@@ -9,7 +9,7 @@ use crate::{AabbTree, TetrahedronMesh, TriangleMesh};
 const PART: f64 = 0.4;
 
 /// Rows of parts of a triangle of the surface at most [-].
-const MOST_ROWS: f64 = 64.0;
+const MAX_ROWS: f64 = 64.0;
 
 /// The quadric of each vertex of a mesh, zero inside, and the area that it represents [m²].
 pub(super) fn of_surface(mesh: &TetrahedronMesh, surface: &TriangleMesh) -> Vec<(Quadric, f64)> {
@@ -29,7 +29,7 @@ pub(super) fn of_surface(mesh: &TetrahedronMesh, surface: &TriangleMesh) -> Vec<
         let normal = outward / double;
         let longest = [b - a, c - b, a - c].map(|side| side.norm());
         let longest = longest.into_iter().fold(0.0, f64::max);
-        let rows = (longest / (PART * edge)).ceil().clamp(1.0, MOST_ROWS);
+        let rows = (longest / (PART * edge)).ceil().clamp(1.0, MAX_ROWS);
         let area = 0.5 * double * (rows * rows).recip();
         for_each_middle(surface, triangle, rows as usize, |place| {
             let nearest = tree.nearest(&boundary, &place);

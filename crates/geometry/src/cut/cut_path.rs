@@ -1,11 +1,11 @@
+use super::crossing::{Blade, Crossing};
 use super::net::{Corner, Mark, Side};
-use super::walk::{Blade, Crossing};
 use super::{CutMethod, CutSurface, snap, split};
 use crate::{NodeId, Surface, TriangleId, Vec3};
 
 /// A blade that is lifted or turns so near to the last vertex leaves no other there, in units of the
 /// shortest part [-]: the edge between the two would not point along the blade's way.
-const LEAST_LEAD: f64 = 3.0;
+const MIN_LEAD: f64 = 3.0;
 
 /// A blade that turns by more than this within a triangle gets a vertex where it turns [rad].
 const TURN: f64 = 0.35;
@@ -139,7 +139,7 @@ impl CutSurface {
         };
         let front = cut_path.blade.front;
         let lead = (place - self.net.position(front)).norm();
-        if lead > LEAST_LEAD * self.limits.edge || self.meets_opening(front, &place) {
+        if lead > MIN_LEAD * self.limits.edge || self.meets_opening(front, &place) {
             self.lead_to(surface, cut_path, &place);
         }
     }
@@ -160,7 +160,7 @@ impl CutSurface {
             return;
         };
         let (come, goes) = (place - self.net.position(cut_path.blade.front), to - place);
-        if come.norm() > LEAST_LEAD * self.limits.edge && come.angle(&goes) > TURN {
+        if come.norm() > MIN_LEAD * self.limits.edge && come.angle(&goes) > TURN {
             self.lead_to(surface, cut_path, &place);
         }
     }

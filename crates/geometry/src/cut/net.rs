@@ -1,4 +1,4 @@
-use super::{LEAST_ROOM, ROOM};
+use super::{MIN_CAPACITY, SPARE};
 use crate::{NodeId, Surface, TriangleId, TriangleMesh, Vec3};
 
 /// A side of a cut, seen along the way of the blade from outside.
@@ -106,7 +106,7 @@ impl Net {
             }
         });
         let (mut facets, mut nodes): (Vec<Facet>, Vec<Node>) = (facets.collect(), nodes.collect());
-        let more = |count: usize| ((ROOM * count as f64) as usize).max(LEAST_ROOM);
+        let more = |count: usize| ((SPARE * count as f64) as usize).max(MIN_CAPACITY);
         let [more_nodes, more_facets] = [more(nodes.len()), more(facets.len())];
         nodes.reserve(more_nodes);
         facets.reserve(more_facets);
@@ -167,7 +167,7 @@ impl Net {
     }
 
     /// Makes everything as it was at `mark`.
-    pub(super) fn go_back(&mut self, mark: Mark) {
+    pub(super) fn restore(&mut self, mark: Mark) {
         while self.undo_log.len() > mark.changes {
             match self.undo_log.pop() {
                 Some(UndoEntry::Triangle(id, corners, facet)) => {

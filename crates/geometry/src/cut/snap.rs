@@ -1,11 +1,11 @@
+use super::crossing::nearest_of_surface;
 use super::net::{Corner, Net, Node, Origin};
 use super::split::shape;
-use super::walk::nearest_of_surface;
-use super::{LEAST_SHAPE, MOST_AREA_CHANGE};
+use super::{MAX_AREA_CHANGE, MIN_SHAPE};
 use crate::{Surface, Vec3};
 
 /// A triangle turns by less than 30° when its corner is moved: the cosine of that [-].
-const MOST_TURN: f64 = 0.866;
+const MAX_TURN: f64 = 0.866;
 
 /// Moves a vertex to the point of the surface nearest to `place` [m], when its triangles stay sound.
 /// Whether it was moved.
@@ -34,12 +34,12 @@ fn stays_sound(net: &Net, corner: Corner, place: &Vec3) -> bool {
         let mut new = old;
         new[k] = *place;
         let [was, is] = [old, new].map(|[a, b, c]| (b - a).cross(&(c - a)));
-        let turned = was.dot(&is) < MOST_TURN * was.norm() * is.norm();
-        if turned || shape(&new) < LEAST_SHAPE.min(shape(&old)) {
+        let turned = was.dot(&is) < MAX_TURN * was.norm() * is.norm();
+        if turned || shape(&new) < MIN_SHAPE.min(shape(&old)) {
             return false;
         }
         before += was.norm();
         after += is.norm();
     }
-    (after - before).abs() <= MOST_AREA_CHANGE * before
+    (after - before).abs() <= MAX_AREA_CHANGE * before
 }

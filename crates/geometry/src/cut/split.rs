@@ -1,5 +1,5 @@
 use super::net::{Corner, Facet, Net, Node, Origin};
-use super::{LEAST_SHAPE, NEAR};
+use super::{MIN_SHAPE, NEAR};
 use crate::proximity::closest_on_triangle;
 use crate::{NodeId, Surface, TriangleId, Vec3};
 
@@ -53,7 +53,7 @@ pub(super) fn split_edge(
         let (mut first, mut second) = (corners, corners);
         first[(k + 1) % 3] = place;
         second[k] = place;
-        shape(&first).min(shape(&second)) >= LEAST_SHAPE
+        shape(&first).min(shape(&second)) >= MIN_SHAPE
     });
     if !children_are_sound || net.facets.len() + 2 > limits.triangles {
         return None;
@@ -150,7 +150,7 @@ fn split_inside(
     let children_are_sound = (0..3).all(|k| {
         let mut child = positions;
         child[k] = *place;
-        shape(&child) >= LEAST_SHAPE
+        shape(&child) >= MIN_SHAPE
     });
     if !children_are_sound || net.facets.len() + 2 > limits.triangles {
         return None;

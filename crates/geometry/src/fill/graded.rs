@@ -9,7 +9,7 @@ use crate::{AabbTree, NodeId, Surface, TetrahedronError, Vec3, refine_to};
 const ALPHA: f64 = 0.3;
 
 /// Least part of its volume that a tetrahedron retains when an end moves [-].
-const LEAST_VOLUME: f64 = 0.2;
+const MIN_VOLUME: f64 = 0.2;
 
 /// Bisected tetrahedra, points moved onto the surface, and cuts.
 pub(super) struct GradedLattice {
@@ -94,7 +94,7 @@ impl GradedLattice {
             if before
                 .iter()
                 .zip(&after)
-                .all(|(before, after)| *after > LEAST_VOLUME * before)
+                .all(|(before, after)| *after > MIN_VOLUME * before)
             {
                 self.places[point] = Place::On;
             } else {

@@ -8,7 +8,7 @@ const ALPHA_LONG: f64 = 0.24999;
 const ALPHA_SHORT: f64 = 0.41189;
 
 /// Points that a lattice may have: the memory of a small computer [-].
-pub(super) const MOST_POINTS: f64 = 2e8;
+pub(super) const MAX_POINTS: f64 = 2e8;
 
 /// Steps from a point to its neighbours, in halves of a cell: six along the axes to its own kind
 /// (long edges), eight to the other kind (short edges).

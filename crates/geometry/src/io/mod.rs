@@ -27,7 +27,7 @@ use crate::{LengthUnit, MeshFormat, NodeId, ReadError, ReadFault, TriangleMesh, 
 
 /// Bytes that are read of a mesh with all its buffers, or of a volume, at most: no mesh needs more, and a wrong path (a
 /// film, a disk image) should fail at once.
-const MOST_BYTES: u64 = 1 << 30;
+const MAX_BYTES: u64 = 1 << 30;
 
 /// A mesh as its file has it, but in metres.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,7 +57,7 @@ pub fn read_mesh(path: &Path, unit: Option<LengthUnit>) -> Result<ImportedMesh, 
 }
 
 fn read_here(path: &Path, unit: Option<LengthUnit>) -> Result<ImportedMesh, ReadFault> {
-    let bytes = read_whole(path, MOST_BYTES)?;
+    let bytes = read_whole(path, MAX_BYTES)?;
     let format = MeshFormat::of(path, &bytes)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let raw = match format {

@@ -2,7 +2,7 @@ use crate::{ReadFault, Vec3};
 
 /// Vertices and triangles that are read of a mesh at most: no organ needs more, and a damaged file must not fill the
 /// memory. They take 0.7 GB.
-pub(crate) const MOST_TRIANGLES: u64 = 20_000_000;
+pub(crate) const MAX_TRIANGLES: u64 = 20_000_000;
 
 /// Coordinates beyond this would overflow when they are multiplied.
 const LARGEST_COORDINATE: f64 = 1e12;
@@ -73,11 +73,11 @@ impl RawMesh {
 }
 
 fn check_count(what: &'static str, so_far: usize) -> Result<(), ReadFault> {
-    if so_far as u64 >= MOST_TRIANGLES {
+    if so_far as u64 >= MAX_TRIANGLES {
         return Err(ReadFault::TooLarge {
             what,
             found: so_far as u64 + 1,
-            most: MOST_TRIANGLES,
+            most: MAX_TRIANGLES,
         });
     }
     Ok(())

@@ -91,7 +91,7 @@ impl Block {
     }
 
     /// Fills enclosed voids. Returns the number of their voxels.
-    pub(super) fn fill_hollows(&mut self) -> usize {
+    pub(super) fn fill_voids(&mut self) -> usize {
         let before = self.count();
         let mut outside = self.none();
         // What touches along an edge hangs together outside, since it does not inside.

@@ -37,7 +37,7 @@ pub struct TetrahedronMesh {
 
 impl TetrahedronMesh {
     /// More are never made: a solver on one computer could not use them.
-    pub const MOST_TETRAHEDRA: usize = 4_000_000;
+    pub const MAX_TETRAHEDRA: usize = 4_000_000;
 
     /// A mesh of `vertices` [m] and positive `tetrahedra` (vertex numbers). Vertices that none uses
     /// are dropped; the others keep their order. All tetrahedra are of region 0.
@@ -129,7 +129,7 @@ impl TetrahedronMesh {
         let faces = faces(&self.tetrahedra);
         let crowded = matched(&faces).find(|alike| alike.len() > 2);
         crowded.map_or(Ok(()), |alike| {
-            Err(TetrahedronError::CrowdedFace {
+            Err(TetrahedronError::NonManifoldFace {
                 corners: alike[0].corners.map(NodeId::index),
                 tetrahedra: alike.len(),
             })

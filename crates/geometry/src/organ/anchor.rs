@@ -11,7 +11,7 @@ pub struct AnchorPlane {
 
 impl AnchorPlane {
     /// Whether a triangle with this `centroid` [m] is fixed.
-    pub fn holds(&self, centroid: &Vec3) -> bool {
+    pub fn contains(&self, centroid: &Vec3) -> bool {
         (centroid - self.point).dot(&self.normal) < 0.0
     }
 }
@@ -26,7 +26,7 @@ mod tests {
             point: Vec3::new(0.0, 0.0, 0.001),
             normal: Vec3::z(),
         };
-        assert!(plane.holds(&Vec3::zeros()));
-        assert!(!plane.holds(&Vec3::new(0.0, 0.0, 0.002)));
+        assert!(plane.contains(&Vec3::zeros()));
+        assert!(!plane.contains(&Vec3::new(0.0, 0.0, 0.002)));
     }
 }

@@ -40,6 +40,6 @@ impl fmt::Display for OrganDescription {
             mm.z,
             self.volume * 1e3
         )?;
-        write!(formatter, "held:    {}", self.fixed)
+        write!(formatter, "fixed:   {}", self.fixed)
     }
 }

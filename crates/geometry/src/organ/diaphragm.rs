@@ -7,7 +7,7 @@ use super::{AnchorPlane, OrganDescription};
 use crate::{MeshError, TriangleMesh, Vec3};
 
 /// Fewer, and the rims of the sheet are lost.
-pub(super) const LEAST_TRIANGLES: usize = 400;
+pub(super) const MIN_TRIANGLES: usize = 400;
 
 /// Half of its thickness [mm].
 const HALF: f64 = 2.0;

@@ -6,7 +6,7 @@ use super::{AnchorPlane, OrganDescription};
 use crate::{MeshError, TriangleMesh, Vec3};
 
 /// Fewer, and the rims of the wall are lost.
-pub(super) const LEAST_TRIANGLES: usize = 400;
+pub(super) const MIN_TRIANGLES: usize = 400;
 
 /// Length along the axis, from rim to rim.
 const LENGTH: f64 = 0.06;

@@ -116,7 +116,7 @@ mod tests {
         let plane = anchor()[0];
         for triangle in mesh.triangle_ids() {
             let centroid = mesh.positions(triangle).iter().sum::<Vec3>() / 3.0;
-            assert_eq!(plane.holds(&centroid), centroid.z == 0.0);
+            assert_eq!(plane.contains(&centroid), centroid.z == 0.0);
         }
     }
 }

@@ -110,12 +110,12 @@ impl Organ {
     /// The smallest number of triangles that still has the shape of the organ.
     pub fn least_triangles(self) -> usize {
         match self {
-            Self::Esophagus => esophagus::LEAST_TRIANGLES,
-            Self::Diaphragm => diaphragm::LEAST_TRIANGLES,
+            Self::Esophagus => esophagus::MIN_TRIANGLES,
+            Self::Diaphragm => diaphragm::MIN_TRIANGLES,
             Self::Liver | Self::Kidney | Self::Stomach | Self::Spleen => 200,
             Self::Hemisphere => 48,
             Self::Cube => 12,
-            Self::Slab => slab::LEAST_TRIANGLES,
+            Self::Slab => slab::MIN_TRIANGLES,
         }
     }
 
@@ -124,14 +124,14 @@ impl Organ {
     /// their grid allows.
     ///
     /// # Errors
-    /// When there are too few triangles for the shape, or more than [`Organ::MOST_TRIANGLES`].
+    /// When there are too few triangles for the shape, or more than [`Organ::MAX_TRIANGLES`].
     pub fn surface_mesh(self, triangles: usize) -> Result<TriangleMesh, OrganError> {
-        if triangles < self.least_triangles() || triangles > Self::MOST_TRIANGLES {
+        if triangles < self.least_triangles() || triangles > Self::MAX_TRIANGLES {
             return Err(OrganError::TriangleCount {
                 organ: self,
                 triangles,
                 least: self.least_triangles(),
-                most: Self::MOST_TRIANGLES,
+                most: Self::MAX_TRIANGLES,
             });
         }
         let mesh = match self {
@@ -149,7 +149,7 @@ impl Organ {
     }
 
     /// The largest number of triangles that is made; beyond it no model here could use the mesh.
-    pub const MOST_TRIANGLES: usize = 2_000_000;
+    pub const MAX_TRIANGLES: usize = 2_000_000;
 
     /// Its default anchor: a triangle is fixed when its centroid lies behind any of these planes.
     pub fn anchor(self) -> Vec<AnchorPlane> {
@@ -223,7 +223,7 @@ mod tests {
             let plane = organ.anchor()[0];
             let held: f64 = mesh
                 .triangle_ids()
-                .filter(|&t| plane.holds(&(mesh.positions(t).iter().sum::<Vec3>() / 3.0)))
+                .filter(|&t| plane.contains(&(mesh.positions(t).iter().sum::<Vec3>() / 3.0)))
                 .map(|t| mesh.area_vector(t).norm())
                 .sum();
             assert!((held - 0.01).abs() < 1e-12, "{organ}");

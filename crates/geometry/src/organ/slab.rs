@@ -4,8 +4,8 @@ use crate::{MeshError, TriangleMesh, Vec3};
 const SIZE: Vec3 = Vec3::new(0.1, 0.1, 0.015);
 
 /// Rectangles along a side at least: fewer would be long and narrow on the sides.
-const LEAST_CELLS: usize = 4;
-pub(super) const LEAST_TRIANGLES: usize = 4 * LEAST_CELLS * (LEAST_CELLS + 2);
+const MIN_CELLS: usize = 4;
+pub(super) const MIN_TRIANGLES: usize = 4 * MIN_CELLS * (MIN_CELLS + 2);
 
 pub(super) fn description() -> OrganDescription {
     OrganDescription {
@@ -42,9 +42,9 @@ fn cells(wanted: usize) -> [usize; 3] {
     };
     // Two faces alone have four triangles per square of the side.
     let most = (wanted as f64 / 4.0).sqrt().ceil() as usize;
-    let sides = (LEAST_CELLS..=most).map(of);
+    let sides = (MIN_CELLS..=most).map(of);
     let nearest = sides.min_by_key(|cells| grid::triangles(*cells).abs_diff(wanted));
-    nearest.unwrap_or_else(|| of(LEAST_CELLS))
+    nearest.unwrap_or_else(|| of(MIN_CELLS))
 }
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
 use super::facets::common;
-use super::shell::{CUT_FLOOR, MOVED_FLOOR, SearchedSurface, move_if_sound};
+use super::shell::{CUT_FLOOR, MOVED_FLOOR, SearchedSurface, move_if_valid};
 use super::split::SplitNet;
 use crate::mesh::edges::{by_edge, sides};
 use crate::{NodeId, Surface, TetrahedronError, TetrahedronMesh, Vec3};
@@ -14,7 +14,7 @@ const FARTHEST: f64 = 0.6;
 const IN_PLANE: f64 = 0.1;
 
 /// Steps of the search for a crossing: bisection alone would need 40 for `ON`.
-const MOST_STEPS: usize = 60;
+const MAX_STEPS: usize = 60;
 
 /// A surface that tetrahedra are not to cross, given by how far a point lies above it.
 #[derive(Clone, Copy)]
@@ -46,7 +46,7 @@ pub struct Resolved {
 /// edge is cut in two.
 ///
 /// # Errors
-/// When there come more tetrahedra than [`TetrahedronMesh::MOST_TETRAHEDRA`].
+/// When there come more tetrahedra than [`TetrahedronMesh::MAX_TETRAHEDRA`].
 pub fn resolve_levels(
     mesh: TetrahedronMesh,
     surface: Option<&Surface>,
@@ -143,11 +143,11 @@ impl<'a> Resolving<'a> {
             ..
         } = self.net;
         let expected = tetrahedra.len();
-        if expected > TetrahedronMesh::MOST_TETRAHEDRA {
+        if expected > TetrahedronMesh::MAX_TETRAHEDRA {
             return Err(TetrahedronError::TooMany {
                 expected: expected as f64,
                 edge_m: self.tolerance / ON / (expected as f64).cbrt(),
-                most: TetrahedronMesh::MOST_TETRAHEDRA,
+                most: TetrahedronMesh::MAX_TETRAHEDRA,
             });
         }
         let mut pinned = self.pinned;
@@ -281,7 +281,7 @@ impl<'a> Resolving<'a> {
             } = &mut self.net;
             let star = around[node.index()].iter();
             let star = star.map(|&t| tetrahedra[t as usize]);
-            if move_if_sound(vertices, star, node.0, target, MOVED_FLOOR) {
+            if move_if_valid(vertices, star, node.0, target, MOVED_FLOOR) {
                 self.heights[node.index()] = 0.0;
                 moved += 1;
             }
@@ -303,7 +303,7 @@ impl<'a> Resolving<'a> {
         let [mut below, mut above] = edge.map(|node| self.heights[node.index()]);
         // Secants, of which one end loses half of its weight while it stays (the Illinois rule).
         let mut stayed = 0.0;
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             let part = low + (high - low) * below / (below - above);
             let point = at(part);
             let height = self.height(&point);
@@ -336,7 +336,7 @@ impl<'a> Resolving<'a> {
         let chord = from + (to - from) * (below / (below - above));
         // On the surface if that can be, else on the chord.
         let targets = [self.crossing(edge), Some(chord)].into_iter().flatten();
-        let Some(parents) = self.net.split_if_sound([a.0, b.0], targets, CUT_FLOOR) else {
+        let Some(parents) = self.net.split_if_valid([a.0, b.0], targets, CUT_FLOOR) else {
             return Vec::new();
         };
         self.heights.push(0.0);

@@ -1,6 +1,6 @@
 use super::bisection::{Bisection, Edge};
 use super::relax::relax;
-use super::shell::{SearchedSurface, move_if_sound};
+use super::shell::{SearchedSurface, move_if_valid};
 use crate::memoized::Memoized;
 use crate::{Surface, TetrahedronError, TetrahedronMesh, Vec3};
 
@@ -8,17 +8,17 @@ use crate::{Surface, TetrahedronError, TetrahedronMesh, Vec3};
 const FLOOR: f64 = 0.26;
 
 /// Rounds of bisection: three halve all edges, and no mesh of a body is finer than 2⁻³⁰ of it.
-const MOST_ROUNDS: usize = 100;
+const MAX_ROUNDS: usize = 100;
 
 /// Times that vertices inside are moved.
-const MOST_RELAXED: usize = 2;
+const MAX_RELAXED: usize = 2;
 
 /// Bisects tetrahedra until none has an edge longer than `longest_edge` [m] at any of its corners [m] or at their
 /// centroid. Away from there they grow. New vertices of the boundary move onto `surface`, if it is given; without
 /// one the boundary keeps its shape. Regions keep their shapes.
 ///
 /// # Errors
-/// When there come more tetrahedra than [`TetrahedronMesh::MOST_TETRAHEDRA`], or the edge is not
+/// When there come more tetrahedra than [`TetrahedronMesh::MAX_TETRAHEDRA`], or the edge is not
 /// reached, as when the requested edge is no positive length somewhere.
 pub fn refine_to(
     mesh: &TetrahedronMesh,
@@ -42,28 +42,28 @@ pub fn refine_to(
             .collect();
         if chosen.is_empty() {
             // A vertex that moves may make an edge too long again.
-            if relaxed == MOST_RELAXED {
+            if relaxed == MAX_RELAXED {
                 break;
             }
             relax(&mut bisection, searched.as_ref());
             relaxed += 1;
             continue;
         }
-        if rounds == MOST_ROUNDS {
+        if rounds == MAX_ROUNDS {
             let edges = chosen.iter().map(|&t| bisection.longest_edge(t));
             let edge_m = edges.fold(0.0, f64::max);
             return Err(TetrahedronError::NotRefined { rounds, edge_m });
         }
         rounds += 1;
         bisection.bisect(&chosen);
-        if bisection.len() > TetrahedronMesh::MOST_TETRAHEDRA {
+        if bisection.len() > TetrahedronMesh::MAX_TETRAHEDRA {
             return Err(TetrahedronError::TooMany {
                 expected: bisection.len() as f64,
                 edge_m: chosen
                     .iter()
                     .map(|&t| 0.5 * bisection.longest_edge(t))
                     .fold(f64::INFINITY, f64::min),
-                most: TetrahedronMesh::MOST_TETRAHEDRA,
+                most: TetrahedronMesh::MAX_TETRAHEDRA,
             });
         }
         if let Some(searched) = &searched {
@@ -94,5 +94,5 @@ fn pull(bisection: &mut Bisection, searched: &SearchedSurface<'_>, node: u32, ed
     if (target - here).norm() > 0.5 * shortest {
         return false;
     }
-    move_if_sound(vertices, star.iter().copied(), node, target, FLOOR)
+    move_if_valid(vertices, star.iter().copied(), node, target, FLOOR)
 }

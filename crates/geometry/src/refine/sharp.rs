@@ -1,6 +1,6 @@
 use super::facets::{Facets, On, common};
 use super::relax::{FLAT, SWEEPS, open_around};
-use super::shell::{CUT_FLOOR, MOVED_FLOOR, SearchedSurface, dihedral_quality, move_if_sound};
+use super::shell::{CUT_FLOOR, MOVED_FLOOR, SearchedSurface, dihedral_quality, move_if_valid};
 use super::split::SplitNet;
 use crate::mesh::edges::{by_edge, sides};
 use crate::{NodeId, Surface, TetrahedronError, TetrahedronMesh, Vec3};
@@ -97,7 +97,7 @@ impl<'a> Following<'a> {
     fn moves_to(&mut self, node: u32, target: Vec3, floor: f64) -> bool {
         let star = self.net.star(node);
         let star = star.iter().copied();
-        let moves = move_if_sound(&mut self.net.vertices, star, node, target, floor);
+        let moves = move_if_valid(&mut self.net.vertices, star, node, target, floor);
         if moves {
             self.on[node as usize] = self.searched.facets_at(&target);
         }
@@ -189,7 +189,7 @@ impl<'a> Following<'a> {
         let crossings = self.crossings(edge);
         let is_cut = self
             .net
-            .split_if_sound(edge, crossings, CUT_FLOOR)
+            .split_if_valid(edge, crossings, CUT_FLOOR)
             .is_some();
         if is_cut && let Some(place) = self.net.vertices.last() {
             self.on.push(self.searched.facets_at(place));

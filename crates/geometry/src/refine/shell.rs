@@ -78,7 +78,7 @@ pub(crate) fn dihedral_quality(positions: &[Vec3; 4]) -> f64 {
 
 /// Moves `node` to `target` [m], unless a tetrahedron around it would then have a lower quality than
 /// both `floor` [rad] and the worst before. Returns whether it moved.
-pub(crate) fn move_if_sound<'a>(
+pub(crate) fn move_if_valid<'a>(
     vertices: &mut [Vec3],
     star: impl Iterator<Item = [u32; 4]> + Clone + 'a,
     node: u32,

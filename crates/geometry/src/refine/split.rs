@@ -41,7 +41,7 @@ impl SplitNet {
 
     /// Splits an edge at the first of some `targets` [m] where no tetrahedron is less open than `floor` [rad]. Which tetrahedra had the
     /// edge, as [`Self::split`]; none where no target is sound.
-    pub(crate) fn split_if_sound(
+    pub(crate) fn split_if_valid(
         &mut self,
         edge: [u32; 2],
         targets: impl IntoIterator<Item = Vec3>,

@@ -149,7 +149,7 @@ impl Block {
             if own(corners) {
                 owned += 1;
             } else {
-                net.hold(triangle as u32);
+                net.pin(triangle as u32);
             }
         }
         let own_left = (part * owned as f64).ceil() as usize;
@@ -168,7 +168,7 @@ impl Block {
         Left {
             triangles,
             vertices: vertices
-                .filter(|&(v, _)| !net.is_held(v) && !net.around(v).is_empty())
+                .filter(|&(v, _)| !net.is_pinned(v) && !net.around(v).is_empty())
                 .map(|(v, &position)| (original(v), position))
                 .collect(),
         }

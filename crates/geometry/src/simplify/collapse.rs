@@ -342,7 +342,7 @@ impl<'a> Run<'a> {
         for &triangle in self.net.around(kept) {
             self.guard.note(triangle, &self.net.placed(triangle));
         }
-        self.guard.keep_up(self.net);
+        self.guard.coarsen_grid(self.net);
         let ring = self.net.neighbors(kept);
         self.ages[a] += 1;
         self.changed[a] = true;

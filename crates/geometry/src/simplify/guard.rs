@@ -122,7 +122,7 @@ impl Guard {
     }
 
     /// Makes the grid coarser when few triangles are left.
-    pub(super) fn keep_up(&mut self, net: &Net) {
+    pub(super) fn coarsen_grid(&mut self, net: &Net) {
         if (net.live() as f64) < THINNED * self.live as f64 {
             *self = Self::new(net);
         }

@@ -65,14 +65,14 @@ impl Net {
     }
 
     /// Nothing changes at the corners of this triangle.
-    pub(super) fn hold(&mut self, triangle: u32) {
+    pub(super) fn pin(&mut self, triangle: u32) {
         for v in self.corners(triangle) {
             self.pinned[v as usize] = true;
         }
     }
 
     /// Whether a vertex must stay: on a border, or where the surface branches.
-    pub(super) fn is_held(&self, vertex: u32) -> bool {
+    pub(super) fn is_pinned(&self, vertex: u32) -> bool {
         self.pinned[vertex as usize] || self.on_border[vertex as usize]
     }
 

@@ -26,7 +26,7 @@ pub(super) fn relax(
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
     let free: Vec<u32> = (0..net.positions.len() as u32)
-        .filter(|&v| !on_crease[v as usize] && !net.is_held(v) && !net.around(v).is_empty())
+        .filter(|&v| !on_crease[v as usize] && !net.is_pinned(v) && !net.around(v).is_empty())
         .collect();
     let mut guard = Guard::new(net);
     for round in 0..ROUNDS {

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::SlitPoint;
 use crate::mesh::tetrahedra::{Face, faces, find, longest_edge, matched};
-use crate::refine::{SplitNet, move_if_sound};
+use crate::refine::{SplitNet, move_if_valid};
 use crate::{AabbTree, NodeId, TetrahedronMesh, TriangleMesh, Vec3};
 
 pub(super) type Edge = [u32; 2];
@@ -126,7 +126,7 @@ impl Net {
         let star = around[number].iter();
         let star = star.map(|&t| tetrahedra[t as usize]);
         let target = vertices[number] + way;
-        move_if_sound(vertices, star, vertex, target, MOVED_FLOOR)
+        move_if_valid(vertices, star, vertex, target, MOVED_FLOOR)
     }
 
     /// Whether a vertex is on the side of a slit that is open already.

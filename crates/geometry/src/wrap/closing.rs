@@ -77,7 +77,7 @@ impl<'m> Closing<'m> {
     }
 
     /// Carries the nearest triangles outward, from voxel to voxel, to `reach` [m].
-    pub(super) fn reach_out(&mut self, reach: f64) {
+    pub(super) fn grow(&mut self, reach: f64) {
         if reach <= self.known {
             return;
         }
@@ -102,7 +102,7 @@ impl<'m> Closing<'m> {
     /// than a skin.
     pub(super) fn encloses(&mut self, radius: f64) -> bool {
         let skin = radius + SKIN * self.grid.spacing;
-        self.reach_out(skin);
+        self.grow(skin);
         let mut outside = vec![false; self.distance.len()];
         // The first voxel is in the margin.
         flood(self.grid.size, 0, Connectivity::Six, |number| {

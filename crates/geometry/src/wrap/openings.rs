@@ -48,7 +48,7 @@ impl Openings {
         let (low, high) = mesh.bounds();
         let grid = Grid::around(mesh, spacing.max((high - low).max() / ACROSS), 0.0);
         let mut closing = Closing::new(&grid, mesh);
-        closing.reach_out(f64::INFINITY);
+        closing.grow(f64::INFINITY);
         let widths = Widths::new(&closing);
         let count = closing.distance.len();
         let border: Vec<_> = (0..count)
@@ -81,7 +81,7 @@ impl Openings {
 
     /// Removes from the outside of `closing` the inner side of the openings, and a layer of `radius` [m] beyond, which balls of this
     /// radius restore.
-    pub(super) fn shut(&self, closing: &mut Closing<'_>, radius: f64) {
+    pub(super) fn close(&self, closing: &mut Closing<'_>, radius: f64) {
         let grid = closing.grid;
         let places = closing.outside.iter().enumerate();
         let sides = places.map(|(number, is_outside)| match is_outside {

@@ -10,7 +10,11 @@ fn organ(organ: Organ, triangles: usize) -> Surface {
 }
 
 fn coarse(surface: &Surface, tetrahedra: usize, nodes: usize) -> TetrahedronMesh {
-    let fine = fill(surface, &FillSettings::with_about(surface, tetrahedra)).unwrap();
+    let fine = fill(
+        surface,
+        &FillSettings::with_tetrahedron_count(surface, tetrahedra),
+    )
+    .unwrap();
     coarsen(&fine, surface, nodes, |_| 1.0).unwrap()
 }
 
@@ -113,7 +117,11 @@ fn sharp_edges_come_back() {
 #[test]
 fn a_mesh_that_is_coarse_enough_stays() {
     let surface = organ(Organ::Hemisphere, 500);
-    let fine = fill(&surface, &FillSettings::with_about(&surface, 500)).unwrap();
+    let fine = fill(
+        &surface,
+        &FillSettings::with_tetrahedron_count(&surface, 500),
+    )
+    .unwrap();
     let same = coarsen(&fine, &surface, 100_000, |_| 1.0).unwrap();
     assert_eq!(same.tetrahedra(), fine.tetrahedra());
 }

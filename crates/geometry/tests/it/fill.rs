@@ -22,7 +22,11 @@ fn angles_are_those_of_the_source() {
                 continue;
             }
             let started = std::time::Instant::now();
-            let mesh = fill(&surface, &FillSettings::with_about(&surface, about)).unwrap();
+            let mesh = fill(
+                &surface,
+                &FillSettings::with_tetrahedron_count(&surface, about),
+            )
+            .unwrap();
             println!(
                 "{kind}: {}, {:.3} s",
                 report(&mesh),
@@ -48,7 +52,7 @@ fn angles_hold_wherever_the_lattice_lies() {
         let (mut least, mut largest) = (f64::INFINITY, 0.0f64);
         for _ in 0..tries(1_000) {
             let about = 4_000.0 * (1.0 + 2.0 * random.unit());
-            let settings = FillSettings::with_about(&surface, about as usize);
+            let settings = FillSettings::with_tetrahedron_count(&surface, about as usize);
             let mesh = fill(&surface, &settings).unwrap();
             let quality = mesh.quality();
             least = least.min(quality.least_dihedral.to_degrees());
@@ -72,7 +76,7 @@ fn a_thin_rim_is_filled_where_it_is_asked_for() {
     let surface = Surface::new(flat).unwrap();
     let vertices = surface.mesh().vertices().iter();
     let foremost = *vertices.max_by(|a, b| a.x.total_cmp(&b.x)).unwrap();
-    let settings = FillSettings::with_about(&surface, 2_000);
+    let settings = FillSettings::with_tetrahedron_count(&surface, 2_000);
     let edge = |point: &Vec3| 5e-4 + 0.5 * ((point - foremost).norm() - 3e-3).max(0.0);
     let gap = |mesh: &palpate_geometry::TetrahedronMesh| {
         let distances = mesh.vertices().iter().map(|v| (v - foremost).norm());
@@ -161,7 +165,11 @@ fn a_cube_is_filled_exactly_when_the_lattice_fits() {
 #[test]
 fn vertices_of_the_boundary_lie_on_the_surface() {
     let (surface, tree) = organ(Organ::Liver, 6_000);
-    let mesh = fill(&surface, &FillSettings::with_about(&surface, 10_000)).unwrap();
+    let mesh = fill(
+        &surface,
+        &FillSettings::with_tetrahedron_count(&surface, 10_000),
+    )
+    .unwrap();
     for (corners, _) in mesh.boundary() {
         for node in corners {
             let there = mesh.vertices()[node.index()];
@@ -174,7 +182,7 @@ fn vertices_of_the_boundary_lie_on_the_surface() {
 #[test]
 fn the_same_surface_gives_the_same_bytes() {
     let (surface, _) = organ(Organ::Spleen, 2_000);
-    let settings = FillSettings::with_about(&surface, 20_000);
+    let settings = FillSettings::with_tetrahedron_count(&surface, 20_000);
     let bits = || {
         let mesh = fill(&surface, &settings).unwrap();
         let coordinates = mesh.vertices().iter().flat_map(|v| [v.x, v.y, v.z]);
@@ -235,7 +243,11 @@ fn real_organs_are_filled() {
     ] {
         let surface = real(&folder, name);
         let started = std::time::Instant::now();
-        let mesh = fill(&surface, &FillSettings::with_about(&surface, 40_000)).unwrap();
+        let mesh = fill(
+            &surface,
+            &FillSettings::with_tetrahedron_count(&surface, 40_000),
+        )
+        .unwrap();
         let seconds = started.elapsed().as_secs_f64();
         let part = mesh.volume() / surface.mesh().volume();
         println!(

@@ -73,7 +73,7 @@ fn longest_edge_in(mesh: &TetrahedronMesh, center: &Vec3, radius: f64) -> f64 {
 
 /// Fills, refines around a place of the surface, resolves a circle there; looks at everything.
 fn refined(name: &str, surface: &Surface, center: Vec3, levels: i32) {
-    let settings = FillSettings::with_about(surface, 10_000);
+    let settings = FillSettings::with_tetrahedron_count(surface, 10_000);
     let filled = fill(surface, &settings).unwrap();
     let focus = Focus {
         center,

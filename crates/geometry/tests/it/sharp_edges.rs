@@ -71,7 +71,7 @@ fn polyhedra_are_filled_exactly() {
         let about = 2_000.0 * (1.0 + 3.0 * random.unit());
         let filling = fill(
             &surface,
-            &FillSettings::with_about(&surface, about as usize),
+            &FillSettings::with_tetrahedron_count(&surface, about as usize),
         )
         .unwrap();
         let mesh = follow_sharp_edges(filling.clone(), &surface).unwrap();
@@ -118,7 +118,11 @@ fn curved_edges_are_followed() {
 #[test]
 fn a_surface_without_sharp_edges_changes_nothing() {
     let (surface, _) = organ(Organ::Kidney, 2_000);
-    let filling = fill(&surface, &FillSettings::with_about(&surface, 2_000)).unwrap();
+    let filling = fill(
+        &surface,
+        &FillSettings::with_tetrahedron_count(&surface, 2_000),
+    )
+    .unwrap();
     assert_eq!(
         follow_sharp_edges(filling.clone(), &surface).unwrap(),
         filling

@@ -176,7 +176,11 @@ fn organs_are_slit_anywhere() {
         (Organ::Esophagus, 4000, 1.5e-3, 18),
     ] {
         let surface = Surface::new(which.surface_mesh(triangles).unwrap()).unwrap();
-        let fine = fill(&surface, &FillSettings::with_about(&surface, 12_000)).unwrap();
+        let fine = fill(
+            &surface,
+            &FillSettings::with_tetrahedron_count(&surface, 12_000),
+        )
+        .unwrap();
         let whole = coarsen(&fine, &surface, 1500, |_| 1.0).unwrap();
         let tree = AabbTree::new(surface.mesh());
         let (mut worst, mut most, mut whole_ones) = (f64::INFINITY, 0, 0);

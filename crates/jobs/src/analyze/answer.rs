@@ -9,7 +9,7 @@ use palpate_characterize::analyze::{
 use serde::{Serialize, Serializer};
 
 use super::analyzed::Analyzed;
-use crate::{ReadRecording, Sideways, Unusable, VERSION};
+use crate::{LateralLoad, ReadRecording, Unusable, VERSION};
 
 #[derive(Serialize)]
 struct Answer<'a> {
@@ -38,7 +38,7 @@ struct FileAnswer<'a> {
     /// The longest sine.
     sinusoid: Option<&'a Sinusoid>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    sideways: Option<Sideways>,
+    sideways: Option<LateralLoad>,
     /// All sines, where there are several.
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     sinusoids: &'a [Sinusoid],
@@ -100,7 +100,7 @@ impl<'a> FileAnswer<'a> {
             static_response: found.holds.iter().map(HoldAnswer::of).collect(),
             relaxation: found.relaxation.as_ref(),
             sinusoid: found.longest_sine(),
-            sideways: read.sideways,
+            sideways: read.lateral_load,
             sinusoids: if several { &found.sinusoids } else { &[] },
             chirps: &found.sweeps,
         }

@@ -7,16 +7,16 @@ use palpate_characterize::Analysis;
 
 pub use analyzed::{Analyzed, warnings_of};
 
-use crate::{Error, ReadRecording, Recordings, Watch};
+use crate::{Error, ProgressCallback, ReadRecording, Recordings};
 
 /// Analyzes every one of `recordings`.
 ///
 /// # Errors
 /// When no recording can be used.
-pub fn analyze(recordings: &Recordings, watch: &dyn Watch) -> Result<Analyzed, Error> {
+pub fn analyze(recordings: &Recordings, watch: &dyn ProgressCallback) -> Result<Analyzed, Error> {
     let (read, unusable) =
-        recordings.read(|path| watch.say(&format!("reading {}", path.display())))?;
-    watch.say("analyzing");
+        recordings.read(|path| watch.report_step(&format!("reading {}", path.display())))?;
+    watch.report_step("analyzing");
     let analyses = read.into_iter().map(|read| {
         let analysis = palpate_characterize::analyze(&read.clean);
         (read, analysis)

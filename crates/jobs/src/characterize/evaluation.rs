@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::DMatrix;
-use palpate_characterize::inverse::{ElasticForce, SoughtLaw, standard_errors};
+use palpate_characterize::inverse::{CandidateLaw, ElasticForce, standard_errors};
 use palpate_characterize::lumped::{PieceLoading, PieceTest, piece_stress};
 use palpate_mechanics::{IndentationCurve, PronySeries};
 use serde::Deserialize;
@@ -90,13 +90,14 @@ impl FoundLaw {
 
     fn stresses(&self, stretches: &[f64]) -> Result<Vec<[f64; 2]>, Error> {
         let law = Choice::law_named(&self.law, None)?;
-        let law = SoughtLaw::with_parameters(law.name(), self.values.len()).ok_or_else(|| {
-            Error::input(format!(
-                "the law `{}` has {} parameters; give those that were found",
-                self.law,
-                self.values.len()
-            ))
-        })?;
+        let law =
+            CandidateLaw::with_parameters(law.name(), self.values.len()).ok_or_else(|| {
+                Error::input(format!(
+                    "the law `{}` has {} parameters; give those that were found",
+                    self.law,
+                    self.values.len()
+                ))
+            })?;
         let loading = PieceLoading {
             test: self.test.unwrap_or_default(),
             fibre_axis_angle_deg: self.fibre_axis_angle_deg,

@@ -5,7 +5,7 @@ use palpate_files::Tissue;
 use serde::{Deserialize, Serialize};
 
 use super::answer::{Specimen, former};
-use super::portrait::{DrawnFit, Portrait, all_samples};
+use super::fit_plots::{DrawnFit, FitPlots, all_samples};
 use crate::{Error, VERSION};
 
 /// One specimen with its recordings and all results.
@@ -28,7 +28,7 @@ pub(crate) struct Finished {
     #[serde(default)]
     pub(crate) has_failed: bool,
     /// Plot data for a report.
-    pub(crate) portrait: Portrait,
+    pub(crate) portrait: FitPlots,
     /// The fit of each recording, with its file, at every sample: not stored in a study's folder, which would grow a
     /// hundredfold.
     #[serde(skip)]
@@ -40,7 +40,7 @@ impl Finished {
         let tissue = studied.tissue();
         Self {
             specimen: Specimen::new(studied),
-            portrait: Portrait::of(studied),
+            portrait: FitPlots::of(studied),
             samples: all_samples(studied),
             has_failed: tissue.as_ref().is_err_and(|why| !why.is_input()),
             tissue: tissue

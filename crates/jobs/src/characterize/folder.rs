@@ -8,13 +8,13 @@
 use std::path::{Path, PathBuf};
 
 use palpate_characterize::CharacterizeSettings;
-use palpate_files::{Claim, MOST_OF_TABLE, Overwrite, read_bytes, read_text, write_whole};
+use palpate_files::{Claim, MAX_TABLE_BYTES, Overwrite, read_bytes, read_text, write_atomically};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use super::answer::Specimen;
 use super::finished::Finished;
-use crate::{Error, ReadRecording, VERSION, Watch, hexadecimal, json_text};
+use crate::{Error, ProgressCallback, ReadRecording, VERSION, hexadecimal, json_text};
 
 /// The folder of a study, locked by this program.
 #[derive(Debug)]
@@ -80,7 +80,7 @@ impl StudyFolder {
                 return Err(palpate_files::Error::Exists { path }.into());
             }
         }
-        write_whole(&mark, b"")?;
+        write_atomically(&mark, b"")?;
         Ok(finished)
     }
 
@@ -108,14 +108,14 @@ impl StudyFolder {
 
     /// Writes a table of the whole study.
     pub(crate) fn write(&self, name: &str, text: &str) -> Result<(), Error> {
-        Ok(write_whole(self.path.join(name), text.as_bytes())?)
+        Ok(write_atomically(self.path.join(name), text.as_bytes())?)
     }
 }
 
 impl SpecimenFile {
     /// The stored results for the same recordings and settings.
     fn read(&self) -> Option<Finished> {
-        let text = read_text(&self.json, MOST_OF_TABLE).ok()?;
+        let text = read_text(&self.json, MAX_TABLE_BYTES).ok()?;
         let document: Document<Finished> = serde_json::from_str(&text).ok()?;
         let fits = document.digest == self.digest && document.palpate == VERSION;
         fits.then_some(document.finished)
@@ -125,23 +125,27 @@ impl SpecimenFile {
         self.json.with_extension("toml")
     }
 
-    pub(crate) fn write(&self, finished: &Finished, watch: &dyn Watch) -> Result<(), Error> {
+    pub(crate) fn write(
+        &self,
+        finished: &Finished,
+        watch: &dyn ProgressCallback,
+    ) -> Result<(), Error> {
         let text = json_text(&Document {
             palpate: VERSION.to_owned(),
             digest: self.digest.clone(),
             finished,
         })?;
         let mut written = Ok(());
-        watch.unbroken(&mut || written = self.write_both(finished, &text));
+        watch.without_cancellation(&mut || written = self.write_both(finished, &text));
         written
     }
 
     fn write_both(&self, finished: &Finished, text: &str) -> Result<(), Error> {
         if let Ok(tissue) = &finished.tissue {
-            write_whole(self.tissue(), tissue.as_bytes())?;
+            write_atomically(self.tissue(), tissue.as_bytes())?;
         }
         // Last, because its existence marks the specimen as complete.
-        Ok(write_whole(&self.json, text.as_bytes())?)
+        Ok(write_atomically(&self.json, text.as_bytes())?)
     }
 }
 
@@ -169,7 +173,7 @@ fn digest(group: &[ReadRecording], settings: &CharacterizeSettings) -> String {
         if let Some(mesh) = read.mesh() {
             // A mesh that cannot be read is an error later, where it is used.
             hash.update(Sha256::digest(
-                read_bytes(&mesh, MOST_OF_TABLE).unwrap_or_default(),
+                read_bytes(&mesh, MAX_TABLE_BYTES).unwrap_or_default(),
             ));
         }
         for samples in [&clean.time, &clean.depth, &clean.force] {

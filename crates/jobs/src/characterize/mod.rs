@@ -3,9 +3,9 @@
 mod answer;
 mod evaluation;
 mod finished;
+mod fit_plots;
 mod folder;
 mod pooled;
-mod portrait;
 mod study;
 mod summary;
 
@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 use palpate_characterize::CharacterizeSettings;
 use palpate_characterize::fit::Draws;
-use palpate_characterize::inverse::{LEAST_DRAWS, SoughtLaw, Terms};
+use palpate_characterize::inverse::{CandidateLaw, MIN_DRAWS, Terms};
 use palpate_characterize::viscoelastic::RelaxationSettings;
 use palpate_files::tissue::LawName;
 
@@ -22,22 +22,22 @@ pub use answer::{
     Named, Noise, Partner, RelaxationAnswer, Specimen, Steps, Tried,
 };
 pub use evaluation::FoundLaw;
+pub use fit_plots::{
+    DrawnCurve, DrawnFit, DrawnLaw, DrawnRecording, DrawnRelaxation, DrawnSeries, FitPlots, LEVEL,
+};
 pub use folder::StudyFolder;
 pub use pooled::Pooled;
-pub use portrait::{
-    DrawnCurve, DrawnFit, DrawnLaw, DrawnRecording, DrawnRelaxation, DrawnSeries, LEVEL, Portrait,
-};
 
-use crate::{Error, Recordings, Unusable, Watch, nearest};
+use crate::{Error, ProgressCallback, Recordings, Unusable, nearest};
 
 /// Options of a characterization, named as in the command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Choice {
-    /// The only law to fit; none: those of [`SoughtLaw::USUAL`].
-    pub law: Option<SoughtLaw>,
+    /// The only law to fit; none: those of [`CandidateLaw::DEFAULT`].
+    pub law: Option<CandidateLaw>,
     /// Terms of the relaxation; none: as many as the recordings can resolve.
     pub terms: Option<usize>,
-    /// Bootstrap samples for the uncertainty of parameters: 0 for none, otherwise [`LEAST_DRAWS`] or more.
+    /// Bootstrap samples for the uncertainty of parameters: 0 for none, otherwise [`MIN_DRAWS`] or more.
     pub draws: usize,
     /// The seed of the bootstrap.
     pub seed: u64,
@@ -66,10 +66,10 @@ impl Choice {
     ///
     /// # Errors
     /// When there is no such law, or not of this order.
-    pub fn law_named(name: &str, order: Option<usize>) -> Result<SoughtLaw, Error> {
-        let law = LawName::from_word(name).and_then(SoughtLaw::of_name);
+    pub fn law_named(name: &str, order: Option<usize>) -> Result<CandidateLaw, Error> {
+        let law = LawName::from_word(name).and_then(CandidateLaw::of_name);
         let law = law.ok_or_else(|| {
-            let names = SoughtLaw::NAMES.map(LawName::word);
+            let names = CandidateLaw::NAMES.map(LawName::word);
             let meant = nearest(name, &names);
             Error::input(format!(
                 "there is no law `{name}` to seek; name one of {}, such as {meant}",
@@ -91,9 +91,9 @@ impl Choice {
 
     /// Refuses fewer draws than a spread needs.
     fn check(self) -> Result<(), Error> {
-        if (1..LEAST_DRAWS).contains(&self.draws) {
+        if (1..MIN_DRAWS).contains(&self.draws) {
             return Err(Error::input(format!(
-                "{} draws are too few for a spread; ask for {LEAST_DRAWS} or more, or for 0 to repeat no fit",
+                "{} draws are too few for a spread; ask for {MIN_DRAWS} or more, or for 0 to repeat no fit",
                 self.draws
             )));
         }
@@ -136,7 +136,7 @@ pub struct Characterized {
     /// The answer that `--json` prints.
     pub answer: Answer,
     /// Plot data of each specimen.
-    pub portraits: Vec<Portrait>,
+    pub portraits: Vec<FitPlots>,
     /// The fit of each recording of each specimen, with its file: at every sample, or for a study at the samples
     /// stored in its folder.
     pub samples: Vec<Vec<(String, DrawnFit)>>,
@@ -176,11 +176,11 @@ pub fn characterize(
     recordings: &Recordings,
     choice: Choice,
     folder: Option<&StudyFolder>,
-    watch: &dyn Watch,
+    watch: &dyn ProgressCallback,
 ) -> Result<Characterized, Error> {
     choice.check()?;
     let (read, unusable) =
-        recordings.read(|path| watch.say(&format!("reading {}", path.display())))?;
+        recordings.read(|path| watch.report_step(&format!("reading {}", path.display())))?;
     let headers: Vec<_> = read.iter().map(|read| &read.clean.header).collect();
     choice.check_loop(palpate_characterize::specimens(&headers).len())?;
     let finished = study::of(read, &choice.settings(), folder, watch)?;

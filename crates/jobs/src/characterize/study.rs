@@ -11,7 +11,7 @@ use palpate_simulate::read_organ;
 use super::answer::Specimen;
 use super::finished::{Finished, Studied};
 use super::folder::StudyFolder;
-use crate::{Error, ReadRecording, Watch};
+use crate::{Error, ProgressCallback, ReadRecording};
 
 /// Characterizes every specimen of `recordings`, on all cores, and returns them in their order. Reads stored results
 /// from `folder` and writes each new result there at once.
@@ -19,7 +19,7 @@ pub(crate) fn of(
     recordings: Vec<ReadRecording>,
     settings: &CharacterizeSettings,
     folder: Option<&StudyFolder>,
-    watch: &dyn Watch,
+    watch: &dyn ProgressCallback,
 ) -> Result<Vec<Finished>, Error> {
     let groups = grouped(recordings);
     let files = |folder: &StudyFolder| -> Vec<_> {
@@ -31,11 +31,11 @@ pub(crate) fn of(
     let files = folder.map(files).unwrap_or_default();
     let finished = folder.map_or(Ok(Vec::new()), |folder| folder.begin(&files))?;
     let finished: Vec<_> = finished.into_iter().map(Mutex::new).collect();
-    watch.at(0.0);
+    watch.report_fraction(0.0);
     let done = AtomicUsize::new(0);
     let work = |place: usize, group: &Vec<ReadRecording>| {
         let name = Specimen::title(&group[0].clean.header, &group[0].path);
-        let say = |doing: &str| watch.say(&format!("{name}: {doing}"));
+        let say = |doing: &str| watch.report_step(&format!("{name}: {doing}"));
         let before = finished.get(place).and_then(|own| own.lock().ok()?.take());
         let finished = match before {
             Some(finished) => Ok(finished),
@@ -51,7 +51,7 @@ pub(crate) fn of(
             }
         };
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-        watch.at(done as f64 / groups.len() as f64);
+        watch.report_fraction(done as f64 / groups.len() as f64);
         finished
     };
     collect_on_all_cores(&groups, work).into_iter().collect()

@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use palpate_characterize::inverse::SoughtLaw;
+use palpate_characterize::inverse::CandidateLaw;
 use palpate_files::text_cell;
 use palpate_files::tissue::LawName;
 
@@ -21,10 +21,12 @@ const CONTACT: [(&str, &str); 2] = [
 fn laws(answer: &Answer) -> Vec<LawName> {
     let has_column = |law: &LawName| {
         let mut found = answer.specimens.iter();
-        SoughtLaw::USUAL.iter().any(|usual| usual.name() == *law)
+        CandidateLaw::DEFAULT
+            .iter()
+            .any(|usual| usual.name() == *law)
             || found.any(|own| own.laws.contains_key(law.word()))
     };
-    SoughtLaw::NAMES.into_iter().filter(has_column).collect()
+    CandidateLaw::NAMES.into_iter().filter(has_column).collect()
 }
 
 /// Writes `summary.csv`, a row for each specimen and for each file that could not be used, and `pooled.csv`.

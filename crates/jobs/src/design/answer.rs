@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use palpate_characterize::design::{Criterion, Designed, ExpectedParameter, Presses};
+use palpate_characterize::design::{Criterion, ExpectedParameter, OptimizedProtocol, Presses};
 use palpate_files::quantity::{quantity, without_unit};
 use serde::Serialize;
 
@@ -71,7 +71,7 @@ impl Answer {
     pub(super) fn new(
         presses: &Presses,
         before: &[ExpectedParameter],
-        found: &Designed,
+        found: &OptimizedProtocol,
         criterion: Criterion,
         wanted: &[String],
     ) -> Self {

@@ -1,19 +1,19 @@
 use palpate_characterize::CleanRecording;
 use palpate_characterize::clean::SegmentKind;
-use palpate_characterize::design::{Expecting, Instrument, Presses};
-use palpate_characterize::inverse::{SoughtLaw, ZeroErrors};
+use palpate_characterize::design::{ExpectedCurve, Instrument, Presses};
+use palpate_characterize::inverse::{CandidateLaw, ZeroErrors};
 use palpate_files::Tissue;
 use palpate_files::recording::IndenterShape;
 
 use super::{BARE, DEEPEST, Start, guess};
 use crate::characterize::{Choice, Specimen, characterize};
-use crate::{Error, Recordings, Watch};
+use crate::{Error, ProgressCallback, Recordings};
 
 /// The tissue of first recordings, with their noise, from a fit of them.
 pub(super) fn of_recordings(
     recordings: &Recordings,
-    law: Option<SoughtLaw>,
-    watch: &dyn Watch,
+    law: Option<CandidateLaw>,
+    watch: &dyn ProgressCallback,
 ) -> Result<Start, Error> {
     let choice = Choice {
         law,
@@ -33,7 +33,7 @@ pub(super) fn of_recordings(
     let cleaned: Vec<&CleanRecording> = read.iter().map(|own| &own.clean).collect();
     let before = presses(&cleaned)?;
     let guess = guess(&tissue)?;
-    let own = Expecting::new(guess.clone(), DEEPEST.max(before.deepest() / before.radius))?;
+    let own = ExpectedCurve::new(guess.clone(), DEEPEST.max(before.deepest() / before.radius))?;
     let instrument = noise_as_found(&own, specimen, &before, instrument(&cleaned))?;
     Ok(Start {
         factors: factors(specimen),
@@ -124,7 +124,7 @@ fn instrument(recordings: &[&CleanRecording]) -> Instrument {
 /// Intervals of `specimen` and those expected for the same presses: one factor scales noise and zeros until the two
 /// agree in the geometric mean, because correlated noise matters more than that between two samples.
 fn noise_as_found(
-    own: &Expecting,
+    own: &ExpectedCurve,
     specimen: &Specimen,
     presses: &Presses,
     instrument: Instrument,

@@ -2,22 +2,22 @@
 //! the tissue or a first recording of it.
 
 mod answer;
-mod asked;
 mod first;
+mod request_document;
 
 use std::path::PathBuf;
 
 use palpate_characterize::design::{
-    Criterion, Expecting, Guess, Instrument, Limits, Presses, design as best,
+    Criterion, ExpectedCurve, Guess, Instrument, Limits, Presses, design as best,
 };
-use palpate_characterize::inverse::{SoughtLaw, ZeroErrors};
+use palpate_characterize::inverse::{CandidateLaw, ZeroErrors};
 use palpate_files::tissue::LawName;
 use palpate_files::{Estimate, PronyTerm, Tissue};
 use palpate_mechanics::PronySeries;
 
 pub use answer::{Answer, ParameterEstimate, PressesAnswer};
 
-use crate::{Error, Recordings, VERSION, Watch};
+use crate::{Error, ProgressCallback, Recordings, VERSION};
 
 /// A request for a design.
 #[derive(Debug, Clone)]
@@ -38,7 +38,7 @@ pub enum Known {
     /// A guess: a tissue's file.
     Tissue(PathBuf),
     /// First recordings of one specimen, and the law to fit to them.
-    Recordings(Recordings, Option<SoughtLaw>),
+    Recordings(Recordings, Option<CandidateLaw>),
 }
 
 /// Limits of a protocol; one that is not given comes from the recordings, or from the default protocol.
@@ -97,14 +97,14 @@ const DEEPEST: f64 = 6.0;
 ///
 /// # Errors
 /// When the guess or a limit cannot be used, or no protocol satisfies the limits.
-pub fn design(request: &Request, watch: &dyn Watch) -> Result<Designed, Error> {
+pub fn design(request: &Request, watch: &dyn ProgressCallback) -> Result<Designed, Error> {
     let start = match &request.known {
         Known::Tissue(path) => of_tissue(Tissue::read(path)?)?,
         Known::Recordings(recordings, law) => first::of_recordings(recordings, *law, watch)?,
     };
     let limits = limits(&request.within, &start)?;
-    watch.say("comparing protocols");
-    let first = Expecting::new(start.guess.clone(), DEEPEST)?;
+    watch.report_step("comparing protocols");
+    let first = ExpectedCurve::new(start.guess.clone(), DEEPEST)?;
     let guesses = guesses(&first, start.factors)?;
     let wanted = match request.parameters.as_slice() {
         [] => usual(&start.guess),
@@ -116,7 +116,7 @@ pub fn design(request: &Request, watch: &dyn Watch) -> Result<Designed, Error> {
         &limits,
         &wanted,
         request.criterion,
-        &mut |part| watch.at(part),
+        &mut |part| watch.report_fraction(part),
     )?;
     let (before, ..) = first.expected(&start.before, &start.instrument)?;
     let answer = Answer::new(&start.before, &before, &found, request.criterion, &wanted);
@@ -133,7 +133,7 @@ fn usual(guess: &Guess) -> Vec<String> {
     own.map(str::to_owned).chain(times).collect()
 }
 
-fn guesses(first: &Expecting, [modulus, time]: [f64; 2]) -> Result<Vec<Expecting>, Error> {
+fn guesses(first: &ExpectedCurve, [modulus, time]: [f64; 2]) -> Result<Vec<ExpectedCurve>, Error> {
     let mut all = vec![first.clone()];
     for (stiffer, slower) in [
         (modulus, 1.0),
@@ -177,9 +177,11 @@ fn guess(tissue: &Tissue) -> Result<Guess, Error> {
     let elasticity = &tissue.elasticity;
     let name = elasticity.law();
     let values = elasticity.values();
-    let law = SoughtLaw::with_parameters(name, values.len());
+    let law = CandidateLaw::with_parameters(name, values.len());
     let law = law.filter(|law| !law.name().has_fibres()).ok_or_else(|| {
-        let names = SoughtLaw::NAMES.into_iter().filter(|own| !own.has_fibres());
+        let names = CandidateLaw::NAMES
+            .into_iter()
+            .filter(|own| !own.has_fibres());
         Error::input(format!(
             "the law `{}` is not one that indentations are fitted with; guess one of {}",
             name.word(),

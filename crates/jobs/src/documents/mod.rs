@@ -5,7 +5,7 @@ mod reference;
 mod schema;
 mod template;
 
-use palpate_files::{Holds, Key, Omitted, Protocol, Scene, Tissue};
+use palpate_files::{Key, Omitted, Protocol, Scene, Tissue, ValueType};
 
 use crate::solve::Problem;
 
@@ -64,32 +64,32 @@ pub fn kind(word: &str) -> Option<Kind> {
 fn holds(key: &Key) -> String {
     let list =
         |domain: palpate_files::Domain, what: &str| format!("{what}, each {}", domain.expected());
-    match key.holds {
-        Holds::Number(domain) => domain.expected(),
-        Holds::Estimate(domain) => format!(
+    match key.value_type {
+        ValueType::Number(domain) => domain.expected(),
+        ValueType::Estimate(domain) => format!(
             "{}, or a table `{{ value, standard_error }}`",
             domain.expected()
         ),
-        Holds::NumberOrDraw(domain) => format!("{}, or the name of a draw", domain.expected()),
-        Holds::Vector(domain) => list(domain, "three numbers [x, y, z]"),
-        Holds::Numbers(domain) => list(domain, "a list of numbers"),
-        Holds::Vectors(domain) => list(domain, "a list of points [x, y, z]"),
-        Holds::Direction => "a direction: three numbers, not all 0".to_owned(),
-        Holds::Integer(0, u64::MAX) => "a whole number".to_owned(),
-        Holds::Integer(least, most) => format!("a whole number from {least} to {most}"),
-        Holds::Truth => "`true` or `false`".to_owned(),
-        Holds::Text => "a text".to_owned(),
-        Holds::Label => "a text or a whole number".to_owned(),
-        Holds::Texts => "a list of texts".to_owned(),
-        Holds::Path => "a path, from the document's folder".to_owned(),
-        Holds::Word(_) => "one of the words".to_owned(),
-        Holds::WordOrTable(..) => "one of the words, or a table".to_owned(),
-        Holds::Table(_) => "a table".to_owned(),
-        Holds::TableOrTables(_) => "a table, or a list of tables".to_owned(),
-        Holds::PathOrTable(_) => "a path, from the document's folder, or a table".to_owned(),
-        Holds::Tables(_) => "a list of tables".to_owned(),
-        Holds::Named(_) => "tables under names of your choice".to_owned(),
-        Holds::Other(what) => what.to_owned(),
+        ValueType::NumberOrDraw(domain) => format!("{}, or the name of a draw", domain.expected()),
+        ValueType::Vector(domain) => list(domain, "three numbers [x, y, z]"),
+        ValueType::Numbers(domain) => list(domain, "a list of numbers"),
+        ValueType::Vectors(domain) => list(domain, "a list of points [x, y, z]"),
+        ValueType::Direction => "a direction: three numbers, not all 0".to_owned(),
+        ValueType::Integer(0, u64::MAX) => "a whole number".to_owned(),
+        ValueType::Integer(least, most) => format!("a whole number from {least} to {most}"),
+        ValueType::Boolean => "`true` or `false`".to_owned(),
+        ValueType::Text => "a text".to_owned(),
+        ValueType::Label => "a text or a whole number".to_owned(),
+        ValueType::Texts => "a list of texts".to_owned(),
+        ValueType::Path => "a path, from the document's folder".to_owned(),
+        ValueType::Word(_) => "one of the words".to_owned(),
+        ValueType::WordOrTable(..) => "one of the words, or a table".to_owned(),
+        ValueType::Table(_) => "a table".to_owned(),
+        ValueType::TableOrTables(_) => "a table, or a list of tables".to_owned(),
+        ValueType::PathOrTable(_) => "a path, from the document's folder, or a table".to_owned(),
+        ValueType::Tables(_) => "a list of tables".to_owned(),
+        ValueType::Named(_) => "tables under names of your choice".to_owned(),
+        ValueType::Other(what) => what.to_owned(),
     }
 }
 
@@ -111,7 +111,10 @@ fn meaning(key: &Key) -> String {
 /// Whether the value of a key is written under a header of its own.
 fn is_table(key: &Key) -> bool {
     matches!(
-        key.holds,
-        Holds::Table(_) | Holds::TableOrTables(_) | Holds::Tables(_) | Holds::Named(_)
+        key.value_type,
+        ValueType::Table(_)
+            | ValueType::TableOrTables(_)
+            | ValueType::Tables(_)
+            | ValueType::Named(_)
     )
 }

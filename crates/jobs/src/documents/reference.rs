@@ -1,5 +1,5 @@
 use palpate_files::recording::RecordingHeader;
-use palpate_files::{Holds, Key};
+use palpate_files::{Key, ValueType};
 
 use super::{holds, kinds, meaning, omitted};
 
@@ -57,8 +57,8 @@ fn table(
         );
     }
     for key in keys.iter().filter(|key| !key.keys().is_empty()) {
-        let inner = match key.holds {
-            Holds::Named(_) => format!("{}.NAME", key.name),
+        let inner = match key.value_type {
+            ValueType::Named(_) => format!("{}.NAME", key.name),
             _ => key.name.to_owned(),
         };
         let inner = match name {
@@ -70,11 +70,12 @@ fn table(
 }
 
 fn words_or(key: &Key) -> String {
-    match key.holds {
-        Holds::Word(words) | Holds::WordOrTable(words, _) => {
+    match key.value_type {
+        ValueType::Word(words) | ValueType::WordOrTable(words, _) => {
             let each = words.iter();
             let each = each.map(|(word, means)| format!("`{word:?}`: {}", means.trim()));
-            let table = matches!(key.holds, Holds::WordOrTable(..)).then(|| "a table".to_owned());
+            let table =
+                matches!(key.value_type, ValueType::WordOrTable(..)).then(|| "a table".to_owned());
             cell(&each.chain(table).collect::<Vec<_>>().join("<br>"))
         }
         _ => cell(&holds(key)),

@@ -1,7 +1,7 @@
 use std::ops::Bound::{Excluded, Included, Unbounded};
 
 use palpate_files::units::{self, Unit};
-use palpate_files::{Domain, Holds, Key, Omitted, Word};
+use palpate_files::{Domain, Key, Omitted, ValueType, Word};
 use serde_json::{Map, Value, json};
 
 use super::{Kind, is_table, meaning, omitted};
@@ -111,9 +111,9 @@ impl Writer {
         let vector =
             |item: Value| json!({ "type": "array", "items": item, "minItems": 3, "maxItems": 3 });
         let text = || json!({ "type": "string", "minLength": 1 });
-        let mut schema = match key.holds {
-            Holds::Number(domain) => number(domain, factor),
-            Holds::Estimate(domain) => json!({ "anyOf": [number(domain, factor), {
+        let mut schema = match key.value_type {
+            ValueType::Number(domain) => number(domain, factor),
+            ValueType::Estimate(domain) => json!({ "anyOf": [number(domain, factor), {
             "type": "object",
             "properties": {
                 "value": number(domain, factor),
@@ -122,35 +122,35 @@ impl Writer {
             "required": ["value"],
             "additionalProperties": false,
         }] }),
-            Holds::NumberOrDraw(domain) => json!({ "anyOf": [number(domain, factor), text()] }),
-            Holds::Vector(domain) => vector(number(domain, factor)),
-            Holds::Numbers(domain) => list(number(domain, factor)),
-            Holds::Vectors(domain) => list(vector(number(domain, factor))),
-            Holds::Direction => vector(json!({ "type": "number" })),
-            Holds::Integer(least, u64::MAX) => json!({ "type": "integer", "minimum": least }),
-            Holds::Integer(least, most) => {
+            ValueType::NumberOrDraw(domain) => json!({ "anyOf": [number(domain, factor), text()] }),
+            ValueType::Vector(domain) => vector(number(domain, factor)),
+            ValueType::Numbers(domain) => list(number(domain, factor)),
+            ValueType::Vectors(domain) => list(vector(number(domain, factor))),
+            ValueType::Direction => vector(json!({ "type": "number" })),
+            ValueType::Integer(least, u64::MAX) => json!({ "type": "integer", "minimum": least }),
+            ValueType::Integer(least, most) => {
                 json!({ "type": "integer", "minimum": least, "maximum": most })
             }
-            Holds::Truth => json!({ "type": "boolean" }),
-            Holds::Text | Holds::Path => text(),
-            Holds::Label => json!({ "type": ["string", "integer"] }),
-            Holds::Texts => list(json!({ "type": "string" })),
-            Holds::Word(words) => one_of(words),
-            Holds::WordOrTable(words, keys) => {
+            ValueType::Boolean => json!({ "type": "boolean" }),
+            ValueType::Text | ValueType::Path => text(),
+            ValueType::Label => json!({ "type": ["string", "integer"] }),
+            ValueType::Texts => list(json!({ "type": "string" })),
+            ValueType::Word(words) => one_of(words),
+            ValueType::WordOrTable(words, keys) => {
                 json!({ "anyOf": [one_of(words), self.reference(keys)] })
             }
-            Holds::Table(keys) => self.reference(keys),
-            Holds::TableOrTables(keys) => {
+            ValueType::Table(keys) => self.reference(keys),
+            ValueType::TableOrTables(keys) => {
                 let table = self.reference(keys);
                 json!({ "anyOf": [table, { "type": "array", "items": table, "minItems": 1 }] })
             }
-            Holds::PathOrTable(keys) => json!({ "anyOf": [text(), self.reference(keys)] }),
-            Holds::Tables(keys) => list(self.reference(keys)),
-            Holds::Named([]) => json!({ "type": "object" }),
-            Holds::Named(keys) => {
+            ValueType::PathOrTable(keys) => json!({ "anyOf": [text(), self.reference(keys)] }),
+            ValueType::Tables(keys) => list(self.reference(keys)),
+            ValueType::Named([]) => json!({ "type": "object" }),
+            ValueType::Named(keys) => {
                 json!({ "type": "object", "additionalProperties": self.reference(keys) })
             }
-            Holds::Other(_) => json!({}),
+            ValueType::Other(_) => json!({}),
         };
         // A value that is drawn anew for each attempt.
         if self.can_draw && !is_table(key) {
@@ -177,13 +177,13 @@ fn one_of(words: &[Word]) -> Value {
 /// The names of a key, one for each unit, and what one of that unit is in the key's own [unit of the key].
 fn names_of(key: &Key) -> Vec<(String, f64)> {
     let has_unit = matches!(
-        key.holds,
-        Holds::Number(_)
-            | Holds::Estimate(_)
-            | Holds::Vector(_)
-            | Holds::Vectors(_)
-            | Holds::Numbers(_)
-            | Holds::NumberOrDraw(_)
+        key.value_type,
+        ValueType::Number(_)
+            | ValueType::Estimate(_)
+            | ValueType::Vector(_)
+            | ValueType::Vectors(_)
+            | ValueType::Numbers(_)
+            | ValueType::NumberOrDraw(_)
     );
     match units::split(key.name).filter(|_| has_unit) {
         None => vec![(key.name.to_owned(), 1.0)],

@@ -1,4 +1,4 @@
-use palpate_files::{Holds, Key, Omitted};
+use palpate_files::{Key, Omitted, ValueType};
 
 use super::{Kind, holds, is_table, meaning, omitted};
 
@@ -64,7 +64,7 @@ impl Writer {
         self.text += "\n";
         self.prose(&meaning(key));
         self.prose(&format!("{}; {}.", first_upper(&holds(key)), omitted(key)));
-        if let Holds::Word(words) | Holds::WordOrTable(words, _) = key.holds {
+        if let ValueType::Word(words) | ValueType::WordOrTable(words, _) = key.value_type {
             for (word, means) in words {
                 self.prose(&format!("- {word:?}: {}", means.trim()));
             }
@@ -80,13 +80,13 @@ impl Writer {
             "" => key.name.to_owned(),
             name => format!("{name}.{}", key.name),
         };
-        let (header, name) = match key.holds {
-            Holds::Tables(_) => (format!("[[{name}]]"), name),
-            Holds::Named(_) => (format!("[{name}.place]"), format!("{name}.place")),
+        let (header, name) = match key.value_type {
+            ValueType::Tables(_) => (format!("[[{name}]]"), name),
+            ValueType::Named(_) => (format!("[{name}.place]"), format!("{name}.place")),
             _ => (format!("[{name}]"), name),
         };
         let is_default = |key: &Key| key.omitted == Omitted::Example;
-        let changes_nothing = matches!(key.holds, Holds::Table(_))
+        let changes_nothing = matches!(key.value_type, ValueType::Table(_))
             && key.keys().iter().any(is_default)
             && key.keys().iter().all(|key| !key.in_template);
         let is_there = is_there && (key.in_template || self.with_defaults && changes_nothing);
@@ -153,23 +153,23 @@ mod tests {
                 let value = &value["x"];
                 let number =
                     |value: &toml::Value| value.as_float().or(value.as_integer().map(|n| n as f64));
-                let is_right = match key.holds {
-                    Holds::Number(domain)
-                    | Holds::Estimate(domain)
-                    | Holds::NumberOrDraw(domain) => {
+                let is_right = match key.value_type {
+                    ValueType::Number(domain)
+                    | ValueType::Estimate(domain)
+                    | ValueType::NumberOrDraw(domain) => {
                         number(value).is_some_and(|value| domain.contains(value))
                     }
-                    Holds::Vector(domain) => value.as_array().is_some_and(|all| {
+                    ValueType::Vector(domain) => value.as_array().is_some_and(|all| {
                         all.len() == 3
                             && all
                                 .iter()
                                 .all(|one| number(one).is_some_and(|one| domain.contains(one)))
                     }),
-                    Holds::Numbers(domain) => value.as_array().is_some_and(|all| {
+                    ValueType::Numbers(domain) => value.as_array().is_some_and(|all| {
                         all.iter()
                             .all(|one| number(one).is_some_and(|one| domain.contains(one)))
                     }),
-                    Holds::Vectors(domain) => value.as_array().is_some_and(|all| {
+                    ValueType::Vectors(domain) => value.as_array().is_some_and(|all| {
                         let each = all.iter().filter_map(|one| one.as_array());
                         let good = each.filter(|one| {
                             let numbers = one.iter().filter_map(number);
@@ -178,23 +178,26 @@ mod tests {
                         });
                         good.count() == all.len()
                     }),
-                    Holds::Direction => value.as_array().is_some_and(|all| all.len() == 3),
-                    Holds::Integer(least, most) => value
+                    ValueType::Direction => value.as_array().is_some_and(|all| all.len() == 3),
+                    ValueType::Integer(least, most) => value
                         .as_integer()
                         .and_then(|value| u64::try_from(value).ok())
                         .is_some_and(|value| (least..=most).contains(&value)),
-                    Holds::Truth => value.as_bool().is_some(),
-                    Holds::Word(words) | Holds::WordOrTable(words, _) => {
+                    ValueType::Boolean => value.as_bool().is_some(),
+                    ValueType::Word(words) | ValueType::WordOrTable(words, _) => {
                         words.iter().any(|(word, _)| value.as_str() == Some(word))
                     }
-                    Holds::Text | Holds::Label | Holds::Path | Holds::PathOrTable(_) => {
+                    ValueType::Text
+                    | ValueType::Label
+                    | ValueType::Path
+                    | ValueType::PathOrTable(_) => {
                         value.as_str().is_some_and(|text| !text.is_empty())
                     }
-                    Holds::Texts | Holds::Other(_) => value.as_array().is_some(),
-                    Holds::Table(_)
-                    | Holds::TableOrTables(_)
-                    | Holds::Tables(_)
-                    | Holds::Named(_) => false,
+                    ValueType::Texts | ValueType::Other(_) => value.as_array().is_some(),
+                    ValueType::Table(_)
+                    | ValueType::TableOrTables(_)
+                    | ValueType::Tables(_)
+                    | ValueType::Named(_) => false,
                 };
                 assert!(is_right, "{} = {}", key.name, key.example);
             }

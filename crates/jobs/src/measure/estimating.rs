@@ -5,7 +5,7 @@ use palpate_files::protocol::Stimulus;
 use palpate_files::recording::RecordingHeader;
 use palpate_measure::{DepthTrajectory, RigSample};
 
-use crate::Watch;
+use crate::ProgressCallback;
 
 /// Time between two estimates [s], and part of the time since first contact [-]: later ones change less.
 const FIRST: f64 = 0.25;
@@ -34,7 +34,7 @@ impl Estimating {
         }
         let settings = OnlineSettings {
             header: header.clone(),
-            contact: OnlineContact::Sought,
+            contact: OnlineContact::Detected,
             deepest_m: Some(trajectory.deepest_expected()),
         };
         if !settings.is_tabulated() {
@@ -50,7 +50,7 @@ impl Estimating {
     }
 
     /// Adds a sample and returns whether the estimate meets the target.
-    pub(super) fn take(&mut self, sample: &RigSample, watch: &dyn Watch) -> bool {
+    pub(super) fn take(&mut self, sample: &RigSample, watch: &dyn ProgressCallback) -> bool {
         let Some(depth_m) = sample.depth else {
             return false;
         };
@@ -64,7 +64,7 @@ impl Estimating {
         }
         let estimate = self.online.estimate();
         self.next = Some(sample.time + FIRST.max(LATER * estimate.time_s));
-        watch.say(&estimate.to_string());
+        watch.report_step(&estimate.to_string());
         self.last = Some(estimate);
         self.is_enough()
     }

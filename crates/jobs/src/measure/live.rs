@@ -6,11 +6,11 @@ use std::sync::mpsc::RecvTimeoutError;
 use std::time::Duration;
 
 use palpate_files::recording::RecordingHeader;
-use palpate_measure::live::{Commission, ConsoleEvent, LiveRig, RigCommand};
+use palpate_measure::live::{ConsoleEvent, LiveRig, RecordingRequest, RigCommand};
 use palpate_measure::{DepthTrajectory, Ended, Phase, Recorded, Rig};
 
 use super::estimating::Estimating;
-use crate::{Error, Watch};
+use crate::{Error, ProgressCallback};
 
 /// Polling interval for a request to stop.
 const LOOK: Duration = Duration::from_millis(1);
@@ -48,7 +48,7 @@ impl LiveMeasuring {
     pub(super) fn carry_out(
         &mut self,
         order: RigCommand,
-        watch: &dyn Watch,
+        watch: &dyn ProgressCallback,
     ) -> Result<Ended, Error> {
         self.live.console.send(order);
         self.wait_for(order, &mut None, watch)
@@ -62,7 +62,7 @@ impl LiveMeasuring {
         header: RecordingHeader,
         file: &Path,
         online: &mut Option<Estimating>,
-        watch: &dyn Watch,
+        watch: &dyn ProgressCallback,
     ) -> Result<Option<Recorded>, Error> {
         self.number += 1;
         // The tissue recovers from the previous stimulus, then from the search for contact.
@@ -71,7 +71,7 @@ impl LiveMeasuring {
                 return Ok(None);
             }
         }
-        let commission = Commission {
+        let commission = RecordingRequest {
             number: self.number,
             file: file.to_owned(),
             header,
@@ -86,12 +86,12 @@ impl LiveMeasuring {
         &mut self,
         order: RigCommand,
         online: &mut Option<Estimating>,
-        watch: &dyn Watch,
+        watch: &dyn ProgressCallback,
     ) -> Result<Done, Error> {
         let (mut recorded, mut is_stopped) = (None, false);
         loop {
             self.live.report_alive();
-            if !is_stopped && watch.is_asked_to_stop() {
+            if !is_stopped && watch.should_stop() {
                 self.live.console.emergency_stop();
                 is_stopped = true;
             }
@@ -101,7 +101,7 @@ impl LiveMeasuring {
                     self.live.console.end_press(self.number);
                 }
             }
-            let news = match self.live.news.recv_timeout(LOOK) {
+            let news = match self.live.console_events.recv_timeout(LOOK) {
                 Ok(news) => news,
                 Err(RecvTimeoutError::Timeout) => {
                     self.check_device()?;
@@ -118,10 +118,8 @@ impl LiveMeasuring {
                     recorded = Some(done);
                     continue;
                 }
-                ConsoleEvent::Unwritten(unwritten) => return Err(unwritten.error.into()),
-                ConsoleEvent::Ended(_, Err(error)) | ConsoleEvent::Disturbed(error)
-                    if !is_stopped =>
-                {
+                ConsoleEvent::WriteFailed(unwritten) => return Err(unwritten.error.into()),
+                ConsoleEvent::Ended(_, Err(error)) | ConsoleEvent::Failed(error) if !is_stopped => {
                     return Err(error.into());
                 }
                 ConsoleEvent::Ended(done, how) if done == order => how.unwrap_or(Ended::Stopped),

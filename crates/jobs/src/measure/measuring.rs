@@ -12,7 +12,7 @@ use super::Files;
 use super::estimating::Estimating;
 use super::live::LiveMeasuring;
 use super::plan::{OnRig, Plan};
-use crate::{Error, Watch};
+use crate::{Error, ProgressCallback};
 
 /// A recording, and the online estimate of the tissue.
 #[derive(Debug)]
@@ -40,7 +40,7 @@ pub struct Measuring {
 
 impl Measuring {
     /// Rejects, before any motion, a protocol that exceeds a limit.
-    pub fn of(plan: Plan, watch: &dyn Watch) -> Result<Self, Error> {
+    pub fn of(plan: Plan, watch: &dyn ProgressCallback) -> Result<Self, Error> {
         plan.check()?;
         let mut warnings = plan.warnings.clone();
         if plan.has_device() {
@@ -49,7 +49,7 @@ impl Measuring {
         let mut specimens = Vec::new();
         for place in 0..plan.specimens.len() {
             let (found, specimen_warnings) = plan.specimen(place, &mut |part| {
-                watch.say(&format!("solving the specimen, {:.0} %", 100.0 * part));
+                watch.report_step(&format!("solving the specimen, {:.0} %", 100.0 * part));
             })?;
             warnings.extend(specimen_warnings);
             specimens.push(found);
@@ -79,7 +79,7 @@ impl Measuring {
     }
 
     /// Runs the protocol and writes the `files` of its recordings, until it ends or the user presses Ctrl-C.
-    pub fn run(&self, files: &Files, watch: &dyn Watch) -> Result<Vec<Measured>, Error> {
+    pub fn run(&self, files: &Files, watch: &dyn ProgressCallback) -> Result<Vec<Measured>, Error> {
         let mut recorded = Vec::new();
         let count = files.paths.len();
         let mut files = files.paths.iter();
@@ -90,8 +90,8 @@ impl Measuring {
                 return Ok(recorded);
             }
             for ((name, repeat, trajectory), file) in self.stimuli.iter().zip(files.by_ref()) {
-                watch.say(&file.display().to_string());
-                if watch.is_asked_to_stop() {
+                watch.report_step(&file.display().to_string());
+                if watch.should_stop() {
                     return Ok(recorded);
                 }
                 let target = self.plan.target;
@@ -111,7 +111,7 @@ impl Measuring {
                     }
                 };
                 let done = done.map_err(|failure| failure.about(file))?;
-                watch.at((recorded.len() + 1) as f64 / count as f64);
+                watch.report_fraction((recorded.len() + 1) as f64 / count as f64);
                 let Some(done) = done else {
                     return Ok(recorded);
                 };
@@ -134,14 +134,14 @@ impl Measuring {
         &self,
         rig: &mut AnyRig,
         place: usize,
-        watch: &dyn Watch,
+        watch: &dyn ProgressCallback,
     ) -> Result<Ended, Error> {
         let place = &self.plan.specimens[place].place;
         let there = rig.go_to(&Vec3::from(place.place_m), watch)?;
         if there == Ended::Stopped || !place.measure_normal {
             return Ok(there);
         }
-        watch.say("measuring the normal of the surface");
+        watch.report_step("measuring the normal of the surface");
         rig.measure_normal(watch)
     }
 }
@@ -160,16 +160,16 @@ impl AnyRig {
         }
     }
 
-    fn go_to(&mut self, place: &Vec3, watch: &dyn Watch) -> Result<Ended, Error> {
-        let go_on = &mut |_: &RigSample| !watch.is_asked_to_stop();
+    fn go_to(&mut self, place: &Vec3, watch: &dyn ProgressCallback) -> Result<Ended, Error> {
+        let go_on = &mut |_: &RigSample| !watch.should_stop();
         match self {
             Self::Virtual(rig) => Ok(rig.go_to(place, go_on)?),
             Self::Live(live) => live.carry_out(RigCommand::GoTo(*place), watch),
         }
     }
 
-    fn measure_normal(&mut self, watch: &dyn Watch) -> Result<Ended, Error> {
-        let go_on = &mut |_: &RigSample| !watch.is_asked_to_stop();
+    fn measure_normal(&mut self, watch: &dyn ProgressCallback) -> Result<Ended, Error> {
+        let go_on = &mut |_: &RigSample| !watch.should_stop();
         match self {
             Self::Virtual(rig) => Ok(rig.measure_normal(go_on)?),
             Self::Live(live) => live.carry_out(RigCommand::MeasureNormal, watch),
@@ -192,9 +192,9 @@ fn record(
     header: RecordingHeader,
     file: &Path,
     online: &mut Option<Estimating>,
-    watch: &dyn Watch,
+    watch: &dyn ProgressCallback,
 ) -> Result<Option<Recorded>, Error> {
-    let go_on = &mut |_: &RigSample| !watch.is_asked_to_stop();
+    let go_on = &mut |_: &RigSample| !watch.should_stop();
     // The tissue recovers from the previous stimulus, then from the search for contact.
     for rests in [true, false] {
         let rested = rig.recover(go_on)?;
@@ -212,7 +212,7 @@ fn record(
         unwritten = recorder.take(sample).err();
         let online = online.as_mut();
         let is_enough = online.is_some_and(|online| online.take(sample, watch));
-        unwritten.is_none() && !is_enough && !watch.is_asked_to_stop()
+        unwritten.is_none() && !is_enough && !watch.should_stop()
     });
     let is_enough = online.as_ref().is_some_and(Estimating::is_enough);
     let ended = ended.map(|ended| match ended {
@@ -252,7 +252,7 @@ mod tests {
         ]
         .concat();
         let plan = Plan::of(Protocol::parse(&text, "test").unwrap(), 1).unwrap();
-        let names = Measuring::of(plan, &crate::Nobody).unwrap().names();
+        let names = Measuring::of(plan, &crate::NoProgress).unwrap().names();
         assert_eq!(names[0], "liver-1-sine-2hz-1");
         let mut once = names.clone();
         once.sort();
@@ -274,13 +274,13 @@ mod tests {
         let measured = |more: &str| {
             let folder = tempfile::tempdir().unwrap();
             let plan = Plan::of(Protocol::parse(&text(more), "test").unwrap(), 1).unwrap();
-            let measuring = Measuring::of(plan, &crate::Nobody).unwrap();
+            let measuring = Measuring::of(plan, &crate::NoProgress).unwrap();
             let out = crate::measure::Out {
                 path: folder.path(),
                 overwrite: palpate_files::Overwrite::Refused,
             };
             let files = crate::measure::files(&measuring, out).unwrap();
-            measuring.run(&files, &crate::Nobody).unwrap();
+            measuring.run(&files, &crate::NoProgress).unwrap();
             palpate_files::Recording::read(&files.paths[0]).unwrap()
         };
         let sideways = |recording: &palpate_files::Recording| {

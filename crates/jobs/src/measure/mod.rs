@@ -3,12 +3,12 @@
 mod answer;
 mod estimating;
 mod files;
-mod kept;
 mod live;
 mod measuring;
 mod plan;
 mod sensor;
 mod specimen;
+mod specimen_cache;
 
 pub use answer::Answer;
 pub use files::{Files, Out, files, folder};

@@ -5,7 +5,7 @@ use palpate_measure::{Shape, VirtualSpecimen};
 use palpate_mechanics::{IndentationCurve, Material};
 use palpate_servo::Vec3;
 
-use super::kept;
+use super::specimen_cache;
 use crate::Error;
 
 /// Table 5-1: organ, depth [mm], least, mean and largest force [N].
@@ -23,7 +23,7 @@ pub(crate) fn of(
         MeasuredTissue::Tissue(choice) => {
             let tissue = choice.read()?;
             let radius = measured.indenter_radius_m;
-            let specimen = kept::of_tissue(&tissue, radius, deepest, at_step)?;
+            let specimen = specimen_cache::of_tissue(&tissue, radius, deepest, at_step)?;
             (specimen, [tissue.source.warnings, tissue.warnings].concat())
         }
         MeasuredTissue::Published(organ) => published(*organ, measured.indenter_radius_m)?,

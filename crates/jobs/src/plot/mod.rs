@@ -4,7 +4,7 @@ mod thinned;
 
 use serde::Serialize;
 
-pub use thinned::kept;
+pub use thinned::thinned_indices;
 
 /// A plot.
 #[derive(Debug, Serialize, Clone, Default)]

@@ -6,7 +6,7 @@ const BUCKETS: usize = 100;
 /// Indices of at most 900 samples that draw the same lines as all samples: over time, over depth, and over the
 /// logarithm of the time since a hold began. Each bucket of each of these axes contributes its first sample and the
 /// least and largest of `drawn`, so that no peak is lost.
-pub fn kept(time: &[f64], depth: &[f64], drawn: &[f64]) -> Vec<usize> {
+pub fn thinned_indices(time: &[f64], depth: &[f64], drawn: &[f64]) -> Vec<usize> {
     let samples = time.len().min(depth.len()).min(drawn.len());
     if samples <= 3 * BUCKETS {
         return (0..samples).collect();
@@ -85,7 +85,7 @@ mod tests {
         let mut force: Vec<f64> = depth.iter().map(|d| d.powi(2)).collect();
         force[12_345] = 2.0;
         force[17_000] = -1.0;
-        let chosen = kept(&time, &depth, &force);
+        let chosen = thinned_indices(&time, &depth, &force);
         assert!(chosen.len() <= 900, "{}", chosen.len());
         for place in [0, 12_345, 17_000, 19_999] {
             assert!(chosen.contains(&place), "{place}");
@@ -105,7 +105,7 @@ mod tests {
     #[test]
     fn few_samples_all_stay() {
         let values: Vec<f64> = (0..40).map(f64::from).collect();
-        assert_eq!(kept(&values, &values, &values).len(), 40);
-        assert!(kept(&[], &[], &[]).is_empty());
+        assert_eq!(thinned_indices(&values, &values, &values).len(), 40);
+        assert!(thinned_indices(&[], &[], &[]).is_empty());
     }
 }

@@ -11,7 +11,7 @@ use palpate_simulate::{Resources, Simulation};
 
 pub use precompute::{Precomputed, precompute};
 
-use crate::{Error, Watch, memory};
+use crate::{Error, ProgressCallback, memory};
 
 /// The variable that names the cache of prepared responses.
 pub const FOLDER_VARIABLE: &str = "PALPATE_CACHE";
@@ -52,18 +52,18 @@ pub fn resources_with_devices() -> Result<Resources, Error> {
 pub fn simulation(
     scene: &Scene,
     resources: &Resources,
-    watch: &dyn Watch,
+    watch: &dyn ProgressCallback,
 ) -> Result<Simulation, Error> {
-    watch.say("preparing the organ and its model");
+    watch.report_step("preparing the organ and its model");
     // A caller that records a session draws the variant before; to view an organ any variant will do.
     let scene = &palpate_simulate::draw_variant(scene, 0)?;
     let mut last = None;
     let made = Simulation::prepare(scene, resources, &mut |progress| {
         if last.replace(progress.work) != Some(progress.work) {
-            watch.say(progress.work.words());
+            watch.report_step(progress.work.words());
         }
-        watch.at(progress.part.clamp(0.0, 1.0));
-        match watch.is_asked_to_stop() {
+        watch.report_fraction(progress.part.clamp(0.0, 1.0));
+        match watch.should_stop() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }

@@ -6,7 +6,7 @@ use palpate_files::scene::ModelKind;
 use palpate_simulate::Resources;
 use serde::Serialize;
 
-use crate::{Error, VERSION, Watch};
+use crate::{Error, ProgressCallback, VERSION};
 
 /// The answer that `precompute --json` prints.
 #[derive(Debug, Serialize)]
@@ -39,7 +39,7 @@ pub struct Precomputed {
 pub fn precompute(
     mut scene: Scene,
     resources: &Resources,
-    watch: &dyn Watch,
+    watch: &dyn ProgressCallback,
 ) -> Result<Precomputed, Error> {
     if scene.model.kind == ModelKind::Nonlinear {
         return Err(Error::input(
@@ -61,7 +61,7 @@ pub fn precompute(
         method: response.method,
         touchable_triangles: response.touchable,
         memory_bytes: response.bytes,
-        was_kept: response.was_kept,
+        was_kept: response.was_cached,
         file: response.file.clone(),
         seconds: begin.elapsed().as_secs_f64(),
         warnings: simulation.warnings().to_vec(),

@@ -3,13 +3,13 @@
 mod answer;
 mod problem;
 mod solution;
+mod solver_progress;
 mod table;
-mod telling;
 
 pub use answer::Answer;
 pub use problem::Problem;
 pub use solution::{
-    Displacements, Figures, FrictionFigures, PatchFigures, PointFigures, Profile, SolidFigures,
-    Solution, ToolFigures, TubeFigures, Wanted, solve,
+    Displacements, Figures, FrictionFigures, PatchFigures, PointFigures, Profile, RequestedOutputs,
+    SolidFigures, Solution, ToolFigures, TubeFigures, solve,
 };
 pub use table::in_words;

@@ -14,7 +14,7 @@ pub(crate) struct Table {
 }
 
 /// Longer tables are thinned out; the JSON object has all rows.
-const MOST_ROWS: usize = 24;
+const MAX_ROWS: usize = 24;
 
 impl Table {
     /// With one more column, whose values are printed to four digits.
@@ -44,7 +44,7 @@ impl Table {
         for row in shown(rows, self.always) {
             text += &self.line(|(_, texts)| texts.get(row).map_or("", String::as_str));
         }
-        if rows > MOST_ROWS {
+        if rows > MAX_ROWS {
             text += &format!("  (every row of {rows} is in --json)\n");
         }
         text
@@ -63,10 +63,10 @@ impl Table {
 
 /// The rows to show: all, or some, evenly, ends included, and the row `always`.
 fn shown(rows: usize, always: Option<usize>) -> Vec<usize> {
-    if rows <= MOST_ROWS {
+    if rows <= MAX_ROWS {
         return (0..rows).collect();
     }
-    let even = (0..MOST_ROWS).map(|k| k * (rows - 1) / (MOST_ROWS - 1));
+    let even = (0..MAX_ROWS).map(|k| k * (rows - 1) / (MAX_ROWS - 1));
     let mut shown: Vec<usize> = even.chain(always).collect();
     shown.sort_unstable();
     shown.dedup();
@@ -105,7 +105,7 @@ mod tests {
     fn long_tables_are_thinned_out_and_keep_their_ends() {
         let table = Table::default().with("a", (0..100).map(f64::from));
         let text = table.text();
-        assert_eq!(text.lines().count(), 2 + MOST_ROWS);
+        assert_eq!(text.lines().count(), 2 + MAX_ROWS);
         assert!(text.contains("99.00") && text.contains("100 is in"));
         assert_eq!(shown(3, Some(1)), [0, 1, 2]);
         assert!(shown(1000, Some(1)).starts_with(&[0, 1, 43]));

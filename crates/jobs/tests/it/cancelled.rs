@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use palpate_files::Overwrite;
 use palpate_jobs::characterize::{StudyFolder, characterize};
-use palpate_jobs::{Nobody, Recordings, Watch, json_text};
+use palpate_jobs::{NoProgress, ProgressCallback, Recordings, json_text};
 
 use crate::measured;
 use crate::recordings::quick;
@@ -27,12 +27,12 @@ impl Impatient {
     }
 }
 
-impl Watch for Impatient {
-    fn say(&self, _doing: &str) {
+impl ProgressCallback for Impatient {
+    fn report_step(&self, _doing: &str) {
         self.hears();
     }
 
-    fn at(&self, _part: f64) {
+    fn report_fraction(&self, _part: f64) {
         self.hears();
     }
 }
@@ -46,7 +46,7 @@ fn a_study_that_is_cancelled_goes_on() {
         paths: measured(folder.path()),
         ..Recordings::default()
     };
-    let whole = characterize(&recordings, quick(), None, &Nobody).unwrap();
+    let whole = characterize(&recordings, quick(), None, &NoProgress).unwrap();
     let whole = json_text(&whole.answer).unwrap();
     for patience in 0.. {
         let kept = tempfile::tempdir().unwrap();
@@ -73,7 +73,7 @@ fn a_study_that_is_cancelled_goes_on() {
                 let _whole: serde_json::Value = serde_json::from_str(&text).unwrap();
             }
         }
-        let found = characterize(&recordings, quick(), Some(&study), &Nobody).unwrap();
+        let found = characterize(&recordings, quick(), Some(&study), &NoProgress).unwrap();
         assert_eq!(json_text(&found.answer).unwrap(), whole, "after {patience}");
         if begun.is_ok() {
             assert!(patience > 4, "{patience}");

@@ -41,7 +41,7 @@ fn failures_end_with_status_1() {
             failure,
         }
         .into(),
-        scene(Mechanics::BrokenOff),
+        scene(Mechanics::Cancelled),
         SimplifyError::Cancelled.into(),
         read(ReadFault::NoMemory { bytes: 1 << 40 }),
         file(io::ErrorKind::StorageFull),

@@ -1,6 +1,6 @@
 //! Recordings of the virtual rig over a liver that a heart moves by 0.4 mm. Judge: the numbers that the specimens were made of.
 
-use palpate_characterize::inverse::SoughtLaw;
+use palpate_characterize::inverse::CandidateLaw;
 use palpate_characterize::{
     CharacterizeSettings, CleanRecording, CleanSettings, characterize, clean,
 };
@@ -15,7 +15,7 @@ use crate::online::{LIVER, rig, solved, trajectory};
 fn held_in_recordings(seeds: u64, presses: u64) -> [[usize; 2]; 5] {
     let (tissue, curve) = solved();
     let settings = CharacterizeSettings {
-        laws: vec![SoughtLaw::NeoHookean],
+        laws: vec![CandidateLaw::NeoHookean],
         draws: None,
         ..CharacterizeSettings::default()
     };
@@ -32,7 +32,7 @@ fn held_in_recordings(seeds: u64, presses: u64) -> [[usize; 2]; 5] {
                     samples.force_n.push(sample.force);
                     true
                 };
-                assert_eq!(rig.press(&trajectory(), listener).unwrap(), Ended::Whole);
+                assert_eq!(rig.press(&trajectory(), listener).unwrap(), Ended::Complete);
                 rig.recover(&mut |_| true).unwrap();
                 let header = rig.describe(&trajectory(), repeat);
                 let recording = Recording::new(header, samples).unwrap();

@@ -19,7 +19,7 @@ mod watched;
 use std::path::{Path, PathBuf};
 
 use palpate_files::Protocol;
-use palpate_jobs::Nobody;
+use palpate_jobs::NoProgress;
 use palpate_jobs::measure::{Measuring, Out, Plan, files};
 
 /// Two specimens of linear tissue, which need no finite elements, pressed once each.
@@ -46,12 +46,12 @@ hold_s = 2.0
 /// Measures [`PROTOCOL`] into `folder`.
 fn measured(folder: &Path) -> Vec<PathBuf> {
     let protocol = Protocol::parse(PROTOCOL, "protocol.toml").unwrap();
-    let measuring = Measuring::of(Plan::of(protocol, 1).unwrap(), &Nobody).unwrap();
+    let measuring = Measuring::of(Plan::of(protocol, 1).unwrap(), &NoProgress).unwrap();
     let out = Out {
         path: folder,
         overwrite: palpate_files::Overwrite::Refused,
     };
     let made = files(&measuring, out).unwrap();
-    measuring.run(&made, &Nobody).unwrap();
+    measuring.run(&made, &NoProgress).unwrap();
     made.paths
 }

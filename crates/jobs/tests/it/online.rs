@@ -54,7 +54,7 @@ pub(crate) fn rig(
         seed,
     )
     .unwrap();
-    assert_eq!(rig.approach(&mut |_| true).unwrap(), Ended::Whole);
+    assert_eq!(rig.approach(&mut |_| true).unwrap(), Ended::Complete);
     rig.recover(&mut |_| true).unwrap();
     rig
 }
@@ -80,7 +80,7 @@ fn estimates(
     let mut rig = rig(tissue, curve, factor, alive, seed);
     let mut online = OnlineEstimator::new(OnlineSettings {
         header: rig.header().clone(),
-        contact: OnlineContact::Sought,
+        contact: OnlineContact::Detected,
         deepest_m: None,
     })
     .unwrap();
@@ -108,7 +108,7 @@ fn estimates(
         }
         true
     });
-    assert_eq!(pressed.unwrap(), Ended::Whole);
+    assert_eq!(pressed.unwrap(), Ended::Complete);
     assert!(contact.is_some(), "{seed}: no contact was seen");
     found
 }

@@ -1,9 +1,9 @@
 use std::fs;
 
-use palpate_characterize::inverse::{SoughtLaw, Terms};
+use palpate_characterize::inverse::{CandidateLaw, Terms};
 use palpate_files::Tissue;
 use palpate_jobs::characterize::{Choice, FoundLaw, Identified, characterize, specimens};
-use palpate_jobs::{Nobody, Recordings, json_text};
+use palpate_jobs::{NoProgress, Recordings, json_text};
 use palpate_mechanics::finite_elements::uniaxial::stretched;
 use palpate_mechanics::{FibreFrame, Material, Vec3};
 
@@ -36,7 +36,7 @@ fn texts_answer_as_files_do() {
         ..Recordings::default()
     };
     let answers = [&as_files, &as_texts].map(|recordings| {
-        let found = characterize(recordings, quick(), None, &Nobody).unwrap();
+        let found = characterize(recordings, quick(), None, &NoProgress).unwrap();
         json_text(&found.answer).unwrap()
     });
     assert_eq!(answers[0], answers[1]);
@@ -81,7 +81,7 @@ fn too_few_draws_are_refused() {
     };
     let found = |draws: usize| {
         let choice = Choice { draws, ..quick() };
-        characterize(&recordings, choice, None, &Nobody).map(|found| json_text(&found.answer))
+        characterize(&recordings, choice, None, &NoProgress).map(|found| json_text(&found.answer))
     };
     for draws in [1, 9] {
         let sentence = found(draws).map(drop).unwrap_err().to_string();
@@ -126,7 +126,7 @@ fn a_law_that_is_not_there_is_refused_with_the_nearest() {
 #[test]
 fn an_order_is_one_of_a_law_that_has_some() {
     let law = Choice::law_named("ogden", Some(3)).unwrap();
-    assert_eq!(law, SoughtLaw::Ogden(Terms::Three));
+    assert_eq!(law, CandidateLaw::Ogden(Terms::Three));
     for (name, order, why) in [
         ("ogden", 4, "give 1, 2 or 3"),
         ("exponential", 1, "has no order"),
@@ -171,7 +171,7 @@ fn strips_become_a_tissue_with_fibres() {
         draws: 0,
         ..Choice::default()
     };
-    let found = characterize(&recordings, choice, None, &Nobody).unwrap();
+    let found = characterize(&recordings, choice, None, &NoProgress).unwrap();
     let [specimen] = found.answer.specimens.as_slice() else {
         panic!("the strips are one specimen");
     };

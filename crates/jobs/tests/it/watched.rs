@@ -1,8 +1,8 @@
 use std::path::Path;
 use std::sync::Mutex;
 
-use palpate_jobs::solve::{Problem, Wanted, solve};
-use palpate_jobs::{Nobody, Watch, json_text};
+use palpate_jobs::solve::{Problem, RequestedOutputs, solve};
+use palpate_jobs::{NoProgress, ProgressCallback, json_text};
 
 const PUNCH: &str = r#"
 format = 1
@@ -21,12 +21,12 @@ struct Listener {
     words: Mutex<Vec<String>>,
 }
 
-impl Watch for Listener {
-    fn say(&self, doing: &str) {
+impl ProgressCallback for Listener {
+    fn report_step(&self, doing: &str) {
         self.words.lock().unwrap().push(doing.to_owned());
     }
 
-    fn at(&self, part: f64) {
+    fn report_fraction(&self, part: f64) {
         self.parts.lock().unwrap().push(part);
     }
 }
@@ -35,12 +35,12 @@ impl Watch for Listener {
 fn what_is_answered_does_not_depend_on_who_waits() {
     let problem = Problem::parse(PUNCH, Path::new("punch.toml")).unwrap();
     let listener = Listener::default();
-    let of = |watch: &dyn Watch| {
-        let mut answer = solve(&problem, Wanted::default(), watch).unwrap();
+    let of = |watch: &dyn ProgressCallback| {
+        let mut answer = solve(&problem, RequestedOutputs::default(), watch).unwrap();
         answer.seconds = 0.0;
         json_text(&answer).unwrap()
     };
-    assert_eq!(of(&Nobody), of(&listener));
+    assert_eq!(of(&NoProgress), of(&listener));
     let parts = listener.parts.into_inner().unwrap();
     assert!(!parts.is_empty() && parts.iter().all(|part| (0.0..=1.0).contains(part)));
     let words = listener.words.into_inner().unwrap();

@@ -4,11 +4,11 @@ use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread::{Builder, JoinHandle};
 use std::time::Duration;
 
-use palpate_servo::watch::{Watch, WatchThread};
+use palpate_servo::monitor::{LoopMonitor, MonitorThread};
 use palpate_servo::{Clock, Fault, Supervisor, log};
 
 use super::log_writer::LogWriter;
-use super::{Commission, Console, ConsoleEvent, Operated, RigCommand};
+use super::{CommandedRig, Console, ConsoleEvent, RecordingRequest, RigCommand};
 use crate::{DepthTrajectory, Error, Rig, RigSample};
 
 /// A running rig with its console, samples and events. Dropping it withdraws the indenter and ends its threads.
@@ -18,10 +18,10 @@ pub struct LiveRig {
     /// Every sample; samples that nobody reads in time are lost.
     pub samples: log::Reader<RigSample>,
     /// Events of the rig and of its recordings.
-    pub news: Receiver<ConsoleEvent>,
-    commissions: Sender<Commission>,
+    pub console_events: Receiver<ConsoleEvent>,
+    commissions: Sender<RecordingRequest>,
     threads: Vec<JoinHandle<()>>,
-    watch: WatchThread,
+    watch: MonitorThread,
     /// Supervisor that receives the sign of life of the operator; none without a real device.
     supervisor: Option<Supervisor>,
     clock: Clock,
@@ -49,26 +49,26 @@ impl LiveRig {
     pub fn start_until(rig: Rig, is_ended: fn() -> bool) -> Result<Self, Error> {
         // Over virtual tissue nobody can be hurt, and the indenter withdraws in good order.
         let ends = if rig.is_real() { is_ended } else { || false };
-        let watch = Watch::new(rig.supervisor(), vec![rig.watched()], ends);
+        let watch = LoopMonitor::new(rig.supervisor(), vec![rig.monitored_loop()], ends);
         let clock = rig.clock();
-        let watch = WatchThread::start(watch, clock)?;
+        let watch = MonitorThread::start(watch, clock)?;
         let supervisor = rig.is_real().then(|| rig.supervisor());
-        let (operated, console, events) = Operated::new(rig);
+        let (operated, console, events) = CommandedRig::new(rig);
         let (samples, samples_reader) = log::ring(SAMPLES);
-        let (news, news_reader) = mpsc::channel();
+        let (console_events, console_events_reader) = mpsc::channel();
         let (commissions, commissioned) = mpsc::channel();
         let log_writer = LogWriter {
             events,
-            commissions: commissioned,
+            requests: commissioned,
             samples,
-            news,
+            console_events,
             switches: console.switches(),
             open: None,
         };
         let mut live = Self {
             console,
             samples: samples_reader,
-            news: news_reader,
+            console_events: console_events_reader,
             commissions,
             threads: Vec::new(),
             watch,
@@ -83,7 +83,7 @@ impl LiveRig {
     }
 
     /// Queues a press of `trajectory` and its recording.
-    pub fn press(&mut self, trajectory: DepthTrajectory, commission: Commission) {
+    pub fn press(&mut self, trajectory: DepthTrajectory, commission: RecordingRequest) {
         let number = commission.number;
         // `is_running` reports a log writer that has ended.
         let _ = self.commissions.send(commission);
@@ -91,7 +91,7 @@ impl LiveRig {
     }
 
     /// Reports that the operator is alive. After the first report, a real device loses its force when none follows within
-    /// [`SILENCE`](palpate_servo::supervisor::SILENCE).
+    /// [`REPORT_TIMEOUT`](palpate_servo::supervisor::REPORT_TIMEOUT).
     pub fn report_alive(&self) {
         if let Some(supervisor) = &self.supervisor {
             supervisor.report(self.clock.now());
@@ -130,9 +130,9 @@ impl Drop for LiveRig {
     }
 }
 
-fn run(mut operated: Operated, ended: &AtomicBool) {
+fn run(mut operated: CommandedRig, ended: &AtomicBool) {
     operated.rig().raise_priority();
-    while operated.turn(&mut |_| ()) {}
+    while operated.process_next(&mut |_| ()) {}
     ended.store(true, Ordering::Release);
 }
 

@@ -10,7 +10,7 @@ use crate::{Axes, Ended, Error, Phase, Recorded, Recorder, RigSample};
 
 /// A recording that is to be made.
 #[derive(Debug, Clone)]
-pub struct Commission {
+pub struct RecordingRequest {
     /// Its number in [`RigCommand::Press`].
     pub number: u64,
     /// Its file.
@@ -29,7 +29,7 @@ pub enum ConsoleEvent {
     /// It dropped a stale command.
     Dropped(RigCommand),
     /// The rig failed while it waited.
-    Disturbed(Error),
+    Failed(Error),
     /// Forces are off.
     Faulted(Fault),
     /// Forces are on again.
@@ -37,22 +37,22 @@ pub enum ConsoleEvent {
     /// A recording is complete: its number, the recording and its samples.
     Recorded(u64, Recorded, Vec<RecordingRow>),
     /// A recording could not be written; the rig was stopped.
-    Unwritten(Box<Unwritten>),
+    WriteFailed(Box<WriteFailed>),
 }
 
 /// A recording that could not be written. Its samples until then are in memory, as are those of every recording, for
 /// its plots.
 #[derive(Debug)]
-pub struct Unwritten {
+pub struct WriteFailed {
     /// The commission of the recording.
-    pub commission: Commission,
+    pub request: RecordingRequest,
     /// Its samples.
     pub rows: Vec<RecordingRow>,
     /// Why it could not be written.
     pub error: palpate_files::Error,
 }
 
-impl Unwritten {
+impl WriteFailed {
     /// Writes it to another file, whose folder must exist.
     ///
     /// # Errors
@@ -60,7 +60,7 @@ impl Unwritten {
     pub fn write_to(&self, file: &Path) -> Result<Recorded, palpate_files::Error> {
         let has_axes = self.rows.first().is_some_and(|row| row.axes.is_some());
         let axes = if has_axes { Axes::Six } else { Axes::One };
-        let mut recorder = Recorder::begin(file, &self.commission.header, axes)?;
+        let mut recorder = Recorder::begin(file, &self.request.header, axes)?;
         for row in &self.rows {
             recorder.write(*row)?;
         }
@@ -71,16 +71,16 @@ impl Unwritten {
 /// Writes the recordings from the events of the rig, and forwards the events to the console.
 pub(super) struct LogWriter {
     pub(super) events: log::Reader<RigEvent>,
-    pub(super) commissions: Receiver<Commission>,
+    pub(super) requests: Receiver<RecordingRequest>,
     pub(super) samples: log::Writer<RigSample>,
-    pub(super) news: Sender<ConsoleEvent>,
+    pub(super) console_events: Sender<ConsoleEvent>,
     pub(super) switches: Switches,
     pub(super) open: Option<Open>,
 }
 
 /// The recording that is being made.
 pub(super) struct Open {
-    commission: Commission,
+    commission: RecordingRequest,
     /// None before the first sample: a refused command leaves no file.
     recorder: Option<Recorder>,
     rows: Vec<RecordingRow>,
@@ -101,16 +101,16 @@ impl LogWriter {
                     self.pass_on(ConsoleEvent::Ended(command, ended));
                 }
                 RigEvent::Dropped(command) => self.pass_on(ConsoleEvent::Dropped(command)),
-                RigEvent::Disturbed(error) => self.pass_on(ConsoleEvent::Disturbed(error)),
+                RigEvent::Failed(error) => self.pass_on(ConsoleEvent::Failed(error)),
                 RigEvent::Faulted(fault) => self.pass_on(ConsoleEvent::Faulted(fault)),
                 RigEvent::Armed => self.pass_on(ConsoleEvent::Armed),
             }
         }
     }
 
-    fn pass_on(&self, news: ConsoleEvent) {
+    fn pass_on(&self, event: ConsoleEvent) {
         // Recordings are written even when the window is closed.
-        let _ = self.news.send(news);
+        let _ = self.console_events.send(event);
     }
 
     fn begin(&mut self, command: RigCommand) {
@@ -118,7 +118,7 @@ impl LogWriter {
             return;
         };
         let own = self
-            .commissions
+            .requests
             .try_iter()
             .find(|other| other.number == number);
         self.open = own.map(|commission| Open {
@@ -164,8 +164,8 @@ impl LogWriter {
     /// Nothing is pressed that is not recorded.
     fn give_up(&mut self, open: Open, error: palpate_files::Error) {
         self.switches.stop();
-        self.pass_on(ConsoleEvent::Unwritten(Box::new(Unwritten {
-            commission: open.commission,
+        self.pass_on(ConsoleEvent::WriteFailed(Box::new(WriteFailed {
+            request: open.commission,
             rows: open.rows,
             error,
         })));
@@ -177,7 +177,7 @@ impl Open {
         let recorder = match &mut self.recorder {
             Some(recorder) => recorder,
             None => {
-                let Commission { file, header, .. } = &mut self.commission;
+                let RecordingRequest { file, header, .. } = &mut self.commission;
                 // A normal may have been measured since it was asked for.
                 header.approach_normal = Some(sample.normal.into());
                 let begun = Recorder::begin(file, header, Axes::of(sample))?;
@@ -204,8 +204,8 @@ mod tests {
     struct TestBench {
         log_writer: LogWriter,
         events: Writer<RigEvent>,
-        news: Receiver<ConsoleEvent>,
-        commissions: Sender<Commission>,
+        console_events: Receiver<ConsoleEvent>,
+        commissions: Sender<RecordingRequest>,
         samples: log::Reader<RigSample>,
         trajectory: DepthTrajectory,
     }
@@ -213,13 +213,13 @@ mod tests {
     fn test_bench() -> TestBench {
         let (events, events_reader) = log::ring(100);
         let (samples, samples_reader) = log::ring(4);
-        let (news, news_reader) = channel();
+        let (console_events, console_events_reader) = channel();
         let (commissions, commissioned) = channel();
         let log_writer = LogWriter {
             events: events_reader,
-            commissions: commissioned,
+            requests: commissioned,
             samples,
-            news,
+            console_events,
             switches: Switches::default(),
             open: None,
         };
@@ -231,7 +231,7 @@ mod tests {
         TestBench {
             log_writer,
             events,
-            news: news_reader,
+            console_events: console_events_reader,
             commissions,
             samples: samples_reader,
             trajectory: trajectory.unwrap(),
@@ -257,7 +257,7 @@ mod tests {
     impl TestBench {
         fn ask(&self, number: u64, file: PathBuf) -> RigCommand {
             let header = RecordingHeader::default();
-            let commission = Commission {
+            let commission = RecordingRequest {
                 number,
                 file,
                 header,
@@ -293,14 +293,14 @@ mod tests {
         let why = read.header.cut_short().unwrap();
         assert_eq!(why, "the emergency stop was pressed");
         assert_eq!(test_bench.samples.lost(), 56);
-        let news: Vec<ConsoleEvent> = test_bench.news.try_iter().collect();
+        let console_events: Vec<ConsoleEvent> = test_bench.console_events.try_iter().collect();
         let [
             ConsoleEvent::Begun(_),
             ConsoleEvent::Recorded(3, recorded, rows),
             ConsoleEvent::Ended(..),
-        ] = &news[..]
+        ] = &console_events[..]
         else {
-            panic!("{news:?}");
+            panic!("{console_events:?}");
         };
         assert_eq!(rows.len(), 30);
         assert_eq!(recorded.cut_short.as_deref(), Some(why));
@@ -339,10 +339,13 @@ mod tests {
             test_bench.log_writer.read();
         }
         assert_eq!(test_bench.log_writer.switches.stops(), 1);
-        let unwritten = test_bench.news.try_iter().find_map(|news| match news {
-            ConsoleEvent::Unwritten(unwritten) => Some(unwritten),
-            _ => None,
-        });
+        let unwritten = test_bench
+            .console_events
+            .try_iter()
+            .find_map(|event| match event {
+                ConsoleEvent::WriteFailed(unwritten) => Some(unwritten),
+                _ => None,
+            });
         let unwritten = unwritten.unwrap();
         assert!(unwritten.error.to_string().contains("one.csv"));
         let other = folder.path().join("other.csv");
@@ -362,11 +365,11 @@ mod tests {
         let command = test_bench.ask(1, folder.path().join("missing").join("one.csv"));
         test_bench.press(command, Ok(Ended::Stopped));
         assert_eq!(test_bench.log_writer.switches.stops(), 1);
-        let said = |news: ConsoleEvent| match news {
-            ConsoleEvent::Unwritten(unwritten) => Some(unwritten),
+        let said = |event: ConsoleEvent| match event {
+            ConsoleEvent::WriteFailed(unwritten) => Some(unwritten),
             _ => None,
         };
-        let unwritten = test_bench.news.try_iter().find_map(said).unwrap();
+        let unwritten = test_bench.console_events.try_iter().find_map(said).unwrap();
         assert!(unwritten.error.to_string().contains("missing"));
         let refused = test_bench.ask(2, folder.path().join("two.csv"));
         test_bench.events.add(RigEvent::Begun(refused));

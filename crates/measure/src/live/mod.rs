@@ -10,17 +10,17 @@
 //! that a slow window loses no row. A command from before a stop or a failed motion is stale: the rig drops it and
 //! reports that.
 //!
-//! *How we know*: `live::…` on a virtual clock, with [`Operated`] in the thread of the test.
+//! *How we know*: `live::…` on a virtual clock, with [`CommandedRig`] in the thread of the test.
 //!
 //! *Limits*: the operating system decides how punctual the thread is. Over virtual tissue the rig's time waits with the
 //! thread.
 
+mod commanded_rig;
 mod console;
 mod live_rig;
 mod log_writer;
-mod operated;
 
+pub use commanded_rig::{CommandedRig, RigEvent};
 pub use console::{Console, RigCommand};
 pub use live_rig::LiveRig;
-pub use log_writer::{Commission, ConsoleEvent, Unwritten};
-pub use operated::{Operated, RigEvent};
+pub use log_writer::{ConsoleEvent, RecordingRequest, WriteFailed};

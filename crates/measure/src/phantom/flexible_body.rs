@@ -43,7 +43,7 @@ impl FlexibleBody {
     pub fn premium() -> Self {
         let links = RigidBody::premium();
         let rotors = Vec3::new(13.3, 11.2, 11.2).map(|ratio: f64| 1.08e-6 * ratio * ratio);
-        let stiffness = links.linkage.arms().map(|arm| 3545.0 * arm * arm);
+        let stiffness = links.linkage.moment_arms().map(|arm| 3545.0 * arm * arm);
         let masses = links.inertia(&Vec3::zeros()).diagonal();
         let reduced = rotors.zip_map(&masses, |rotor, mass| rotor * mass / (rotor + mass));
         let damping = stiffness.zip_map(&reduced, |k, mass| 0.03 * 2.0 * (k * mass).sqrt());
@@ -130,7 +130,8 @@ impl FlexibleBody {
     /// Dry friction of up to `friction` [N] at the handle during `elapsed` [s], in the motors and their cables:
     /// like [`RigidBody::rub`], on the rotors.
     pub(crate) fn rub(&self, joints: &mut FlexibleJoints, friction: f64, elapsed: f64) {
-        let most = self.links.linkage.arms().component_div(&self.rotors) * (friction * elapsed);
+        let most =
+            self.links.linkage.moment_arms().component_div(&self.rotors) * (friction * elapsed);
         for joint in 0..3 {
             let rate = &mut joints.rotors.rates[joint];
             *rate -= rate.clamp(-most[joint], most[joint]);

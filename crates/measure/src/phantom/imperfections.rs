@@ -12,7 +12,7 @@ pub struct Imperfections {
     /// Ticks from a command to its force.
     pub delay: usize,
     /// When it is lost: from then on it does not answer [s]; infinite for one that stays.
-    pub lost_at: f64,
+    pub disconnect_time: f64,
 }
 
 /// Most ticks of delay.
@@ -27,7 +27,7 @@ impl Imperfections {
             force_step: 0.0,
             friction: 0.0,
             delay: 0,
-            lost_at: f64::INFINITY,
+            disconnect_time: f64::INFINITY,
         }
     }
 
@@ -41,7 +41,7 @@ impl Imperfections {
             force_step: 2.0 * peak_force / 4096.0,
             friction: 0.04,
             delay: 0,
-            lost_at: f64::INFINITY,
+            disconnect_time: f64::INFINITY,
         }
     }
 
@@ -52,7 +52,7 @@ impl Imperfections {
     }
 
     /// Encoder reading of a `place` [m].
-    pub(crate) fn encoded(&self, place: f64) -> f64 {
+    pub(crate) fn encoder_reading(&self, place: f64) -> f64 {
         to_steps(place, self.encoder_step)
     }
 }

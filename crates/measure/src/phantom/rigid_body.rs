@@ -134,7 +134,7 @@ impl RigidBody {
     /// Dry friction of up to `friction` [N] at the handle during `elapsed` [s], as torques on the lengths of the
     /// links: it takes speed and never turns it.
     pub(crate) fn rub(&self, joints: &mut Joints, friction: f64, elapsed: f64) {
-        let (arms, inertia) = (self.linkage.arms(), self.inertia(&joints.angles));
+        let (arms, inertia) = (self.linkage.moment_arms(), self.inertia(&joints.angles));
         for joint in 0..3 {
             let most = friction * arms[joint] * elapsed / inertia[(joint, joint)];
             joints.rates[joint] -= joints.rates[joint].clamp(-most, most);

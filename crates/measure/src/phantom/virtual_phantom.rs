@@ -81,7 +81,7 @@ impl VirtualPhantom {
     }
 
     /// The same, where a function gives the contact force on its handle.
-    pub fn touched_by(mut self, touch: Touch) -> Self {
+    pub fn with_contact(mut self, touch: Touch) -> Self {
         self.touch = touch;
         self
     }
@@ -96,7 +96,7 @@ impl VirtualPhantom {
         let seen = self
             .mechanics
             .encoded()
-            .map(|place| self.imperfections.encoded(place));
+            .map(|place| self.imperfections.encoder_reading(place));
         DeviceState::at(time, seen)
     }
 
@@ -190,7 +190,7 @@ impl Device for VirtualPhantom {
     }
 
     fn exchange(&mut self, command: &Command) -> Result<DeviceState, Fault> {
-        if command.time >= self.imperfections.lost_at {
+        if command.time >= self.imperfections.disconnect_time {
             return Err(Fault::Silent);
         }
         Ok(self.advance(command.time, &command.force()))

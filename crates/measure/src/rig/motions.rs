@@ -2,11 +2,11 @@ use palpate_files::recording::RecordingHeader;
 
 use super::{Ended, Listener, Phase, Rig, ZEROING};
 use crate::approach::contact_height;
-use crate::rig_settings::{CALM, LEAD, STANDOFF};
+use crate::rig_settings::{LEAD, SETTLING_TIME, STANDOFF};
 use crate::{DepthTrajectory, Error, RigSettings};
 
 /// Ticks of an approach that room is made for at once: an hour and more at 1 kHz, 64 MB.
-const MOST_ROOM: usize = 4_000_000;
+const MAX_CAPACITY: usize = 4_000_000;
 
 impl Rig {
     /// Goes down until contact, finds the first contact and waits above it.
@@ -25,19 +25,19 @@ impl Rig {
     }
 
     fn find_contact(&mut self, listener: Listener<'_>) -> Result<Ended, Error> {
-        if self.stay(CALM, listener)? == Ended::Stopped {
+        if self.stay(SETTLING_TIME, listener)? == Ended::Stopped {
             return Ok(Ended::Stopped);
         }
         let RigSettings {
             period,
             approach_speed,
-            approach_way,
+            approach_distance,
             ..
         } = self.settings;
         let resting = (ZEROING / period) as usize;
-        let ticks = resting + (approach_way / approach_speed / period) as usize;
+        let ticks = resting + (approach_distance / approach_speed / period) as usize;
         // A tick allocates nothing, unless a caller asks for an approach of more than an hour.
-        let room = ticks.min(MOST_ROOM);
+        let room = ticks.min(MAX_CAPACITY);
         let mut heights = Vec::with_capacity(room);
         let mut forces = Vec::with_capacity(room);
         let from = self.aim;
@@ -54,11 +54,11 @@ impl Rig {
             forces.push(sample.force);
             if tick > resting && self.is_met(&forces, resting) {
                 self.contact = contact_height(&heights, &forces);
-                return Ok(Ended::Whole);
+                return Ok(Ended::Complete);
             }
         }
         Err(Error::NoContact {
-            way_mm: 1e3 * approach_way,
+            way_mm: 1e3 * approach_distance,
         })
     }
 
@@ -79,7 +79,7 @@ impl Rig {
         trajectory: &DepthTrajectory,
         listener: Listener<'_>,
     ) -> Result<Ended, Error> {
-        self.press_and_tell(trajectory, &mut |sample| {
+        self.press_with_listener(trajectory, &mut |sample| {
             sample.phase != Phase::Pressing || listener(sample)
         })
     }
@@ -89,7 +89,7 @@ impl Rig {
     ///
     /// # Errors
     /// As for [`press`](Self::press).
-    pub fn press_and_tell(
+    pub fn press_with_listener(
         &mut self,
         trajectory: &DepthTrajectory,
         listener: Listener<'_>,
@@ -117,9 +117,9 @@ impl Rig {
             period,
             ..
         } = self.settings;
-        let mut ended = self.stay(self.settings.calm(), listener)?;
+        let mut ended = self.stay(self.settings.settling_time(), listener)?;
         for (above, speed) in [(clearance, withdrawal_speed), (STANDOFF, approach_speed)] {
-            if ended == Ended::Whole {
+            if ended == Ended::Complete {
                 ended = self.go(contact + above, speed, Phase::Waiting, listener)?;
             }
         }
@@ -144,7 +144,7 @@ impl Rig {
                 return Ok(Ended::Stopped);
             }
         }
-        Ok(Ended::Whole)
+        Ok(Ended::Complete)
     }
 
     /// Waits for `time` [s] where it is.
@@ -164,7 +164,7 @@ impl Rig {
         let was_blind = self.sensing.fault.is_some();
         let waited = self.stay(self.settings.period, listener);
         match waited {
-            Err(Error::Sensor(_)) if was_blind => Ok(Ended::Whole),
+            Err(Error::Sensor(_)) if was_blind => Ok(Ended::Complete),
             waited => self.withdraw_unless(waited, listener),
         }
     }
@@ -184,7 +184,7 @@ impl Rig {
                 return Ok(Ended::Stopped);
             }
         }
-        Ok(Ended::Whole)
+        Ok(Ended::Complete)
     }
 
     /// Leaves the tissue: to the clearance above the contact, or to where it was before it looked for one; never down.
@@ -232,7 +232,7 @@ impl Rig {
                 return Ok(Ended::Stopped);
             }
         }
-        Ok(Ended::Whole)
+        Ok(Ended::Complete)
     }
 }
 

@@ -74,7 +74,7 @@ impl Rig {
         let to = place - normal * above + found * above;
         self.check_reach(&to)?;
         let ended = self.travel(&to, Phase::Jogging, listener)?;
-        if ended == Ended::Whole {
+        if ended == Ended::Complete {
             self.face(&found)?;
         }
         Ok(ended)
@@ -91,7 +91,7 @@ impl Rig {
         let contact = self.contact.ok_or(Error::NotApproached)?;
         let speed = self.settings.withdrawal_speed;
         match self.go(from, speed, Phase::Jogging, listener)? {
-            Ended::Whole => Ok(Some(contact)),
+            Ended::Complete => Ok(Some(contact)),
             Ended::Stopped | Ended::Enough => Ok(None),
         }
     }

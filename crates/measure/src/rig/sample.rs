@@ -14,7 +14,7 @@ pub enum Phase {
     /// It leaves the tissue.
     Withdrawing,
     /// It exerts no force, after a fault.
-    Limp,
+    ForceOff,
 }
 
 /// The state of the rig at a tick.
@@ -56,7 +56,7 @@ impl RigSample {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ended {
     /// It ended with its last sample.
-    Whole,
+    Complete,
     /// The listener stopped it; the indenter is withdrawn.
     Stopped,
     /// It ended early because the parameters are known well enough; the indenter is withdrawn.

@@ -64,7 +64,7 @@ fn felt(frequency: f64, compensation: Option<Compensation>) -> Complex<f64> {
         Vec3::x() * (0.1 * (omega * (time + 0.5 * MECHANICS_STEP)).cos())
     };
     let device = VirtualPhantom::with_axes(machine, &still, Imperfections::none())
-        .touched_by(Box::new(shaken));
+        .with_contact(Box::new(shaken));
     let samples = run(device, compensation, 8000);
     let mut answer = Complex::new(0.0, 0.0);
     for sample in &samples[4000..] {
@@ -248,7 +248,7 @@ fn joints_are_found_from_the_place_of_the_handle() {
 fn comes_to_rest(hand: HandImpedance, cutoff: f64, mass: f64) -> bool {
     let places = [(0.0, 0.0), (0.1, 0.0), (0.11, 1e-5)];
     let places = places.map(|(time, x)| Waypoint::new(time, Vec3::x() * x));
-    let device = VirtualDevice::new(Trajectory::way(places.to_vec()).unwrap())
+    let device = VirtualDevice::new(Trajectory::waypoints(places.to_vec()).unwrap())
         .with_hand(hand)
         .unwrap();
     let compensation = Compensation {

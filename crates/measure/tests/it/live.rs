@@ -1,7 +1,7 @@
 //! A rig that is operated, on a virtual clock. Judges: the order in which orders were given, limits, and the
 //! time from a stop to no force.
 
-use palpate_measure::live::{Console, Operated, RigCommand, RigEvent};
+use palpate_measure::live::{CommandedRig, Console, RigCommand, RigEvent};
 use palpate_measure::{Ended, Error, Phase, RigSample, RigSettings};
 use palpate_servo::{Fault, Vec3, log};
 
@@ -9,14 +9,14 @@ use crate::rig::{rig, soft, usual};
 
 /// A rig over soft tissue, and its console.
 struct Bench {
-    operated: Operated,
+    operated: CommandedRig,
     console: Console,
     told: log::Reader<RigEvent>,
 }
 
 impl Bench {
     fn new(settings: RigSettings) -> Self {
-        let (operated, console, told) = Operated::new(rig(soft(), settings, 1));
+        let (operated, console, told) = CommandedRig::new(rig(soft(), settings, 1));
         let mut bench = Self {
             operated,
             console,
@@ -30,7 +30,7 @@ impl Bench {
     fn idle(&mut self, ticks: usize) -> Vec<RigSample> {
         let mut seen = Vec::new();
         for _ in 0..ticks {
-            assert!(self.operated.turn(&mut |sample| seen.push(*sample)));
+            assert!(self.operated.process_next(&mut |sample| seen.push(*sample)));
         }
         self.told.drain().for_each(drop);
         seen
@@ -45,13 +45,13 @@ impl Bench {
         self.console.send(press);
         self.console.send(RigCommand::Rest);
         let (console, mut samples) = (&self.console, Vec::new());
-        self.operated.turn(&mut |sample| {
+        self.operated.process_next(&mut |sample| {
             if sample.phase == Phase::Pressing && sample.depth.unwrap() > 3.9e-3 {
                 act(console);
             }
             samples.push(*sample);
         });
-        self.operated.turn(&mut |_| ());
+        self.operated.process_next(&mut |_| ());
         let events = self.told.drain();
         let events = events.filter(|event| !matches!(event, RigEvent::Sample(_)));
         (events.collect(), samples)
@@ -64,7 +64,7 @@ impl Bench {
             .for_each(|command| self.console.send(*command));
         let mut said = Vec::new();
         for _ in 0..=commands.len() {
-            self.operated.turn(&mut |_| ());
+            self.operated.process_next(&mut |_| ());
             said.extend(
                 self.told
                     .drain()
@@ -78,7 +78,7 @@ impl Bench {
 fn ended(command: RigCommand) -> [RigEvent; 2] {
     [
         RigEvent::Begun(command),
-        RigEvent::Ended(command, Ok(Ended::Whole)),
+        RigEvent::Ended(command, Ok(Ended::Complete)),
     ]
 }
 
@@ -132,7 +132,7 @@ fn a_press_that_is_enough_leaves_the_queue() {
         RigEvent::Begun(press),
         RigEvent::Ended(press, Ok(Ended::Enough)),
         RigEvent::Begun(RigCommand::Rest),
-        RigEvent::Ended(RigCommand::Rest, Ok(Ended::Whole)),
+        RigEvent::Ended(RigCommand::Rest, Ok(Ended::Complete)),
     ];
     assert_eq!(said, expected);
     assert!(after.last().unwrap().depth.unwrap() < -1e-3);
@@ -167,7 +167,7 @@ fn an_emergency_stop_is_latched_until_somebody_arms() {
     bench.console.send(press);
     bench.console.send(RigCommand::Rest);
     let (console, mut pressed, mut last) = (&bench.console, None, 0.0);
-    bench.operated.turn(&mut |sample| {
+    bench.operated.process_next(&mut |sample| {
         last = sample.time;
         if sample.phase == Phase::Pressing && sample.depth.unwrap() > 3.9e-3 {
             pressed.get_or_insert(sample.time);
@@ -190,10 +190,10 @@ fn an_emergency_stop_is_latched_until_somebody_arms() {
         RigEvent::Faulted(fault),
     ];
     assert_eq!(said(&mut bench), faulted);
-    bench.operated.turn(&mut |_| ());
+    bench.operated.process_next(&mut |_| ());
     assert_eq!(said(&mut bench), [RigEvent::Dropped(RigCommand::Rest)]);
     let free = bench.idle(3000);
-    assert!(free.iter().all(|sample| sample.phase == Phase::Limp));
+    assert!(free.iter().all(|sample| sample.phase == Phase::ForceOff));
     // Tissue pushes the tip out of it: what is left is the friction of the device (0.04 N) at most.
     assert!(free[2999].force < 0.05, "{:?}", free[2999]);
     assert_eq!(
@@ -237,7 +237,7 @@ fn a_jog_ends_at_the_limits() {
         let (console, mut depth) = (&mut bench.console, 0.0);
         console.send(drive);
         let (mut ticks, mut farthest) = (0, 0.0_f64);
-        bench.operated.turn(&mut |sample| {
+        bench.operated.process_next(&mut |sample| {
             ticks += 1;
             if ticks % 100 == 0 {
                 console.send(drive);
@@ -302,7 +302,7 @@ fn a_held_jog_ends_when_nobody_holds_it() {
     console.send(drive);
     let mut next = 0.1;
     let mut began = None;
-    bench.operated.turn(&mut |sample| {
+    bench.operated.process_next(&mut |sample| {
         let begun = *began.get_or_insert(sample.time);
         if sample.time - begun > next && next < 0.95 {
             console.send(drive);

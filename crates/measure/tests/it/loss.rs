@@ -15,7 +15,7 @@ use crate::rig::{RADIUS, rig_on, tissue, usual};
 fn lost_at(time: f64) -> (Vec<RigSample>, Option<Error>, Option<Error>, Recording) {
     let specimen = VirtualSpecimen::of_tissue(&tissue(), RADIUS, 8e-3, &mut |_| ()).unwrap();
     let imperfections = Imperfections {
-        lost_at: time,
+        disconnect_time: time,
         ..Imperfections::premium()
     };
     let mut rig = rig_on(imperfections, specimen, RigSettings::default(), 1);
@@ -57,7 +57,7 @@ fn holding(wanted: impl Fn(u64) -> Option<f64>) -> Vec<Sample> {
     let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
     let spring = |_: f64, place: &Vec3, _: &Vec3| Vec3::z() * (-100.0 * place.z).max(0.0);
     let device = VirtualPhantom::with_axes(machine, &Vec3::zeros(), Imperfections::premium())
-        .touched_by(Box::new(spring));
+        .with_contact(Box::new(spring));
     let reference = |height: f64| Reference {
         position: Vec3::z() * height,
         velocity: Vec3::zeros(),
@@ -84,7 +84,7 @@ const LOST: u64 = 2500;
 
 fn assert_lost_within(samples: &[Sample], milliseconds: u64, is_it: impl Fn(&Fault) -> bool) {
     let before = &samples[LOST as usize - 200..LOST as usize];
-    let mean = before.iter().map(|s| s.sent.norm()).sum::<f64>() / 200.0;
+    let mean = before.iter().map(|s| s.output.norm()).sum::<f64>() / 200.0;
     // 100 N/m, 5 mm and the device's own 32 N/m; dry friction takes or adds 0.04 N.
     assert!((mean - 0.66).abs() < 0.06, "{mean}");
     let faulted = |sample: &&Sample| matches!(sample.stage, Stage::Faulted(_));
@@ -92,7 +92,7 @@ fn assert_lost_within(samples: &[Sample], milliseconds: u64, is_it: impl Fn(&Fau
     println!("{:?}, {} ms later", first.stage, first.tick - LOST);
     assert!(first.tick - LOST <= milliseconds);
     for sample in samples.iter().filter(|s| s.tick >= first.tick) {
-        assert_eq!(sample.sent, Vec3::zeros());
+        assert_eq!(sample.output, Vec3::zeros());
         let Stage::Faulted(fault) = sample.stage else {
             panic!("{sample:?}");
         };

@@ -20,7 +20,7 @@ fn a_tick_of_the_rig_allocates_nothing() {
     let (mut ticks, mut approached) = (0, Ok(Ended::Stopped));
     reset_violation_count();
     assert_no_alloc(|| approached = rig.approach(&mut |_| true));
-    assert_eq!(approached, Ok(Ended::Whole));
+    assert_eq!(approached, Ok(Ended::Complete));
     // Heights and forces, and their means when it is met, taken and given back.
     let room = violation_count();
     assert!(room <= 8, "{room}");
@@ -33,6 +33,6 @@ fn a_tick_of_the_rig_allocates_nothing() {
             true
         });
     });
-    assert_eq!((pressed, violation_count()), (Ok(Ended::Whole), 0));
+    assert_eq!((pressed, violation_count()), (Ok(Ended::Complete), 0));
     assert!(ticks > 8000);
 }

@@ -16,7 +16,7 @@ fn angle(one: &Vec3, other: &Vec3) -> f64 {
 #[test]
 fn a_measured_normal_is_that_of_a_plane() {
     let mut rig = rig(plane(12.0), RigSettings::default(), 1);
-    assert_eq!(rig.measure_normal(&mut |_| true).unwrap(), Ended::Whole);
+    assert_eq!(rig.measure_normal(&mut |_| true).unwrap(), Ended::Complete);
     let off = angle(&rig.normal(), &tilted(12.0));
     println!("{off} degrees off");
     assert!(off < FOUND, "{off}");
@@ -28,7 +28,7 @@ fn a_measured_normal_is_that_of_a_plane() {
 #[test]
 fn a_curved_surface_is_approached_along_its_normal() {
     let radius = 0.05;
-    let ball = soft().shaped(Shape {
+    let ball = soft().with_shape(Shape {
         normal: Vec3::z(),
         radius: Some(radius),
     });
@@ -37,7 +37,7 @@ fn a_curved_surface_is_approached_along_its_normal() {
         let mut rig = rig(ball.clone(), RigSettings::default(), 1);
         rig.go_to(&place, &mut |_| true).unwrap();
         if measures {
-            assert_eq!(rig.measure_normal(&mut |_| true).unwrap(), Ended::Whole);
+            assert_eq!(rig.measure_normal(&mut |_| true).unwrap(), Ended::Complete);
         }
         rig.approach(&mut |_| true).unwrap();
         let mut last: Vec<RigSample> = Vec::new();

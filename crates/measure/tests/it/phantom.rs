@@ -57,7 +57,7 @@ fn the_tuned_preset_tracks_sines() {
             &Vec3::zeros(),
             imperfections,
         )
-        .touched_by(Box::new(tissue));
+        .with_contact(Box::new(tissue));
         let omega = TAU * frequency;
         let mut pid = Pid::new(PidGains::tuned());
         let law = move |state: &DeviceState, dt: f64| {
@@ -180,7 +180,7 @@ fn largest_stiffness(flexible: bool, friction: f64, knock: f64) -> f64 {
             let knocked = if state.time < 0.05 { knock } else { 0.0 };
             knocked - stiffness * state.position.x
         };
-        let samples = run(device.touched_by(Box::new(hand)), law, 1500);
+        let samples = run(device.with_contact(Box::new(hand)), law, 1500);
         let largest = |from: usize, to: usize| {
             let places = samples[from..to].iter();
             places.map(|s| s.state.position.x.abs()).fold(0.0, f64::max)

@@ -60,7 +60,7 @@ impl Mechanics for OnTable {
 }
 
 fn pressed(mut rig: Rig) -> Result<Vec<RigSample>, Error> {
-    assert_eq!(rig.approach(&mut |_| true)?, Ended::Whole);
+    assert_eq!(rig.approach(&mut |_| true)?, Ended::Complete);
     let mut samples = Vec::new();
     rig.press(&usual(), &mut |sample| {
         samples.push(*sample);
@@ -110,7 +110,7 @@ fn displayed_tissue_is_recorded_as_touched_tissue() {
 #[test]
 fn a_loss_ends_it_with_its_name() {
     let lost = Imperfections {
-        lost_at: 3.0,
+        disconnect_time: 3.0,
         ..Imperfections::premium()
     };
     let error = on_table(lost).approach(&mut |_| true).unwrap_err();
@@ -145,7 +145,7 @@ fn a_fault_of_a_service_ends_it_with_its_name() {
     let error = rig.approach(&mut |_| {
         ticks += 1;
         if ticks == 1000 {
-            service.misbehave(Some(Misbehaviour::Vanishes));
+            service.misbehave(Some(Misbehaviour::DevicesMissing));
         }
         true
     });
@@ -209,7 +209,7 @@ fn a_rig_keeps_the_walls_of_its_device() {
     let mut rig = Rig::on(Box::new(device), soft(), RigSettings::default(), clock, 7).unwrap();
     let mut highest: f64 = 0.0;
     for _ in 0..700 {
-        rig.limp(&mut |sample| {
+        rig.tick_without_force(&mut |sample| {
             highest = highest.max(sample.height);
             true
         })

@@ -79,7 +79,7 @@ fn over_tissue() -> (Rig, Wire) {
     };
     let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
     let device = VirtualPhantom::with_axes(machine, &Vec3::zeros(), Imperfections::premium())
-        .touched_by(Box::new(touch));
+        .with_contact(Box::new(touch));
     let sensor = OnWire {
         wire: wire.clone(),
         spec: ForceSensorSpec {
@@ -100,7 +100,7 @@ fn over_tissue() -> (Rig, Wire) {
 }
 
 fn peak(rig: &mut Rig) -> f64 {
-    assert_eq!(rig.approach(&mut |_| true).unwrap(), Ended::Whole);
+    assert_eq!(rig.approach(&mut |_| true).unwrap(), Ended::Complete);
     let mut peak = 0.0_f64;
     rig.press(&usual(), &mut |sample| {
         peak = peak.max(sample.force);
@@ -140,7 +140,7 @@ fn a_fault_of_the_sensor_withdraws_and_is_recorded() {
         let file = folder.path().join("one.csv");
         let mut recorder = Recorder::begin(&file, &rig.describe(&usual(), 1), Axes::Six).unwrap();
         let (mut pressed, mut all) = (0, Vec::<RigSample>::new());
-        let ended = rig.press_and_tell(&usual(), &mut |sample| {
+        let ended = rig.press_with_listener(&usual(), &mut |sample| {
             all.push(*sample);
             if sample.phase == Phase::Pressing {
                 pressed += 1;
@@ -177,12 +177,12 @@ fn a_fault_of_the_sensor_withdraws_and_is_recorded() {
                 heights.push(sample.height);
                 true
             });
-            assert_eq!(waited, Ok(Ended::Whole));
+            assert_eq!(waited, Ok(Ended::Complete));
         }
         let high = heights.iter().copied().fold(f64::INFINITY, f64::min);
         assert_eq!(rig.approach(&mut |_| true), Err(Error::Sensor(fault)));
         assert!(high > after[0].height, "{fault:?}");
         wire.lock().unwrap().1 = None;
-        assert_eq!(rig.approach(&mut |_| true), Ok(Ended::Whole));
+        assert_eq!(rig.approach(&mut |_| true), Ok(Ended::Complete));
     }
 }

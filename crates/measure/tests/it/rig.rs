@@ -63,13 +63,13 @@ pub(crate) fn usual() -> DepthTrajectory {
 
 fn pressed(seed: u64) -> Vec<RigSample> {
     let mut rig = rig(soft(), RigSettings::default(), seed);
-    assert_eq!(rig.approach(&mut |_| true).unwrap(), Ended::Whole);
+    assert_eq!(rig.approach(&mut |_| true).unwrap(), Ended::Complete);
     let mut samples = Vec::new();
     let ended = rig.press(&usual(), &mut |sample| {
         samples.push(*sample);
         true
     });
-    assert_eq!(ended.unwrap(), Ended::Whole);
+    assert_eq!(ended.unwrap(), Ended::Complete);
     samples
 }
 
@@ -108,7 +108,7 @@ fn limits_hold() {
     assert!(matches!(settings.check(&fast), Err(Error::TooFast { .. })));
     assert!(matches!(
         settings.check(&usual()),
-        Err(Error::OutOfBreath { .. })
+        Err(Error::BreathHoldTooShort { .. })
     ));
     // Hours of it would be kept in memory and never end.
     let endless = ramp(4e-3, 2.0, 1e300);
@@ -215,7 +215,7 @@ fn tissue_breathes_under_an_indenter_that_waits_above() {
         })
         .unwrap();
         let mut largest = 0.0_f64;
-        rig.press_and_tell(&usual(), &mut |sample| {
+        rig.press_with_listener(&usual(), &mut |sample| {
             largest = largest.max(sample.force);
             true
         })

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use palpate_measure::live::{ConsoleEvent, LiveRig};
 use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass, VirtualPhantom};
 use palpate_measure::{Rig, RigSettings};
-use palpate_servo::supervisor::SILENCE;
+use palpate_servo::supervisor::REPORT_TIMEOUT;
 use palpate_servo::{Capabilities, Clock, Command, Device, DeviceState, Disabled, Fault, Vec3};
 
 use crate::rig::soft;
@@ -56,7 +56,7 @@ impl Pressed {
         let device = VirtualPhantom::with_axes(machine, &Vec3::zeros(), Imperfections::none());
         let (force, hangs) = (Arc::<AtomicU64>::default(), Arc::<AtomicBool>::default());
         let device = Heavy {
-            device: device.touched_by(Box::new(weight)),
+            device: device.with_contact(Box::new(weight)),
             force: force.clone(),
             hangs: hangs.clone(),
         };
@@ -119,7 +119,9 @@ fn an_emergency_stop_a_signal_and_a_lost_window_leave_no_force() {
 #[test]
 fn a_silent_window_of_the_rig_leaves_no_force() {
     let pressed = Pressed::new(|| false);
-    let silent = Fault::ProgramSilent { limit: SILENCE };
+    let silent = Fault::ProgramSilent {
+        limit: REPORT_TIMEOUT,
+    };
     let begun = Instant::now();
     // A machine that is busy elsewhere takes forces off before.
     loop {
@@ -133,7 +135,10 @@ fn a_silent_window_of_the_rig_leaves_no_force() {
         }
         println!("zero after {:?}", since.elapsed());
         let why = std::iter::from_fn(|| {
-            let news = pressed.live.news.recv_timeout(Duration::from_millis(100));
+            let news = pressed
+                .live
+                .console_events
+                .recv_timeout(Duration::from_millis(100));
             news.ok()
         });
         if why.filter_map(fault_of).last() == Some(silent) {

@@ -14,7 +14,7 @@ pub(crate) fn tilted(degrees: f64) -> Vec3 {
 }
 
 pub(crate) fn plane(degrees: f64) -> VirtualSpecimen {
-    soft().shaped(Shape {
+    soft().with_shape(Shape {
         normal: tilted(degrees),
         radius: None,
     })
@@ -22,7 +22,7 @@ pub(crate) fn plane(degrees: f64) -> VirtualSpecimen {
 
 /// The mean over the last fifth of a second of a stimulus.
 fn last_of(rig: &mut Rig) -> (f64, ForceTorque) {
-    assert_eq!(rig.approach(&mut |_| true).unwrap(), Ended::Whole);
+    assert_eq!(rig.approach(&mut |_| true).unwrap(), Ended::Complete);
     let mut samples: Vec<RigSample> = Vec::new();
     rig.press(&usual(), &mut |sample| {
         samples.push(*sample);

@@ -106,7 +106,7 @@ impl BoundaryProblem<'_> {
         let solved = self.fill(&influences, &fixed, system, &mut parts, progress);
         match solved {
             ControlFlow::Continue(()) => SurfaceResponse::new(parts),
-            ControlFlow::Break(()) => Err(Error::BrokenOff),
+            ControlFlow::Break(()) => Err(Error::Cancelled),
         }
     }
 
@@ -213,7 +213,7 @@ pub(crate) fn fixed_triangles(
     }
     let both = touchable.iter().filter(|t| is_fixed[t.index()]).count();
     if both > 0 {
-        return Err(Error::TouchableIsHeld { triangles: both });
+        return Err(Error::TouchableIsFixed { triangles: both });
     }
     Ok(is_fixed)
 }

@@ -7,13 +7,13 @@ use crate::Vec3;
 
 /// Points that are embedded in a coarse surface. Their weights are computed once.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Carrier {
+pub struct EmbeddedDisplayPoints {
     places: Vec<Vec3>,
     normals: Vec<Vec3>,
     weights: Weights,
 }
 
-impl Carrier {
+impl EmbeddedDisplayPoints {
     /// The vertices of the coarse surface itself.
     pub fn of_vertices(interpolation: &Interpolation) -> Self {
         let surface = interpolation.surface();
@@ -50,8 +50,8 @@ impl Carrier {
     /// Displacements of the points [m]. Allocates nothing.
     ///
     /// # Panics
-    /// When `displacements` has not the length of [`Carrier::places`].
-    pub fn carry(&self, field: &SurfaceField, displacements: &mut [Vec3]) {
+    /// When `displacements` has not the length of [`EmbeddedDisplayPoints::places`].
+    pub fn interpolate(&self, field: &SurfaceField, displacements: &mut [Vec3]) {
         assert_eq!(displacements.len(), self.places.len(), "one per point");
         for (row, displacement) in displacements.iter_mut().enumerate() {
             *displacement = field.at(&self.places[row], &self.normals[row], &self.weights, row);

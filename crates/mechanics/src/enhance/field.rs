@@ -18,17 +18,17 @@ pub struct SurfaceField {
 
 impl SurfaceField {
     /// Zero, with room for `presses` at a time, which then allocate nothing.
-    pub fn with_room(interpolation: &Interpolation, presses: usize) -> Self {
+    pub fn with_capacity(interpolation: &Interpolation, presses: usize) -> Self {
         Self {
             residual: Vec::with_capacity(interpolation.nodes().len()),
             dimples: Vec::with_capacity(presses),
-            rows: Weights::with_room(presses, presses * interpolation.longest_row()),
+            rows: Weights::with_capacity(presses, presses * interpolation.longest_row()),
         }
     }
 
     /// Takes the `displacements` of all centroids [m] and the `presses` that made them. With these the
     /// surface touches its tips; without, the displacements are only spread, and the dimple is shallower.
-    /// Allocates nothing where there is room: see [`SurfaceField::with_room`].
+    /// Allocates nothing where there is room: see [`SurfaceField::with_capacity`].
     ///
     /// # Panics
     /// When there are not as many displacements as triangles.

@@ -30,11 +30,11 @@ mod pn_triangle;
 mod press;
 mod weights;
 
-pub use carrier::Carrier;
+pub use carrier::EmbeddedDisplayPoints;
 pub use field::SurfaceField;
 pub use functions::{moving_least_squares, shepard};
 pub use interpolation::{Interpolation, SurfacePoint};
-pub use model::{EnhancementModel, MOST_LEVELS};
+pub use model::{EnhancementModel, MAX_LEVELS};
 pub use neighborhood::Neighborhood;
 pub use patch::EnhancedPatch;
 pub use press::{Press, profile};

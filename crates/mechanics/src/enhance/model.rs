@@ -1,13 +1,13 @@
 use palpate_files::scene::Enhancement;
 use palpate_geometry::{AabbTree, Surface};
 
-use super::carrier::Carrier;
+use super::carrier::EmbeddedDisplayPoints;
 use super::corner_normals::CornerNormals;
 use super::interpolation::{Interpolation, SurfacePoint};
 use crate::{Error, Vec3};
 
 /// More subdivisions would make more than 4096 triangles of one.
-pub const MOST_LEVELS: usize = 6;
+pub const MAX_LEVELS: usize = 6;
 
 /// A coarse surface, the displayed one, and the settings of the enhancement.
 #[derive(Debug, Clone)]
@@ -24,7 +24,7 @@ impl EnhancementModel {
     /// For the coarse `surface`, which is displayed.
     ///
     /// # Errors
-    /// When there are more than [`MOST_LEVELS`].
+    /// When there are more than [`MAX_LEVELS`].
     pub fn new(surface: Surface, settings: Enhancement) -> Result<Self, Error> {
         let normals = CornerNormals::new(&surface);
         let interpolation = Interpolation::new(surface, settings.smoothing);
@@ -34,8 +34,8 @@ impl EnhancementModel {
     /// For a coarse surface that carries `finer`, which is displayed.
     ///
     /// # Errors
-    /// When there are more than [`MOST_LEVELS`].
-    pub fn carrying(
+    /// When there are more than [`MAX_LEVELS`].
+    pub fn with_display_mesh(
         finer: Surface,
         surface: Surface,
         settings: Enhancement,
@@ -49,7 +49,7 @@ impl EnhancementModel {
     /// The same surfaces, enhanced otherwise.
     ///
     /// # Errors
-    /// When there are more than [`MOST_LEVELS`].
+    /// When there are more than [`MAX_LEVELS`].
     pub fn with_settings(&self, settings: Enhancement) -> Result<Self, Error> {
         let interpolation = self.interpolation.with_smoothing(settings.smoothing);
         let (finer, normals) = (self.finer.clone(), self.normals.clone());
@@ -62,7 +62,7 @@ impl EnhancementModel {
         normals: CornerNormals,
         settings: Enhancement,
     ) -> Result<Self, Error> {
-        if settings.levels > MOST_LEVELS {
+        if settings.levels > MAX_LEVELS {
             return Err(Error::TooManyLevels {
                 levels: settings.levels,
             });
@@ -89,7 +89,7 @@ impl EnhancementModel {
     }
 
     /// Whether the displayed surface is finer than the coarse one.
-    pub fn is_finer(&self) -> bool {
+    pub fn has_finer_display(&self) -> bool {
         self.finer.is_some()
     }
 
@@ -99,10 +99,10 @@ impl EnhancementModel {
     }
 
     /// All displayed vertices.
-    pub fn carrier(&self) -> Carrier {
+    pub fn carrier(&self) -> EmbeddedDisplayPoints {
         match &self.finer {
-            Some((finer, _)) => Carrier::of_surface(&self.interpolation, finer),
-            None => Carrier::of_vertices(&self.interpolation),
+            Some((finer, _)) => EmbeddedDisplayPoints::of_surface(&self.interpolation, finer),
+            None => EmbeddedDisplayPoints::of_vertices(&self.interpolation),
         }
     }
 

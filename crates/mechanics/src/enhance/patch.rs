@@ -1,6 +1,6 @@
 use palpate_geometry::{NodeId, TriangleId, TriangleMesh, closest_on_triangle};
 
-use super::carrier::Carrier;
+use super::carrier::EmbeddedDisplayPoints;
 use super::field::SurfaceField;
 use super::interpolation::SurfacePoint;
 use super::model::EnhancementModel;
@@ -18,7 +18,7 @@ pub struct EnhancedPatch {
     neighborhood: Neighborhood,
     corners: Vec<NodeId>,
     sites: Vec<SurfacePoint>,
-    carrier: Carrier,
+    carrier: EmbeddedDisplayPoints,
     triangles: Vec<[u32; 3]>,
     cuts: Vec<Cut>,
 }
@@ -102,7 +102,7 @@ impl EnhancedPatch {
     /// # Panics
     /// When `displacements` has not the length of [`EnhancedPatch::places`].
     pub fn displace(&self, field: &SurfaceField, displacements: &mut [Vec3]) {
-        self.carrier.carry(field, displacements);
+        self.carrier.interpolate(field, displacements);
     }
 
     /// The seen mesh with the patch in it, whose points are at `places` [m]: its vertices keep their numbers

@@ -13,7 +13,7 @@ pub struct Weights {
 
 impl Weights {
     /// Empty, with room for so many rows of so many `weights` together.
-    pub(super) fn with_room(rows: usize, weights: usize) -> Self {
+    pub(super) fn with_capacity(rows: usize, weights: usize) -> Self {
         Self {
             ends: Vec::with_capacity(rows),
             triangles: Vec::with_capacity(weights),

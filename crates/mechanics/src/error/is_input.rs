@@ -12,7 +12,7 @@ impl Error {
             | Self::NoSolid { .. }
             | Self::NoMemory { .. }
             | Self::NotEnoughMemory { .. }
-            | Self::BrokenOff
+            | Self::Cancelled
             | Self::NotInEquilibrium { .. } => false,
             Self::YoungsModulusOutOfRange { .. }
             | Self::PoissonsRatioOutOfRange { .. }
@@ -33,7 +33,7 @@ impl Error {
             | Self::Locking { .. }
             | Self::TubeOutOfRange { .. }
             | Self::PressureOutOfRange { .. }
-            | Self::Balloons { .. }
+            | Self::LimitPointExceeded { .. }
             | Self::BlockTooSmall { .. }
             | Self::TissueEntersPunch { .. }
             | Self::SurfaceFolds { .. }
@@ -44,7 +44,7 @@ impl Error {
             | Self::PatchReachesBase { .. }
             | Self::StretchOutOfRange { .. }
             | Self::NothingFixed
-            | Self::LoosePiece { .. }
+            | Self::UnfixedPiece { .. }
             | Self::PatchOffSurface { .. }
             | Self::PatchCoversBody { .. }
             | Self::EmptyPatch { .. }
@@ -54,15 +54,15 @@ impl Error {
             | Self::PunchOutOfRange { .. }
             | Self::TubeDepthOutOfRange { .. }
             | Self::GuidedEnds
-            | Self::TouchableIsHeld { .. }
+            | Self::TouchableIsFixed { .. }
             | Self::SliverTriangle { .. }
-            | Self::UnsoundResponse { .. }
-            | Self::SlitIsFull { .. }
+            | Self::InvalidResponse { .. }
+            | Self::SlitTooLarge { .. }
             | Self::TriangleOutOfRange { .. }
             | Self::TouchableNotAscending { .. }
             | Self::NothingTouchable
             | Self::OtherSurface { .. }
-            | Self::UnsoundSlit { .. }
+            | Self::InvalidSlit { .. }
             | Self::Region(_)
             | Self::Fibres(_)
             | Self::Solid(_) => true,

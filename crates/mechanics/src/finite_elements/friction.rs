@@ -156,8 +156,8 @@ mod tests {
         };
         let axis = model.mesh().nodes_where(|x| x.x == 0.0);
         let bottom = [0.0, 0.15, 0.3, 0.5, 0.7, 0.85, 1.0].map(|r| at(r, 0.0));
-        let mut supports = Supports::none(&model).hold(&model, axis, 0, 0.0);
-        supports = supports.hold(&model, bottom, 1, 0.0);
+        let mut supports = Supports::none(&model).fix(&model, axis, 0, 0.0);
+        supports = supports.fix(&model, bottom, 1, 0.0);
         let sphere = RigidSurface::Revolved {
             shape: RigidShape::Sphere { radius: 2.0 },
             height: 1.95,

@@ -59,7 +59,7 @@ impl SolverControls {
         accept_larger_residual: true,
     };
     /// For an attempt that a shorter one may follow.
-    pub(super) const TRY: Self = Self {
+    pub(super) const ATTEMPT: Self = Self {
         iterations: 10,
         shortest: 1.0 / 4.0,
         accept_larger_residual: false,

@@ -48,7 +48,7 @@ pub struct Path<'a> {
     arcs: [f64; 2],
 }
 
-const MOST_ITERATIONS: usize = 10;
+const MAX_ITERATIONS: usize = 10;
 /// Iterations that a step should take.
 const EASY: f64 = 4.0;
 /// Least cosine between the directions at both ends of a step [-].
@@ -268,7 +268,7 @@ impl<'a> Path<'a> {
     ) -> Result<(PathPoint, usize), Failure> {
         let count = self.model.displacements();
         let (mut factor, mut state) = guess;
-        for iteration in 1..=MOST_ITERATIONS {
+        for iteration in 1..=MAX_ITERATIONS {
             let loads = scaled(&self.loads, factor);
             newton::assemble(self.model, &loads, &state.unknowns, &mut self.workspace)?;
             self.workspace.trial.copy_from_slice(&state.unknowns);

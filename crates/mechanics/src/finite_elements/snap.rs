@@ -32,7 +32,7 @@ const GROWTH: f64 = 10.0;
 /// Parts of an iteration's step that are tried [-].
 const PARTS: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 0.0625];
 /// Solutions of the linear system.
-const MOST_ITERATIONS: usize = 400;
+const MAX_ITERATIONS: usize = 400;
 /// Weight w of the error of volume relative to energy [-].
 const VOLUME: f64 = 10.0;
 
@@ -68,7 +68,7 @@ pub(super) fn equilibrate_downhill(
                 workspace.tangent[place] += (damping - there) * stiffness;
             }
             there = damping;
-            if iterations == MOST_ITERATIONS {
+            if iterations == MAX_ITERATIONS {
                 return Err(Failure::NotConverged);
             }
             iterations += 1;

@@ -123,7 +123,7 @@ impl<'a> Supports<'a> {
 
     /// Fixes the component `axis` of `nodes` at the displacement `at` [m]. For a node or a component that the model
     /// does not have, the solver returns an error.
-    pub fn hold(
+    pub fn fix(
         mut self,
         model: &FiniteElementModel,
         nodes: impl IntoIterator<Item = usize>,

@@ -184,9 +184,9 @@ impl Calibration {
             if compliance >= least {
                 return compliance;
             }
-            let asked = half_spaces(STIFFEST * least / compliance);
+            let unbounded = half_spaces(STIFFEST * least / compliance);
             let used = STIFFEST;
-            limits.add(limit, Reached { asked, used });
+            limits.add(limit, Reached { unbounded, used });
             least
         };
         let own = 1.0 / (self.half_space * radius);
@@ -229,9 +229,9 @@ impl Calibration {
         let mut normal = inside + outside;
         let least = 1.0 / (STIFFEST * self.half_space * radius);
         if normal < least {
-            let asked = half_spaces(STIFFEST * least / normal);
+            let unbounded = half_spaces(STIFFEST * least / normal);
             let used = STIFFEST;
-            limits.add(Limit::LocalStiffness, Reached { asked, used });
+            limits.add(Limit::LocalStiffness, Reached { unbounded, used });
             normal = least;
         }
         let mut stiffness = Matrix3::zeros();
@@ -251,9 +251,9 @@ impl Calibration {
                 // As above: not stiffer than the expansion means.
                 let least = -0.5 / along.norm();
                 if beyond < least {
-                    let asked = half_spaces(1.0 / (1.0 - 0.5 * beyond / least));
+                    let unbounded = half_spaces(1.0 / (1.0 - 0.5 * beyond / least));
                     let used = 2.0;
-                    limits.add(Limit::LocalShearStiffness, Reached { asked, used });
+                    limits.add(Limit::LocalShearStiffness, Reached { unbounded, used });
                     beyond = least;
                 }
                 // (along⁻¹ + c 1)⁻¹ = (1 + c along)⁻¹ along, which needs no inverse of `along`. The sum is

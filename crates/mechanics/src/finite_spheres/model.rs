@@ -352,9 +352,9 @@ impl FiniteSphereModel {
     fn flattened(&self, contact: &LocalContact) -> Option<Reached> {
         let in_spacings = contact.curvature * self.spacing(contact.radius);
         let factor = CapShape::gentler(&in_spacings, self.layout.shells);
-        let asked = CapShape::largest_principal(&contact.curvature);
-        let used = asked * factor;
-        (factor < 1.0).then_some(Reached { asked, used })
+        let unbounded = CapShape::largest_principal(&contact.curvature);
+        let used = unbounded * factor;
+        (factor < 1.0).then_some(Reached { unbounded, used })
     }
 
     fn fill_reuse_table(&mut self, workspace: &mut FiniteSphereWorkspace) {

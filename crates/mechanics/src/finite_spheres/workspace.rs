@@ -74,9 +74,10 @@ impl FiniteSphereWorkspace {
     /// Where iterations did not reach their tolerance in the last solution: both [-].
     pub(super) fn not_converged(&self) -> Option<Reached> {
         match (self.solved, &self.gmres) {
-            (Solved::InPlaceOfIterations(asked), Some((_, used))) => {
-                Some(Reached { asked, used: *used })
-            }
+            (Solved::InPlaceOfIterations(unbounded), Some((_, used))) => Some(Reached {
+                unbounded,
+                used: *used,
+            }),
             _ => None,
         }
     }

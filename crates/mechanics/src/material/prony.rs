@@ -142,7 +142,7 @@ impl ForceHistory {
 
     /// The share γ [-] and the history [N] of the relaxed force γ Fₑ − history that [`Self::advance`] will find for any elastic
     /// force Fₑ at the end of a `step` [s].
-    pub fn foresee(&self, series: &PronySeries, step: f64) -> (f64, Vec3) {
+    pub fn predict(&self, series: &PronySeries, step: f64) -> (f64, Vec3) {
         let (mut follows, mut history) = (1.0, Vec3::zeros());
         for (branch, share) in self.branches.iter().zip(series.shares(step)) {
             follows -= share.g * share.new;
@@ -164,7 +164,7 @@ impl ForceHistory {
     }
 
     /// Keeps only the part of the history along the unit vector `direction` [-].
-    pub fn keep_along(&mut self, direction: &Vec3) {
+    pub fn project_onto(&mut self, direction: &Vec3) {
         for force in self.branches.iter_mut().chain([&mut self.elastic]) {
             *force = direction * direction.dot(force);
         }

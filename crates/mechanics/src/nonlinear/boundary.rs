@@ -187,7 +187,7 @@ impl Boundary {
 
 impl SpreadLoad {
     /// Room for loads on any of `nodes` nodes and `faces` faces.
-    pub(super) fn with_room(nodes: usize, faces: usize) -> Self {
+    pub(super) fn with_capacity(nodes: usize, faces: usize) -> Self {
         Self {
             nodes: Vec::with_capacity(nodes),
             place: Vec3::zeros(),

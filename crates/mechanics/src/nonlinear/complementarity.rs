@@ -11,7 +11,7 @@
 const PATIENCE: u32 = 3;
 
 /// Solutions to try: a handful is the rule, and single pivots may need more than a step has time for.
-const MOST_SOLUTIONS: usize = 50;
+const MAX_SOLUTIONS: usize = 50;
 
 /// Tolerance of zero, over the largest entry [-].
 const ZERO: f64 = 1e-9;
@@ -79,7 +79,7 @@ impl Complementarity {
             }
         }
         let (mut fewest, mut patience) = (count + 1, PATIENCE);
-        for _ in 0..MOST_SOLUTIONS {
+        for _ in 0..MAX_SOLUTIONS {
             if !self.factor(count) {
                 self.x[..count].fill(0.0);
                 return false;

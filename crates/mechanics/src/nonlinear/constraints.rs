@@ -4,21 +4,21 @@
 //! The active contacts are found once in a step, with the forces of the tools, by the compliance of the body at rest, turned with
 //! the body ([`Complementarity`]); the conjugate gradients are projected onto these conditions. Forces and active contacts are
 //! found once more at the end, without moving the body. Active contacts have columns of Z, up to
-//! [`MOST_COLUMNS`]; with more of them, each projection takes a solution by the factors instead, which costs as much as
+//! [`MAX_COLUMNS`]; with more of them, each projection takes a solution by the factors instead, which costs as much as
 //! some ten columns.
 
 use nalgebra::Matrix3;
 
 use super::cavities::WallsInStep;
 use super::complementarity::Complementarity;
-use super::contact::{Contacts, MOST_CONTACTS, ROWS, UnilateralContact};
+use super::contact::{Contacts, MAX_CONTACTS, ROWS, UnilateralContact};
 use super::coupling::{Coupling, Rows, influence};
 use super::model::NonlinearModel;
 use super::state::{ContactHistory, NonlinearState};
 use crate::Vec3;
 
 /// Columns of Z of contacts: with more of them, four projections cost less by solutions.
-const MOST_COLUMNS: usize = 64;
+const MAX_COLUMNS: usize = 64;
 
 /// The body with the rotations of its nodes, which turn the factors.
 #[derive(Debug, Clone, Copy)]
@@ -32,7 +32,7 @@ pub(super) struct Turned<'a> {
 pub struct Conditions<'a> {
     /// Those of tools, one each; none of a tool that touches nothing.
     pub couplings: &'a [Option<Coupling<'a>>],
-    /// Half-spaces that points of the boundary stay out of; those beyond the first [`MOST_CONTACTS`] are left out.
+    /// Half-spaces that points of the boundary stay out of; those beyond the first [`MAX_CONTACTS`] are left out.
     pub contacts: &'a [UnilateralContact],
 }
 
@@ -75,7 +75,7 @@ pub(super) struct Constraints {
 
 impl Constraints {
     pub(super) fn new(model: &NonlinearModel, tools: usize) -> Self {
-        let rows = 3 * tools + model.walls.len() + ROWS * MOST_CONTACTS;
+        let rows = 3 * tools + model.walls.len() + ROWS * MAX_CONTACTS;
         let size = 3 * model.nodes().len();
         Self {
             tools: Rows::new(model, tools),
@@ -88,9 +88,9 @@ impl Constraints {
             violation: vec![0.0; rows],
             known: vec![0.0; rows],
             slid: vec![0.0; rows],
-            new_contacts: Vec::with_capacity(MOST_CONTACTS),
-            with_columns: Vec::with_capacity(MOST_COLUMNS),
-            columns: vec![0.0; MOST_COLUMNS * size],
+            new_contacts: Vec::with_capacity(MAX_CONTACTS),
+            with_columns: Vec::with_capacity(MAX_COLUMNS),
+            columns: vec![0.0; MAX_COLUMNS * size],
             load: vec![0.0; size],
             displaced: vec![0.0; size],
             scratch: vec![0.0; model.rest.scratch()],
@@ -362,7 +362,7 @@ impl Constraints {
         let (first, size) = (self.bilateral(), self.load.len());
         let is_used = |row: usize| self.t[row] != 0.0 || self.problem.is_free(row);
         let used = (first..self.count()).filter(|&row| is_used(row));
-        if used.clone().count() <= MOST_COLUMNS {
+        if used.clone().count() <= MAX_COLUMNS {
             self.with_columns.extend(used.map(|row| row - first));
         }
         let columns = self.columns.chunks_exact_mut(size);

@@ -31,7 +31,7 @@ use crate::Vec3;
 use crate::finite_elements::solid::Face;
 
 /// Contacts of a step, at most.
-pub const MOST_CONTACTS: usize = 192;
+pub const MAX_CONTACTS: usize = 192;
 
 /// Points of a face in barycentric coordinates: one of these, and two of the other [-].
 const NEAR: f64 = 2.0 / 3.0;
@@ -46,7 +46,7 @@ pub(super) const ROWS: usize = 3;
 
 /// Nodes of a point or a place of a face, and of both.
 pub(super) const NODES: usize = 6;
-const MOST_NODES: usize = 2 * NODES;
+const MAX_NODES: usize = 2 * NODES;
 const NOWHERE: u32 = u32::MAX;
 
 /// Points of a face that may touch tools: a few, then more in their place where a tool is slender.
@@ -67,7 +67,7 @@ pub struct BoundaryPoint {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Against {
     /// A fixed body.
-    Still,
+    Fixed,
     /// A tool, where it is at the end of the step.
     Tool {
         /// Its number.
@@ -99,7 +99,7 @@ impl UnilateralContact {
     pub(super) fn slot(&self, model: &NonlinearModel) -> usize {
         let points = model.boundary_points().len();
         let first = match self.against {
-            Against::Still => 0,
+            Against::Fixed => 0,
             Against::Boundary(_) => points,
             Against::Tool { number, .. } => 2 * points + number * model.tool_points().len(),
         };
@@ -218,7 +218,7 @@ pub(super) struct Contact {
     pub(super) slot: usize,
     /// c [m/N].
     pub(super) compliance: f64,
-    nodes: [(u32, f64); MOST_NODES],
+    nodes: [(u32, f64); MAX_NODES],
     /// Whether the half-space goes with a place of the boundary, whose nodes are the second half.
     pub(super) is_between: bool,
     pub(super) normal: Vec3,
@@ -230,11 +230,11 @@ pub(super) struct Contact {
 impl Contact {
     fn new(model: &NonlinearModel, contact: &UnilateralContact) -> Self {
         let points = match contact.against {
-            Against::Still | Against::Boundary(_) => model.boundary_points(),
+            Against::Fixed | Against::Boundary(_) => model.boundary_points(),
             Against::Tool { .. } => model.tool_points(),
         };
         let point = &points[contact.point as usize];
-        let mut nodes = [(0, 0.0); MOST_NODES];
+        let mut nodes = [(0, 0.0); MAX_NODES];
         nodes[..NODES].copy_from_slice(&point.nodes);
         if let Against::Boundary(opposite) = contact.against {
             for (own, (node, weight)) in nodes[NODES..].iter_mut().zip(opposite) {
@@ -250,14 +250,14 @@ impl Contact {
             offset: contact.offset,
             motion: match contact.against {
                 Against::Tool { motion, .. } => motion,
-                Against::Still | Against::Boundary(_) => Vec3::zeros(),
+                Against::Fixed | Against::Boundary(_) => Vec3::zeros(),
             },
         }
     }
 
     /// With their weights [-].
     pub(super) fn nodes(&self) -> &[(u32, f64)] {
-        let count = if self.is_between { MOST_NODES } else { NODES };
+        let count = if self.is_between { MAX_NODES } else { NODES };
         &self.nodes[..count]
     }
 
@@ -312,11 +312,11 @@ fn tangents(normal: &Vec3) -> [Vec3; 2] {
 impl Contacts {
     pub(super) fn new(nodes: usize) -> Self {
         Self {
-            listed: Vec::with_capacity(ROWS * MOST_CONTACTS),
-            frictional: Vec::with_capacity(MOST_CONTACTS),
-            nodes: Vec::with_capacity(MOST_NODES * MOST_CONTACTS),
+            listed: Vec::with_capacity(ROWS * MAX_CONTACTS),
+            frictional: Vec::with_capacity(MAX_CONTACTS),
+            nodes: Vec::with_capacity(MAX_NODES * MAX_CONTACTS),
             places: vec![NOWHERE; nodes],
-            columns: Vec::with_capacity(MOST_NODES * MOST_CONTACTS * ROWS * MOST_CONTACTS),
+            columns: Vec::with_capacity(MAX_NODES * MAX_CONTACTS * ROWS * MAX_CONTACTS),
         }
     }
 
@@ -325,7 +325,7 @@ impl Contacts {
         self.listed.len() - 2 * self.frictional.len()
     }
 
-    /// Lists the `contacts`, the first [`MOST_CONTACTS`] of them, and finds what a force on each moves.
+    /// Lists the `contacts`, the first [`MAX_CONTACTS`] of them, and finds what a force on each moves.
     pub(super) fn prepare(
         &mut self,
         body: Turned<'_>,
@@ -335,7 +335,7 @@ impl Contacts {
         let Turned { model, rotations } = body;
         self.listed.clear();
         self.frictional.clear();
-        let contacts = &contacts[..contacts.len().min(MOST_CONTACTS)];
+        let contacts = &contacts[..contacts.len().min(MAX_CONTACTS)];
         let listed = contacts.iter().map(|contact| Contact::new(model, contact));
         self.listed.extend(listed);
         for (normal, contact) in contacts.iter().enumerate() {

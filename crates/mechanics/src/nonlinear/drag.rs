@@ -31,16 +31,16 @@ impl Drag {
     /// tetrahedron.
     pub(super) fn new(mesh: &TetrahedronMesh, elements: &[u32], is_fixed: &[bool]) -> Self {
         let pieces = mesh.pieces();
-        let mut is_held = vec![false; pieces.iter().max().map_or(0, |last| last + 1)];
+        let mut has_fixed_node = vec![false; pieces.iter().max().map_or(0, |last| last + 1)];
         for (piece, nodes) in pieces.iter().zip(elements.chunks_exact(NODES)) {
-            is_held[*piece] |= nodes.iter().any(|node| is_fixed[*node as usize]);
+            has_fixed_node[*piece] |= nodes.iter().any(|node| is_fixed[*node as usize]);
         }
         let mut count = 0;
-        let mut number = |held: &bool| {
-            count += usize::from(!held);
-            if *held { 0 } else { count as u32 }
+        let mut number = |is_fixed: &bool| {
+            count += usize::from(!is_fixed);
+            if *is_fixed { 0 } else { count as u32 }
         };
-        let numbers: Vec<u32> = is_held.iter().map(&mut number).collect();
+        let numbers: Vec<u32> = has_fixed_node.iter().map(&mut number).collect();
         if count == 0 {
             return Self::default();
         }

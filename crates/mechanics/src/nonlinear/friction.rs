@@ -3,7 +3,7 @@
 //! With a guess of which points slide, and with what forces along the surface, the rest is a problem of complementarity: a
 //! point that sticks is bilateral in both directions. From its solution a few sweeps of projected Gauss-Seidel over all
 //! rows [Jean 1999] determine which points slide and with what forces; this is repeated until nothing changes, at most
-//! [`MOST_TRIALS`] times. Then the forces along the surface are cut to the cone, which they never leave.
+//! [`MAX_TRIALS`] times. Then the forces along the surface are cut to the cone, which they never leave.
 
 use super::complementarity::Kind;
 use super::constraints::Constraints;
@@ -12,7 +12,7 @@ use super::state::{ContactHistory, NonlinearState};
 use crate::Vec3;
 
 /// Problems of complementarity to solve: a few are the rule.
-const MOST_TRIALS: usize = 12;
+const MAX_TRIALS: usize = 12;
 
 /// Sweeps after each of them: each costs as much as a product with the matrix.
 const SWEEPS: usize = 10;
@@ -55,7 +55,7 @@ impl Constraints {
         for row in first..first + self.contacts.normals() {
             self.problem.active[row] = self.force[row] > 0.0;
         }
-        for _ in 0..MOST_TRIALS {
+        for _ in 0..MAX_TRIALS {
             for row in 0..count {
                 self.problem.q[row] = self.known[row] + self.slid_displacement(row);
             }

@@ -20,7 +20,7 @@ use crate::finite_elements::{ElementMesh, Mismatch};
 use crate::{Error, PronySeries, Vec3};
 
 /// Largest memory of the influences of the nodes that can be loaded [bytes].
-pub const MOST_INFLUENCE_BYTES: usize = 1 << 30;
+pub const MAX_INFLUENCE_BYTES: usize = 1 << 30;
 
 /// A node moves at most by this part of a mean edge in a step, in addition to the continued motion
 /// [-].
@@ -65,7 +65,7 @@ impl NonlinearModel {
     /// viscous fluid and has no weight.
     ///
     /// # Errors
-    /// When a list has another length, nothing is fixed, the influences need more than [`MOST_INFLUENCE_BYTES`], or
+    /// When a list has another length, nothing is fixed, the influences need more than [`MAX_INFLUENCE_BYTES`], or
     /// the stiffness at rest is not positive.
     pub fn new(
         mesh: &TetrahedronMesh,
@@ -115,10 +115,10 @@ impl NonlinearModel {
             .filter(|&node| can_be_loaded[node as usize] && !is_fixed[node as usize])
             .collect();
         let needed = 36 * list.len() * places.len();
-        if needed > MOST_INFLUENCE_BYTES {
+        if needed > MAX_INFLUENCE_BYTES {
             return Err(Error::NotEnoughMemory {
                 needed,
-                memory: MOST_INFLUENCE_BYTES,
+                memory: MAX_INFLUENCE_BYTES,
             });
         }
         let exact = Pack::<f64>::all(mesh, &numbers, moduli);
@@ -278,7 +278,7 @@ impl NonlinearModel {
 
     /// Room for a load on its boundary.
     pub fn spread_load(&self) -> SpreadLoad {
-        SpreadLoad::with_room(self.nodes.len(), self.boundary.areas().count())
+        SpreadLoad::with_capacity(self.nodes.len(), self.boundary.areas().count())
     }
 
     /// Embeds `points` [m] in the tetrahedra of a range.

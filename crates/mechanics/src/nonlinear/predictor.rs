@@ -7,7 +7,7 @@ use super::state::NonlinearState;
 use crate::Vec3;
 
 /// Largest factor with which the last displacement is continued or reversed [-].
-const MOST_CONTINUED: f64 = 1.5;
+const MAX_CONTINUED: f64 = 1.5;
 
 /// Continues the last motion as far as the tools continue their paths; returns whether there was one.
 pub(super) fn predict(
@@ -42,7 +42,7 @@ pub(super) fn predict(
     }
     // Friction depends on the way, which is not known yet.
     let part = if all_known && state.is_smooth && length > 0.0 && !state.has_friction() {
-        (along / length).clamp(-MOST_CONTINUED, MOST_CONTINUED)
+        (along / length).clamp(-MAX_CONTINUED, MAX_CONTINUED)
     } else {
         0.0
     };

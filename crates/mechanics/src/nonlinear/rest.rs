@@ -53,7 +53,7 @@ impl RestFactors {
                 })
             })
             .collect();
-        let no_factors = |_| Error::UnsoundResponse {
+        let no_factors = |_| Error::InvalidResponse {
             fault: "its stiffness has no factors",
         };
         let pattern = Pattern::new(unknowns, couplings(packs, &numbers));
@@ -69,7 +69,7 @@ impl RestFactors {
         let mut factors = Factors::new(&pattern).map_err(no_factors)?;
         factors.factor(&pattern, &values).map_err(no_factors)?;
         if factors.negative_eigenvalues() > 0 {
-            return Err(Error::UnsoundResponse {
+            return Err(Error::InvalidResponse {
                 fault: "its stiffness at rest is not positive",
             });
         }

@@ -4,7 +4,7 @@ use super::cavities::{Wall, WallLoad};
 use super::constraints::Conditions;
 use super::model::NonlinearModel;
 use super::state::{CavityHistory, NonlinearState};
-use super::step::{Pace, Workspace, advance};
+use super::step::{StepSettings, Workspace, advance};
 use crate::Error;
 use palpate_files::scene::CavityContent;
 
@@ -12,7 +12,7 @@ use palpate_files::scene::CavityContent;
 /// more than a part of the body's size [-].
 const PARTS: usize = 20;
 const STEPS: usize = 2;
-const MOST_STEPS: usize = 200;
+const MAX_STEPS: usize = 200;
 const SETTLED: f64 = 1e-7;
 
 /// Long enough for every tissue to have relaxed [s].
@@ -57,7 +57,7 @@ impl NonlinearModel {
                     CavityContent::Fluid(_) => Some(wall.filling.unwrap_or(volume / wall.at_rest)),
                     CavityContent::Pressure(_) => None,
                 };
-                state.cavities[number].hold(fills(wall).unwrap_or(0.0));
+                state.cavities[number].set_pressure(fills(wall).unwrap_or(0.0));
             }
         }
         let volumes: Vec<f64> = self
@@ -80,7 +80,7 @@ impl NonlinearModel {
         })?;
         for (own, wall) in state.cavities.iter_mut().zip(&self.walls) {
             if let WallLoad::Pressure(pressure) = wall.load {
-                own.hold(pressure);
+                own.set_pressure(pressure);
             }
         }
         state.stop();
@@ -95,24 +95,24 @@ impl NonlinearModel {
         workspace: &mut Workspace,
         at_part: impl Fn(&mut Self, f64),
     ) -> Result<(), Error> {
-        let pace = Pace {
+        let pace = StepSettings {
             iterations: 40,
             elapsed: LONG,
         };
         let first = self.nodes()[0];
         let size = self.nodes().iter().map(|node| (node - first).norm());
         let farthest = SETTLED * size.fold(0.0, f64::max);
-        for step in 1..=PARTS * STEPS + MOST_STEPS {
+        for step in 1..=PARTS * STEPS + MAX_STEPS {
             at_part(self, (step.div_ceil(STEPS) as f64 / PARTS as f64).min(1.0));
             let ended = advance(self, Conditions::of_tools(&[]), pace, state, workspace);
             if ended.was_reset {
                 break;
             }
-            if step > PARTS * STEPS && state.last_way() < farthest {
+            if step > PARTS * STEPS && state.last_motion() < farthest {
                 return Ok(());
             }
         }
-        Err(Error::UnsoundResponse {
+        Err(Error::InvalidResponse {
             fault: "it does not come to rest under its own weight and the pressures in it",
         })
     }

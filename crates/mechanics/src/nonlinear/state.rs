@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Rotation3};
 
-use super::contact::{FrictionState, MOST_CONTACTS, UnilateralContact};
+use super::contact::{FrictionState, MAX_CONTACTS, UnilateralContact};
 use super::coupling::Coupling;
 use super::model::NonlinearModel;
 use super::relaxation::{Relaxation, StressHistory};
@@ -98,7 +98,7 @@ impl CavityHistory {
     }
 
     /// Sets a constant pressure [Pa].
-    pub(super) fn hold(&mut self, pressure: f64) {
+    pub(super) fn set_pressure(&mut self, pressure: f64) {
         (self.pressure, self.before) = (pressure, pressure);
     }
 }
@@ -124,7 +124,7 @@ impl NonlinearState {
             cavities: vec![CavityHistory::default(); model.walls.len()],
             pressed: vec![0.0; 2 * model.boundary_points().len()],
             friction_states: vec![FrictionState::default(); 2 * model.boundary_points().len()],
-            on_tools: vec![ContactHistory::default(); MOST_CONTACTS],
+            on_tools: vec![ContactHistory::default(); MAX_CONTACTS],
             stress: model
                 .relaxation
                 .as_ref()
@@ -155,7 +155,7 @@ impl NonlinearState {
             self.rotations.fill(UNTURNED);
             self.stress.fill(StressHistory::default());
             for (own, wall) in self.cavities.iter_mut().zip(&model.walls) {
-                own.hold(wall.content.own_pressure());
+                own.set_pressure(wall.content.own_pressure());
             }
         }
         self.fading.fill(0.0);
@@ -209,7 +209,7 @@ impl NonlinearState {
         self.before.copy_from_slice(&self.displacements);
         self.earlier.copy_from_slice(&self.displacements);
         for own in &mut self.cavities {
-            own.hold(own.pressure);
+            own.set_pressure(own.pressure);
         }
     }
 
@@ -233,7 +233,7 @@ impl NonlinearState {
     }
 
     /// Largest motion of a node in the last step, along an axis [m].
-    pub fn last_way(&self) -> f64 {
+    pub fn last_motion(&self) -> f64 {
         let each = self.displacements.iter().zip(&self.before);
         each.fold(0.0, |most, (now, before)| (now - before).abs().max(most))
     }
@@ -353,7 +353,7 @@ impl NonlinearState {
     }
 
     /// Whether any place of the boundary is in contact with another.
-    pub fn touches_itself(&self) -> bool {
+    pub fn has_self_contact(&self) -> bool {
         self.pressed[self.pressed.len() / 2..]
             .iter()
             .any(|force| *force > 0.0)

@@ -94,7 +94,7 @@ impl StateTransfer {
             }
         }
         for (own, other) in state.cavities.iter_mut().zip(&before.cavities) {
-            own.hold(other.pressure);
+            own.set_pressure(other.pressure);
         }
         for (own, other) in state.tools.iter_mut().zip(&before.tools) {
             own.is_coupled = other.is_coupled;

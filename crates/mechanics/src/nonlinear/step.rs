@@ -17,15 +17,15 @@ const SLOPE_LEFT: f64 = 0.3;
 /// A residual that releases so many times less energy than the first is rounding, in numbers of single precision [-].
 const RESOLVED: f64 = 1e14;
 
-/// Conjugate gradients go on, up to [`MOST_TIMES`] as many, until they have reduced the residual's energy so many times [-].
+/// Conjugate gradients go on, up to [`MAX_TIMES`] as many, until they have reduced the residual's energy so many times [-].
 /// Thin walls need it: the residual that is left makes the organ too stiff within a step, and the force under a tip
 /// oscillates with a growing amplitude.
 const REDUCED: f64 = 1e3;
-const MOST_TIMES: usize = 2;
+const MAX_TIMES: usize = 2;
 
 /// Settings of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pace {
+pub struct StepSettings {
     /// Conjugate gradients; where they converge slowly, up to twice as many [-].
     pub iterations: usize,
     /// Time since the last step [s], in which tissue relaxes; zero is a jump.
@@ -39,7 +39,7 @@ pub struct Advance {
     /// iterations converge.
     pub reduction: f64,
     /// Whether the step was shortened because the force against it had grown.
-    pub was_shortened: bool,
+    pub was_limited: bool,
     /// Whether the stiffness was not positive along a direction, which ended the iterations.
     pub was_unstable: bool,
     /// Whether no finite displacements were found: the body was then reset to rest.
@@ -52,7 +52,7 @@ pub struct Advance {
 impl Advance {
     /// Whether the step found no equilibrium and its forces are meaningless: the stiffness is not positive, and elements are
     /// inverted.
-    pub fn has_no_answer(&self) -> bool {
+    pub fn has_no_equilibrium(&self) -> bool {
         self.was_reset || (self.was_unstable && self.is_inverted)
     }
 }
@@ -119,7 +119,7 @@ impl Workspace {
 pub fn advance(
     model: &NonlinearModel,
     conditions: Conditions<'_>,
-    pace: Pace,
+    pace: StepSettings,
     state: &mut NonlinearState,
     workspace: &mut Workspace,
 ) -> Advance {
@@ -137,7 +137,7 @@ pub fn advance(
 struct Step<'a> {
     model: &'a NonlinearModel,
     conditions: Conditions<'a>,
-    pace: Pace,
+    pace: StepSettings,
     state: &'a mut NonlinearState,
     workspace: &'a mut Workspace,
 }
@@ -162,7 +162,7 @@ impl pulp::WithSimd for Step<'_> {
 fn step(
     model: &NonlinearModel,
     conditions: Conditions<'_>,
-    pace: Pace,
+    pace: StepSettings,
     state: &mut NonlinearState,
     workspace: &mut Workspace,
 ) -> Advance {
@@ -176,7 +176,7 @@ fn step(
         advance = solve(model, conditions, pace.iterations, state, workspace);
     }
     workspace.bound(model.farthest, &mut advance);
-    advance.was_shortened |= workspace.take(model, couplings, state);
+    advance.was_limited |= workspace.take(model, couplings, state);
     let body = Turned {
         model,
         rotations: &state.rotations,
@@ -184,11 +184,11 @@ fn step(
     let (residual, displacements) = (&workspace.residual, &state.displacements);
     workspace.constraints.finish(body, residual, displacements);
     workspace.constraints.store(model, couplings, state);
-    advance.is_inverted = workspace.end(model, advance.was_shortened, state);
+    advance.is_inverted = workspace.end(model, advance.was_limited, state);
     if advance.was_unstable && !model.relaxes() {
         advance.is_inverted = kernel::are_inverted(&workspace.deformed);
     }
-    state.is_smooth = !advance.was_shortened && !advance.was_unstable;
+    state.is_smooth = !advance.was_limited && !advance.was_unstable;
     advance.was_reset = !state.is_finite();
     if advance.was_reset {
         state.reset(model);
@@ -325,7 +325,7 @@ impl Workspace {
         let Turned { model, rotations } = body;
         let mut advance = Advance::default();
         let (mut released, mut first) = (0.0, 0.0);
-        let most = MOST_TIMES * iterations;
+        let most = MAX_TIMES * iterations;
         for iteration in 0..most {
             // By the last known residual: the present one would cost a solution.
             if iteration >= iterations && first >= REDUCED * released {
@@ -387,7 +387,7 @@ impl Workspace {
         if largest > farthest {
             let part = farthest / largest;
             self.change.iter_mut().for_each(|by| *by *= part);
-            advance.was_shortened = true;
+            advance.was_limited = true;
         }
     }
 

@@ -19,7 +19,7 @@ const DEEPEST: f64 = 0.5;
 const REACH: f64 = 1.0;
 
 /// Largest tangential distance of a point from its projection onto the surface [mean edges].
-const MOST_TANGENTIAL: f64 = 0.02;
+const MAX_TANGENTIAL: f64 = 0.02;
 
 /// What a point lies behind is by so much at most farther than the nearest face, whatever way that faces [mean edges]: else it
 /// is beyond a wall or a whole piece.
@@ -308,7 +308,7 @@ impl TouchingSearch {
         let apart = point - on_face(&places(&self.mesh, boundary, on.face), &weights);
         let distance = normal.dot(&apart);
         let tangential = (apart - normal * distance).norm();
-        (tangential < MOST_TANGENTIAL * boundary.edge).then_some((on, normal, distance))
+        (tangential < MAX_TANGENTIAL * boundary.edge).then_some((on, normal, distance))
     }
 
     /// A place beyond an edge, on that edge: of the face beyond it if the edge is smooth.

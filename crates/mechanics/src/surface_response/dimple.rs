@@ -61,7 +61,7 @@ impl<T: Precision> SurfaceResponse<T> {
         let nu = self.parts().poissons_ratio;
         let along = tip.normal * tip.normal.dot(&tip.force);
         let across = tip.force - along;
-        let [more_across, more_along] = load.yields();
+        let [more_across, more_along] = load.compliance_ratios();
         let along = along * (more_along * (1.0 - nu));
         let across = across * (more_across * (1.0 - 0.5 * nu));
         let yields = (along + across) * ((1.0 + nu) / PI);

@@ -27,7 +27,7 @@ pub enum Reciprocity {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PatchContact {
     /// Whether they may slide along the surface.
-    pub bond: Friction,
+    pub friction: Friction,
     /// Whether forces are reciprocal.
     pub reciprocity: Reciprocity,
     /// Young's modulus [Pa].
@@ -69,7 +69,7 @@ impl<T: Precision> SurfaceResponse<T> {
         if moved.len() > workspace.most || !moved.iter().all(known) {
             return None;
         }
-        let axes = match contact.bond {
+        let axes = match contact.friction {
             Friction::Bonded => 3,
             Friction::Frictionless => 1,
         };
@@ -83,7 +83,7 @@ impl<T: Precision> SurfaceResponse<T> {
                     Reciprocity::Imposed => self.compliance(row.triangle, column.triangle),
                     Reciprocity::AsSolved => self.influence(row.triangle, column.triangle),
                 };
-                match contact.bond {
+                match contact.friction {
                     Friction::Bonded => put(matrix, size, i, j, &block),
                     Friction::Frictionless => {
                         let along = self.touchable()[column.triangle.index()].normal;
@@ -91,7 +91,7 @@ impl<T: Precision> SurfaceResponse<T> {
                     }
                 }
             }
-            match contact.bond {
+            match contact.friction {
                 Friction::Bonded => {
                     right[3 * i..3 * i + 3].copy_from_slice(row.displacement.as_slice())
                 }
@@ -102,7 +102,7 @@ impl<T: Precision> SurfaceResponse<T> {
         let forces = &mut workspace.forces[..moved.len()];
         for (i, (force, row)) in forces.iter_mut().zip(moved).enumerate() {
             *force = contact.youngs_modulus
-                * match contact.bond {
+                * match contact.friction {
                     Friction::Bonded => Vec3::from_column_slice(&right[3 * i..3 * i + 3]),
                     Friction::Frictionless => {
                         self.touchable()[row.triangle.index()].normal * right[i]

@@ -35,7 +35,7 @@ impl<T: Precision> SurfaceResponse<T> {
     pub fn new(parts: ResponseParts<T>) -> Result<Self, Error> {
         LinearElastic::new(1.0, parts.poissons_ratio)?;
         match parts.fault() {
-            Some(fault) => Err(Error::UnsoundResponse { fault }),
+            Some(fault) => Err(Error::InvalidResponse { fault }),
             None => Ok(Self { parts }),
         }
     }
@@ -60,7 +60,7 @@ impl<T: Precision> SurfaceResponse<T> {
     }
 
     /// Whether a triangle of the mesh is fixed.
-    pub fn holds(&self, triangle: TriangleId) -> bool {
+    pub fn is_fixed(&self, triangle: TriangleId) -> bool {
         self.parts.fixed.binary_search(&triangle).is_ok()
     }
 

@@ -112,12 +112,12 @@ impl TipField {
     }
 
     /// The same on an organ whose layers yield more than their outermost tissue: to a load of each radius [m] along the
-    /// surface and along its normal, by the factors [-] of `yields` ([`LayeredHalfSpace::yields`]).
+    /// surface and along its normal, by the factors [-] of `yields` ([`LayeredHalfSpace::compliance_ratios`]).
     ///
     /// # Errors
     /// As [`Self::new`].
     ///
-    /// [`LayeredHalfSpace::yields`]: crate::layered::LayeredHalfSpace::yields
+    /// [`LayeredHalfSpace::compliance_ratios`]: crate::layered::LayeredHalfSpace::compliance_ratios
     pub fn on_layers<T: Precision>(
         response: &SurfaceResponse<T>,
         surface: &Surface,
@@ -181,7 +181,7 @@ impl TipLoad<'_> {
 
     /// Compliance of the layers for it over that of their outermost tissue: along the surface and along its normal
     /// [-].
-    pub(super) fn yields(&self) -> [f64; 2] {
+    pub(super) fn compliance_ratios(&self) -> [f64; 2] {
         [0, 1].map(|axis| {
             let corners = self.corners.iter();
             corners.map(|(load, part)| load.yields[axis] * part).sum()
@@ -340,7 +340,7 @@ fn seen_from<T: Precision>(
         Some((triangle, terms.sum::<f64>() as f32))
     };
     let around = spread.around(surface, 2.0 * spread.reach + spread.size);
-    let free = around.into_iter().filter(|&id| !response.holds(id));
+    let free = around.into_iter().filter(|&id| !response.is_fixed(id));
     free.filter_map(sees).collect()
 }
 
@@ -356,7 +356,7 @@ fn structural_compliance<T: Precision>(
     let tangents = Matrix3::identity() - spread.normal * spread.normal.transpose();
     let known = |&(triangle, weight): &(TriangleId, f64)| {
         let touched = response.find(triangle);
-        if touched.is_none() && !response.holds(triangle) {
+        if touched.is_none() && !response.is_fixed(triangle) {
             return None;
         }
         let panel = Panel::new(surface.mesh().positions(triangle))?;

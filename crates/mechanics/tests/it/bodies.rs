@@ -167,7 +167,7 @@ pub(crate) fn at_map(
         let x = model.mesh().nodes[node];
         let moved = f * x - x;
         for axis in 0..model.dimension() {
-            supports = supports.hold(model, [node], axis, moved[axis]);
+            supports = supports.fix(model, [node], axis, moved[axis]);
         }
     }
     supports

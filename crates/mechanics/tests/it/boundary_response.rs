@@ -29,7 +29,7 @@ impl Held {
     pub(crate) fn organ(organ: Organ, triangles: usize, nu: f64) -> Self {
         let surface = Surface::new(organ.surface_mesh(triangles).unwrap()).unwrap();
         Self::new(surface, nu, |centroid| {
-            organ.anchor().iter().any(|plane| plane.holds(centroid))
+            organ.anchor().iter().any(|plane| plane.contains(centroid))
         })
     }
 
@@ -119,7 +119,7 @@ fn solve_again(
 fn pressed<T: Precision>(
     response: &SurfaceResponse<T>,
     moved: &[(TriangleId, Vec3)],
-    bond: Friction,
+    friction: Friction,
     reciprocity: Reciprocity,
 ) -> Vec<Vec3> {
     let moved: Vec<_> = moved
@@ -130,7 +130,7 @@ fn pressed<T: Precision>(
         })
         .collect();
     let contact = PatchContact {
-        bond,
+        friction,
         reciprocity,
         youngs_modulus: 1.0,
     };
@@ -177,9 +177,9 @@ fn an_update_is_a_new_solution() {
             .zip(&moved)
             .map(|(traction, (id, _))| traction * panels[id.index()].area)
             .collect();
-        let (bond, reciprocity) = (Friction::Bonded, Reciprocity::AsSolved);
-        let off = difference(&pressed(&double, &moved, bond, reciprocity), &expected);
-        let rounded = difference(&pressed(&single, &moved, bond, reciprocity), &expected);
+        let (friction, reciprocity) = (Friction::Bonded, Reciprocity::AsSolved);
+        let off = difference(&pressed(&double, &moved, friction, reciprocity), &expected);
+        let rounded = difference(&pressed(&single, &moved, friction, reciprocity), &expected);
         println!("{} triangles: {off:.1e}, single {rounded:.1e}", moved.len());
         assert!(off < 1e-10, "{}: {off}", moved.len());
         assert!(rounded < 1e-5, "{}: {rounded}", moved.len());
@@ -245,9 +245,9 @@ fn reciprocity_changes_the_force_little() {
             let normal = response.touchable()[response.find(center).unwrap().index()].normal;
             let patch = solid.near(center, 12);
             let moved: Vec<_> = patch.iter().map(|&id| (id, -1e-3 * normal)).collect();
-            for bond in [Friction::Bonded, Friction::Frictionless] {
+            for friction in [Friction::Bonded, Friction::Frictionless] {
                 let along = |reciprocity| -> f64 {
-                    let forces = pressed(&response, &moved, bond, reciprocity);
+                    let forces = pressed(&response, &moved, friction, reciprocity);
                     forces.iter().sum::<Vec3>().dot(&normal)
                 };
                 let change = along(Reciprocity::Imposed) / along(Reciprocity::AsSolved) - 1.0;
@@ -309,7 +309,7 @@ fn fields_of_many_forces_are_those_of_each() {
 }
 
 /// Force over E and a unit depth of a bonded patch of a quarter of the edge on a cube of edge 1, its
-/// bottom held.
+/// bottom fixed.
 fn cube_force(triangles: usize, nu: f64) -> f64 {
     let mesh = Organ::Cube.surface_mesh(triangles).unwrap();
     let (low, high) = mesh.bounds();
@@ -404,7 +404,7 @@ fn a_solution_tells_how_far_it_is_and_can_be_cancelled() {
                 ControlFlow::Continue(())
             }
         });
-        assert_eq!(broken.unwrap_err(), Error::BrokenOff);
+        assert_eq!(broken.unwrap_err(), Error::Cancelled);
         assert_eq!(calls, last);
     }
 }
@@ -440,7 +440,7 @@ fn a_patch_that_has_no_answer_has_none() {
     let solid = Held::organ(Organ::Kidney, 200, 0.45);
     let response = solid.response::<f32>(&solid.free[..3]);
     let contact = PatchContact {
-        bond: Friction::Bonded,
+        friction: Friction::Bonded,
         reciprocity: Reciprocity::Imposed,
         youngs_modulus: 1e4,
     };

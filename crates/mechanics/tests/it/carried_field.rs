@@ -6,7 +6,8 @@ use palpate_geometry::{Organ, TriangleId};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::contact::Tip;
 use palpate_mechanics::enhance::{
-    Carrier, EnhancedPatch, Interpolation, Press, SurfaceField, SurfacePoint, Weights, profile,
+    EmbeddedDisplayPoints, EnhancedPatch, Interpolation, Press, SurfaceField, SurfacePoint,
+    Weights, profile,
 };
 
 use crate::contacts::{Random, organ};
@@ -21,14 +22,14 @@ const EVERY: [Smoothing; 3] = [
 
 fn carried(
     interpolation: &Interpolation,
-    carrier: &Carrier,
+    carrier: &EmbeddedDisplayPoints,
     moved: &[Vec3],
     presses: &[Press],
 ) -> Vec<Vec3> {
     let mut field = SurfaceField::default();
     field.update(interpolation, moved, presses);
     let mut displacements = vec![Vec3::zeros(); carrier.places().len()];
-    carrier.carry(&field, &mut displacements);
+    carrier.interpolate(&field, &mut displacements);
     displacements
 }
 
@@ -45,8 +46,8 @@ fn functions_sum_to_one() {
     for smoothing in EVERY {
         let interpolation = Interpolation::new(organ(Organ::Kidney, 400), smoothing);
         for carrier in [
-            Carrier::of_vertices(&interpolation),
-            Carrier::of_surface(&interpolation, &finer),
+            EmbeddedDisplayPoints::of_vertices(&interpolation),
+            EmbeddedDisplayPoints::of_surface(&interpolation, &finer),
         ] {
             let gap = largest_gap(carrier.weights());
             assert!(gap < 1e-12, "{smoothing:?}: {gap}");
@@ -59,7 +60,7 @@ fn functions_sum_to_one() {
 #[test]
 fn moving_least_squares_carry_a_linear_field() {
     let interpolation = Interpolation::new(organ(Organ::Cube, 768), Smoothing::MovingLeastSquares);
-    let carrier = Carrier::of_surface(&interpolation, &organ(Organ::Cube, 7_500));
+    let carrier = EmbeddedDisplayPoints::of_surface(&interpolation, &organ(Organ::Cube, 7_500));
     let linear = |x: &Vec3| Vec3::new(1.0 + x.x - 2.0 * x.y, 0.3 * x.y, 3.0 * x.x - x.z);
     let found = carried(
         &interpolation,
@@ -88,7 +89,7 @@ fn a_rotation_is_carried_with_the_second_order() {
         let mut table = Vec::new();
         for levels in 3..6 {
             let interpolation = Interpolation::new(ball(levels), smoothing);
-            let carrier = Carrier::of_surface(&interpolation, &ball(levels + 1));
+            let carrier = EmbeddedDisplayPoints::of_surface(&interpolation, &ball(levels + 1));
             let found = carried(
                 &interpolation,
                 &carrier,
@@ -203,7 +204,8 @@ fn two_tips_have_their_own_depths() {
 fn the_dimple_has_the_form_of_the_half_space() {
     for smoothing in SMOOTH {
         let interpolation = Interpolation::new(organ(Organ::Cube, 768), smoothing);
-        let carrier = Carrier::of_surface(&interpolation, &organ(Organ::Cube, 20_000));
+        let carrier =
+            EmbeddedDisplayPoints::of_surface(&interpolation, &organ(Organ::Cube, 20_000));
         let tree = palpate_geometry::AabbTree::new(interpolation.surface().mesh());
         let top = Vec3::new(0.004, -0.003, 0.05);
         let nearest = tree.nearest(interpolation.surface().mesh(), &top);
@@ -243,7 +245,7 @@ fn a_thin_wall_does_not_leak() {
     };
     for smoothing in SMOOTH {
         let interpolation = Interpolation::new(coarse.clone(), smoothing);
-        let carrier = Carrier::of_surface(&interpolation, &finer);
+        let carrier = EmbeddedDisplayPoints::of_surface(&interpolation, &finer);
         let facing = |id| coarse.mesh().area_vector(id).normalize();
         let ids = coarse.mesh().triangle_ids();
         let place = |id| interpolation.place(&SurfacePoint::centroid(id));
@@ -286,7 +288,8 @@ fn a_sliding_dimple_does_not_leap() {
     let coarse = organ(Organ::Hemisphere, 768);
     for smoothing in SMOOTH {
         let interpolation = Interpolation::new(coarse.clone(), smoothing);
-        let carrier = Carrier::of_surface(&interpolation, &organ(Organ::Hemisphere, 4_000));
+        let carrier =
+            EmbeddedDisplayPoints::of_surface(&interpolation, &organ(Organ::Hemisphere, 4_000));
         let tree = palpate_geometry::AabbTree::new(coarse.mesh());
         let shown = |angle: f64| {
             let place = 0.06 * Vec3::new(angle.sin(), 0.2, angle.cos());
@@ -334,7 +337,7 @@ fn an_enhanced_step_allocates_nothing() {
         TIPS[0],
         DEPTH,
     );
-    let carrier = Carrier::of_vertices(interpolation);
+    let carrier = EmbeddedDisplayPoints::of_vertices(interpolation);
     let (mut patch, mut field) = (EnhancedPatch::default(), SurfaceField::default());
     let mut shown = vec![Vec3::zeros(); 10_000];
     for warm in [false, true] {
@@ -348,7 +351,7 @@ fn an_enhanced_step_allocates_nothing() {
                 field.update(interpolation, &moved, &[press]);
                 patch.build(&model, &[touched]);
                 patch.displace(&field, &mut shown[..patch.places().len()]);
-                carrier.carry(&field, &mut shown[..carrier.places().len()]);
+                carrier.interpolate(&field, &mut shown[..carrier.places().len()]);
             });
         }
         let allocations = violation_count() - before;
@@ -370,7 +373,7 @@ fn real_kidney_has_no_spikes() {
             .map(|_| random.vector())
             .collect();
         let largest = values.iter().map(Vec3::norm).fold(0.0, f64::max);
-        let carrier = Carrier::of_vertices(&interpolation);
+        let carrier = EmbeddedDisplayPoints::of_vertices(&interpolation);
         let found = carried(&interpolation, &carrier, &values, &[]);
         let reached = found.iter().map(Vec3::norm).fold(0.0, f64::max) / largest;
         println!("{smoothing:?}: {reached:.2} of the largest value");

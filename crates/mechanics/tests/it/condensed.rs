@@ -186,7 +186,7 @@ fn a_solution_tells_how_far_it_is_and_can_be_cancelled() {
                 ControlFlow::Continue(())
             }
         });
-        assert!(matches!(broken, Err(Error::BrokenOff)));
+        assert!(matches!(broken, Err(Error::Cancelled)));
     }
 }
 

@@ -69,7 +69,7 @@ fn a_layer_on_a_base_pushes_back_as_transfer_matrices_say() {
                 layers: vec![(thickness, own)],
                 base: LinearElastic::new(1000.0 * stiffness, 0.49).unwrap(),
             };
-            let expected = 1.0 / layered.yields(LoadShape::Punch, RADIUS)[1];
+            let expected = 1.0 / layered.compliance_ratios(LoadShape::Punch, RADIUS)[1];
             let found = force(stiffness) / of_one;
             println!(
                 "{of_radius} {stiffness}: {found} {expected} {}",

@@ -4,7 +4,8 @@ use palpate_files::scene::{Enhancement, EnhancementArea, Smoothing};
 use palpate_geometry::{NodeId, Organ, Surface, TriangleId, TriangleMesh, inspect, read_mesh};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::enhance::{
-    Carrier, EnhancedPatch, EnhancementModel, Interpolation, SurfaceField, SurfacePoint,
+    EmbeddedDisplayPoints, EnhancedPatch, EnhancementModel, Interpolation, SurfaceField,
+    SurfacePoint,
 };
 
 use crate::contacts::organ;
@@ -75,7 +76,7 @@ fn watertight(surface: &Surface, levels: &[usize], stride: usize) {
             let mut field = SurfaceField::default();
             field.update(interpolation, &sampled(interpolation, twist), &[]);
             let mut coarse = vec![Vec3::zeros(); surface.mesh().vertices().len()];
-            Carrier::of_vertices(interpolation).carry(&field, &mut coarse);
+            EmbeddedDisplayPoints::of_vertices(interpolation).interpolate(&field, &mut coarse);
             for touched in surface.mesh().triangle_ids().step_by(stride) {
                 patch.build(&model, &[touched]);
                 let whole = sound(surface, &patch);

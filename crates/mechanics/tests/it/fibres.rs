@@ -206,9 +206,9 @@ fn distorted_elements_stretch_a_bar_with_fibres() {
         for stretch in [0.9, 1.1, 1.2, 1.3] {
             body.solve(|model| {
                 let held = |supports: Supports<'static>, axis: usize| {
-                    supports.hold(model, low[axis].iter().copied(), axis, 0.0)
+                    supports.fix(model, low[axis].iter().copied(), axis, 0.0)
                 };
-                held(held(held(Supports::none(model), 0), 1), 2).hold(
+                held(held(held(Supports::none(model), 0), 1), 2).fix(
                     model,
                     top.iter().copied(),
                     1,

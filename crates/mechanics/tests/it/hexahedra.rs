@@ -44,10 +44,10 @@ fn patch_test() {
         let at = |keep: &dyn Fn(&Vec3) -> bool| model.mesh().nodes_where(keep);
         let pull = 4.0 * (stretch - 1.0);
         let supports = Supports::none(&model)
-            .hold(&model, at(&|x| x.x == 0.0), 0, 0.0)
-            .hold(&model, at(&|x| x.y == 0.0), 1, 0.0)
-            .hold(&model, at(&|x| x.z == -4.0), 2, 0.0)
-            .hold(&model, at(&|x| x.z == 0.0), 2, pull);
+            .fix(&model, at(&|x| x.x == 0.0), 0, 0.0)
+            .fix(&model, at(&|x| x.y == 0.0), 1, 0.0)
+            .fix(&model, at(&|x| x.z == -4.0), 2, 0.0)
+            .fix(&model, at(&|x| x.z == 0.0), 2, pull);
         let mut state = FiniteElementState::at_rest(&model);
         let mut workspace = FiniteElementWorkspace::new(&model).unwrap();
         equilibrate(&model, &supports, &mut state, &mut workspace).unwrap();
@@ -86,14 +86,14 @@ fn punched(nu: f64, bonded: bool, size: f64) -> f64 {
     let mut supports = Supports::none(&model);
     if bonded {
         supports = supports
-            .hold(&model, face(), 0, 0.0)
-            .hold(&model, face(), 1, 0.0);
+            .fix(&model, face(), 0, 0.0)
+            .fix(&model, face(), 1, 0.0);
     }
     let supports = supports
-        .hold(&model, at(&|x| x.x == 0.0), 0, 0.0)
-        .hold(&model, at(&|x| x.y == 0.0), 1, 0.0)
-        .hold(&model, bottom.iter().copied(), 2, 0.0)
-        .hold(&model, face(), 2, -1.0);
+        .fix(&model, at(&|x| x.x == 0.0), 0, 0.0)
+        .fix(&model, at(&|x| x.y == 0.0), 1, 0.0)
+        .fix(&model, bottom.iter().copied(), 2, 0.0)
+        .fix(&model, face(), 2, -1.0);
     let mut state = FiniteElementState::at_rest(&model);
     let start = std::time::Instant::now();
     let mut workspace = FiniteElementWorkspace::new(&model).unwrap();
@@ -162,18 +162,18 @@ fn pressed_ring_is_lames() {
             * ((1.0 - 2.0 * nu) * r + outer * outer / r)
     };
     let mut supports = Supports::none(&model)
-        .hold(&model, at(0, 0.0), 0, 0.0)
-        .hold(&model, at(1, 0.0), 1, 0.0)
-        .hold(&model, at(2, 0.0), 2, 0.0)
-        .hold(&model, at(2, height), 2, 0.0)
+        .fix(&model, at(0, 0.0), 0, 0.0)
+        .fix(&model, at(1, 0.0), 1, 0.0)
+        .fix(&model, at(2, 0.0), 2, 0.0)
+        .fix(&model, at(2, height), 2, 0.0)
         .press(&cavity, 0.01);
     // The end that does not lie in a plane through the origin is to be held.
     for node in at(2, height) {
         let place = model.mesh().nodes[node].xy();
         let u = place.normalize() * lame(place.norm());
         supports = supports
-            .hold(&model, [node], 0, u.x)
-            .hold(&model, [node], 1, u.y);
+            .fix(&model, [node], 0, u.x)
+            .fix(&model, [node], 1, u.y);
     }
     let mut state = FiniteElementState::at_rest(&model);
     let mut workspace = FiniteElementWorkspace::new(&model).unwrap();

@@ -87,11 +87,11 @@ fn a_bar_is_stretched() {
             for stretch in steps {
                 body.solve(|model| {
                     let mut supports = Supports::none(model)
-                        .hold(model, low[1].iter().copied(), 1, 0.0)
-                        .hold(model, low[0].iter().copied(), 0, 0.0)
-                        .hold(model, top.iter().copied(), 1, stretch - 1.0);
+                        .fix(model, low[1].iter().copied(), 1, 0.0)
+                        .fix(model, low[0].iter().copied(), 0, 0.0)
+                        .fix(model, top.iter().copied(), 1, stretch - 1.0);
                     if kind != ElementKind::Quad9 {
-                        supports = supports.hold(model, low[2].iter().copied(), 2, 0.0);
+                        supports = supports.fix(model, low[2].iter().copied(), 2, 0.0);
                     }
                     supports
                 })
@@ -122,10 +122,10 @@ fn a_sheet_is_stretched_two_ways() {
             body.solve(|model| {
                 let mut supports = Supports::none(model);
                 for (axis, low) in low.iter().enumerate() {
-                    supports = supports.hold(model, low.iter().copied(), axis, 0.0);
+                    supports = supports.fix(model, low.iter().copied(), axis, 0.0);
                 }
                 for (axis, high) in high.iter().enumerate().take(2) {
-                    supports = supports.hold(model, high.iter().copied(), axis, stretch - 1.0);
+                    supports = supports.fix(model, high.iter().copied(), axis, stretch - 1.0);
                 }
                 supports
             })

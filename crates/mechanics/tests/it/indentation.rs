@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use palpate_mechanics::finite_elements::indentation::{
     Base, Block, History, IndentationPoint, IndentationProblem, IndentationRun,
-    IndentationSettings, Indenter, IndenterShape, Relaxing, Side, solve, solve_history,
+    IndentationSettings, Indenter, IndenterShape, RelaxationMethod, Side, solve, solve_history,
 };
 use palpate_mechanics::{
     Error, Exponential, IndentationCurve, Law, LinearElastic, MooneyRivlin, NeoHookean,
@@ -372,7 +372,7 @@ fn convolution_is_the_full_run_at_small_depth() {
     let times: Vec<f64> = (0..=5).map(|i| 0.4 * f64::from(i)).collect();
     let depths = times.iter().map(|t| 0.05 * RADIUS * t.min(0.6)).collect();
     let history = History { times, depths };
-    let [folded, full] = [Relaxing::Convolution, Relaxing::Full].map(|how| {
+    let [folded, full] = [RelaxationMethod::Convolution, RelaxationMethod::Full].map(|how| {
         let answer = solve_history(&problem, &prony, how, &history, 0.2, &mut |_| {});
         answer.unwrap().answer.points
     });
@@ -420,7 +420,7 @@ fn refuses_impossible_questions() {
         depths: vec![0.0; 3],
     };
     let series = PronySeries::default();
-    let how = Relaxing::Convolution;
+    let how = RelaxationMethod::Convolution;
     let refused = solve_history(&good, &series, how, &history, 0.1, &mut |_| {});
     assert!(matches!(refused, Err(Error::TimesDoNotAscend)));
 }

@@ -56,8 +56,8 @@ fn a_sphere_under_pressure() {
                     face(body.model.mesh(), 1, 0.0),
                 );
                 let supports = Supports::none(&body.model)
-                    .hold(&body.model, axis, 0, 0.0)
-                    .hold(&body.model, base, 1, 0.0)
+                    .fix(&body.model, axis, 0, 0.0)
+                    .fix(&body.model, base, 1, 0.0)
                     .press(&cavity, pressure);
                 equilibrate(&body.model, &supports, &mut body.state, &mut body.workspace).unwrap();
                 body.off(|x| x + exact(x.norm()) * x.normalize()) / exact(inner)
@@ -91,12 +91,12 @@ fn a_column_under_its_weight() {
                 face(body.model.mesh(), 0, 0.0),
             );
             let mut supports = Supports::none(&body.model)
-                .hold(&body.model, low.iter().copied(), 1, 0.0)
-                .hold(&body.model, axis, 0, 0.0)
+                .fix(&body.model, low.iter().copied(), 1, 0.0)
+                .fix(&body.model, axis, 0, 0.0)
                 .load(&load);
             if kind != ElementKind::Quad9 {
                 let side = face(body.model.mesh(), 2, 0.0);
-                supports = supports.hold(&body.model, side, 2, 0.0);
+                supports = supports.fix(&body.model, side, 2, 0.0);
             }
             equilibrate(&body.model, &supports, &mut body.state, &mut body.workspace).unwrap();
             let off = body.off(|x| x - weight / 3.0 * (x.y - 0.5 * x.y * x.y) * Vec3::y());
@@ -140,7 +140,7 @@ fn a_field_that_is_made_up() {
                     let place = body.model.mesh().nodes[node];
                     let at = exact(&place);
                     for axis in 0..2 {
-                        supports = supports.hold(&body.model, [node], axis, at[axis]);
+                        supports = supports.fix(&body.model, [node], axis, at[axis]);
                     }
                 }
                 equilibrate(&body.model, &supports, &mut body.state, &mut body.workspace).unwrap();

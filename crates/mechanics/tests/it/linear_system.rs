@@ -19,7 +19,7 @@ fn its_solution_gives_back_the_right_side() {
         let model = FiniteElementModel::new(block(kind, 2, 0.2), law, Formulation::Mixed).unwrap();
         let top = kind.dimension() - 1;
         let supports = (0..kind.dimension()).fold(Supports::none(&model), |supports, axis| {
-            supports.hold(&model, face(model.mesh(), top, 0.0), axis, 0.0)
+            supports.fix(&model, face(model.mesh(), top, 0.0), axis, 0.0)
         });
         let state = FiniteElementState::at_rest(&model);
         let mut workspace = FiniteElementWorkspace::new(&model).unwrap();

@@ -107,7 +107,7 @@ fn contact_on_a_response_allocates_nothing() {
     let response = solid.response::<f32>(&solid.free);
     let field = TipField::new(&response, &solid.surface, 2e-3).unwrap();
     let contact = PatchContact {
-        bond: Friction::Bonded,
+        friction: Friction::Bonded,
         reciprocity: Reciprocity::Imposed,
         youngs_modulus: 1e4,
     };

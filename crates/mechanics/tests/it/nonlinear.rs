@@ -10,7 +10,7 @@ use palpate_mechanics::finite_elements::{
     Supports, equilibrate,
 };
 use palpate_mechanics::nonlinear::{
-    Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace, Workspace, advance,
+    Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, StepSettings, Workspace, advance,
 };
 use palpate_mechanics::{NeoHookean, Vec3};
 
@@ -80,7 +80,7 @@ impl Bar {
             advance(
                 &self.model,
                 Conditions::of_tools(&self.grip(displacement)),
-                Pace {
+                StepSettings {
                     iterations: 30,
                     elapsed: 0.0,
                 },
@@ -105,7 +105,7 @@ impl Bar {
             advance(
                 &self.model,
                 Conditions::of_tools(&self.grip(displacement)),
-                Pace {
+                StepSettings {
                     iterations,
                     elapsed: 0.0,
                 },
@@ -189,7 +189,7 @@ fn mean_displacement_of_finite_elements(bar: &Bar, force: &Vec3) -> Vec3 {
         }
         let mut supports = Supports::none(&model).load(&load);
         for axis in 0..3 {
-            supports = supports.hold(&model, fixed.iter().copied(), axis, 0.0);
+            supports = supports.fix(&model, fixed.iter().copied(), axis, 0.0);
         }
         equilibrate(&model, &supports, &mut state, &mut workspace).unwrap();
     }

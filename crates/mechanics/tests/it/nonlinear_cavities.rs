@@ -12,8 +12,8 @@ use palpate_mechanics::finite_elements::solid::{
     SurfaceLoad,
 };
 use palpate_mechanics::nonlinear::{
-    BodyCavity, Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace, SpreadLoad,
-    Workspace, advance,
+    BodyCavity, Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, SpreadLoad,
+    StepSettings, Workspace, advance,
 };
 use palpate_mechanics::regions::{RegionMap, RegionPlace};
 use palpate_mechanics::{NeoHookean, Vec3};
@@ -128,7 +128,7 @@ impl Pressed {
             advance: by * Vec3::x(),
             offset: Vec3::zeros(),
         };
-        let pace = Pace {
+        let pace = StepSettings {
             iterations,
             elapsed: 0.005,
         };

@@ -8,8 +8,8 @@ use palpate_mechanics::finite_elements::indentation::{
     Base, Block, IndentationRun, IndentationSettings, Indenter, IndenterShape,
 };
 use palpate_mechanics::nonlinear::{
-    Against, BoundaryPoint, Conditions, Moduli, NonlinearModel, NonlinearState, Pace, TOOL_POINTS,
-    UnilateralContact, Workspace, advance,
+    Against, BoundaryPoint, Conditions, Moduli, NonlinearModel, NonlinearState, StepSettings,
+    TOOL_POINTS, UnilateralContact, Workspace, advance,
 };
 use palpate_mechanics::{NeoHookean, PronySeries, Vec3};
 
@@ -96,7 +96,7 @@ impl Pressed {
         let [few, more] = TOOL_POINTS;
         let (points, of_face) = match self.against {
             Against::Tool { .. } => (self.model.tool_points(), few + more),
-            Against::Still | Against::Boundary(_) => (self.model.boundary_points(), few),
+            Against::Fixed | Against::Boundary(_) => (self.model.boundary_points(), few),
         };
         let points = points.iter().enumerate();
         points.filter(move |(number, _)| number % of_face < few)
@@ -104,7 +104,7 @@ impl Pressed {
 
     fn step(&mut self, body: Body<'_>, iterations: usize) {
         let contacts = self.contacts(body);
-        let pace = Pace {
+        let pace = StepSettings {
             iterations,
             elapsed: 0.0,
         };
@@ -182,8 +182,8 @@ fn judged(depth: f64, ratio: f64) -> f64 {
 fn a_sphere_presses_as_on_finite_elements_and_leaves_the_body_at_rest() {
     let (depth, steps) = (6e-3, 6);
     for (ratio, against) in [
-        (0.3, Against::Still),
-        (0.45, Against::Still),
+        (0.3, Against::Fixed),
+        (0.45, Against::Fixed),
         (
             0.45,
             Against::Tool {

@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 use palpate_geometry::{NodeId, TetrahedronMesh};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::nonlinear::{
-    Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace, advance,
+    Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, StepSettings, advance,
 };
 
 /// Sides of a bar [m].
@@ -53,7 +53,7 @@ fn a_free_bar_is_dragged() {
     for (elapsed, speed) in [(5e-3, 0.02), (2e-3, 0.05)] {
         let mut state = NonlinearState::at_rest(&model, 1);
         let mut workspace = model.workspace(1);
-        let pace = Pace {
+        let pace = StepSettings {
             iterations: 4,
             elapsed,
         };
@@ -80,7 +80,7 @@ fn a_free_bar_is_dragged() {
             let conditions = Conditions::of_tools(&none);
             advance(&model, conditions, pace, &mut state, &mut workspace);
         }
-        assert!(state.last_way() < 1e-7);
+        assert!(state.last_motion() < 1e-7);
         assert!(state.largest(&model) < 1e-9);
         let bar = model
             .nodes()

@@ -5,8 +5,8 @@ use nalgebra::Matrix3;
 use palpate_geometry::TetrahedronMesh;
 use palpate_mechanics::Vec3;
 use palpate_mechanics::nonlinear::{
-    Against, BoundaryPoint, Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace,
-    TOOL_POINTS, UnilateralContact, Workspace, advance,
+    Against, BoundaryPoint, Conditions, Coupling, Moduli, NonlinearModel, NonlinearState,
+    StepSettings, TOOL_POINTS, UnilateralContact, Workspace, advance,
 };
 
 /// Edges of the block [m].
@@ -81,7 +81,7 @@ impl Block {
     fn contacts(&self, depth: f64, motion: Vec3) -> Vec<UnilateralContact> {
         let number = 0;
         let against = match self.is_tool {
-            false => Against::Still,
+            false => Against::Fixed,
             true => Against::Tool { number, motion },
         };
         let [few, more] = TOOL_POINTS;
@@ -119,7 +119,7 @@ impl Block {
             couplings: &[coupling],
             contacts: &contacts,
         };
-        let pace = Pace {
+        let pace = StepSettings {
             iterations: 8,
             elapsed: 0.0,
         };

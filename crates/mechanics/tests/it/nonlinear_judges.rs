@@ -7,7 +7,7 @@ use nalgebra::Matrix3;
 use palpate_geometry::{NodeId, TetrahedronMesh};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::nonlinear::{
-    Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace, SpreadLoad, advance,
+    Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, SpreadLoad, StepSettings, advance,
 };
 
 /// Period of a step [s].
@@ -126,7 +126,7 @@ impl Moved {
         let all = 0..self.model.mesh().tetrahedra().len();
         let embedded = self.model.embed(places, all).unwrap();
         let mut workspace = self.model.workspace(1);
-        let pace = Pace {
+        let pace = StepSettings {
             iterations,
             elapsed: STEP,
         };

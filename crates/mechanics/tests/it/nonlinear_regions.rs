@@ -9,7 +9,7 @@ use palpate_mechanics::finite_elements::{
     Supports, equilibrate,
 };
 use palpate_mechanics::nonlinear::{
-    Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace, SpreadLoad, advance,
+    Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, SpreadLoad, StepSettings, advance,
 };
 use palpate_mechanics::{Law, NeoHookean, Vec3};
 
@@ -28,8 +28,8 @@ fn load(model: &NonlinearModel) -> SpreadLoad {
     load
 }
 
-fn pace(iterations: usize) -> Pace {
-    Pace {
+fn pace(iterations: usize) -> StepSettings {
+    StepSettings {
         iterations,
         elapsed: 0.0,
     }
@@ -71,7 +71,7 @@ fn judge(cells: [usize; 3], c10: &Tissue, force: Vec3) -> Vec3 {
         }
         let mut supports = Supports::none(&model).load(&loads);
         for axis in 0..3 {
-            supports = supports.hold(&model, fixed.iter().copied(), axis, 0.0);
+            supports = supports.fix(&model, fixed.iter().copied(), axis, 0.0);
         }
         equilibrate(&model, &supports, &mut state, &mut workspace).unwrap();
     }

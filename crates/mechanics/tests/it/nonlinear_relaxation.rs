@@ -9,7 +9,7 @@ use palpate_mechanics::finite_elements::{
     RelaxationHistory, Supports, equilibrate,
 };
 use palpate_mechanics::nonlinear::{
-    Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace, advance,
+    Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, StepSettings, advance,
 };
 use palpate_mechanics::{NeoHookean, PronySeries, Vec3};
 
@@ -80,7 +80,7 @@ impl Held {
                     offset: Vec3::zeros(),
                 };
                 last = now;
-                let pace = Pace {
+                let pace = StepSettings {
                     iterations: 6,
                     elapsed: if step == 0 { 0.0 } else { STEP },
                 };
@@ -171,7 +171,7 @@ fn a_held_bar_relaxes_as_finite_elements() {
             let mut supports = Supports::none(&model).load(&load);
             supports.relaxing = Some(&relaxing);
             for axis in 0..3 {
-                supports = supports.hold(&model, fixed.iter().copied(), axis, 0.0);
+                supports = supports.fix(&model, fixed.iter().copied(), axis, 0.0);
             }
             equilibrate(&model, &supports, &mut state, &mut workspace).unwrap();
             memory.advance(&model, &series, duration, &state);

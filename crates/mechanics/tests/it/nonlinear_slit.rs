@@ -5,8 +5,9 @@ use std::collections::HashMap;
 use nalgebra::Matrix3;
 use palpate_geometry::{NodeId, SlitPoint, SlitTetrahedra, TetrahedronMesh};
 use palpate_mechanics::nonlinear::{
-    Against, Conditions, Coupling, MOST_CONTACTS, Moduli, NonlinearModel, NonlinearState, Pace,
-    SpreadLoad, StateTransfer, TouchingBoundary, TouchingSearch, UnilateralContact, advance,
+    Against, Conditions, Coupling, MAX_CONTACTS, Moduli, NonlinearModel, NonlinearState,
+    SpreadLoad, StateTransfer, StepSettings, TouchingBoundary, TouchingSearch, UnilateralContact,
+    advance,
 };
 use palpate_mechanics::{PronySeries, Vec3};
 
@@ -145,7 +146,7 @@ impl Pulled {
                 compliance: Matrix3::zeros(),
                 offset: Vec3::zeros(),
             };
-            let pace = Pace {
+            let pace = StepSettings {
                 iterations: 6,
                 elapsed: 5e-3,
             };
@@ -239,7 +240,7 @@ fn pressed_shut(mesh: &TetrahedronMesh, depth: f64, touch: bool) -> f64 {
                     normal: -Vec3::y(),
                     offset: plane - point.place.y,
                     friction: 0.0,
-                    against: Against::Still,
+                    against: Against::Fixed,
                 });
         let mut contacts: Vec<_> = on_plane.collect();
         let count = contacts.len();
@@ -252,12 +253,12 @@ fn pressed_shut(mesh: &TetrahedronMesh, depth: f64, touch: bool) -> f64 {
                 contacts.len()
             );
         }
-        assert!(contacts.len() <= MOST_CONTACTS, "{}", contacts.len());
+        assert!(contacts.len() <= MAX_CONTACTS, "{}", contacts.len());
         let conditions = Conditions {
             couplings: &[],
             contacts: &contacts,
         };
-        let pace = Pace {
+        let pace = StepSettings {
             iterations: if step > steps { 15 } else { 8 },
             elapsed: 0.0,
         };

@@ -3,7 +3,7 @@
 use palpate_geometry::{NodeId, TetrahedronMesh};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::nonlinear::{
-    Against, Conditions, MOST_CONTACTS, Moduli, NonlinearModel, NonlinearState, Pace,
+    Against, Conditions, MAX_CONTACTS, Moduli, NonlinearModel, NonlinearState, StepSettings,
     TouchingBoundary, TouchingPoint, TouchingSearch, UnilateralContact, Workspace, advance,
 };
 
@@ -93,7 +93,7 @@ impl Touching {
             .search
             .find(&self.boundary, &self.model, &self.state, visit);
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        found.truncate(MOST_CONTACTS);
+        found.truncate(MAX_CONTACTS);
         self.contacts
             .extend(found.iter().map(|(_, contact)| *contact));
         assert!(lost == 0.0, "{lost}");
@@ -101,7 +101,7 @@ impl Touching {
             couplings: &[],
             contacts: &self.contacts,
         };
-        let pace = Pace {
+        let pace = StepSettings {
             iterations,
             elapsed: 0.0,
         };
@@ -172,14 +172,14 @@ fn on_a_plane(
                 normal: -Vec3::z(),
                 offset: plane - depth - point.place.z,
                 friction: 0.0,
-                against: Against::Still,
+                against: Against::Fixed,
             });
         let contacts: Vec<_> = contacts.collect();
         let conditions = Conditions {
             couplings: &[],
             contacts: &contacts,
         };
-        let pace = Pace {
+        let pace = StepSettings {
             iterations: if step > steps { 15 } else { 6 },
             elapsed: 0.0,
         };
@@ -408,6 +408,6 @@ fn a_copy_of_the_state_goes_on_with_the_same_bits() {
         blocks.step(&by, 4);
         other.step(&by, 4);
     }
-    assert!(blocks.state.touches_itself());
+    assert!(blocks.state.has_self_contact());
     assert!(blocks.state == other.state);
 }

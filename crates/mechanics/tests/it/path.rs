@@ -52,7 +52,7 @@ fn a_softening_tube_is_followed_beyond_its_limit() {
     };
     let all = 0..model.mesh().nodes.len();
     let supports = Supports::none(&model)
-        .hold(&model, all, 1, 0.0)
+        .fix(&model, all, 1, 0.0)
         .press(&cavity, 100.0);
     let mut path = Path::new(&model, supports, 0.1).unwrap();
     let at = |state: &palpate_mechanics::finite_elements::FiniteElementState| {

@@ -35,7 +35,7 @@ fn body(kind: ElementKind) -> Body {
 fn fixed(model: &FiniteElementModel) -> Supports<'static> {
     let low = face(model.mesh(), 1, 0.0);
     (0..model.dimension()).fold(Supports::none(model), |supports, axis| {
-        supports.hold(model, low.iter().copied(), axis, 0.0)
+        supports.fix(model, low.iter().copied(), axis, 0.0)
     })
 }
 
@@ -166,14 +166,14 @@ fn only_components_that_exist_are_fixed() {
     for kind in KINDS {
         let mut body = body(kind);
         let (nodes, dimension) = (body.model.mesh().nodes.len(), body.model.dimension());
-        let supports = fixed(&body.model).hold(&body.model, [2], dimension, 0.0);
+        let supports = fixed(&body.model).fix(&body.model, [2], dimension, 0.0);
         let refused = Mismatch::ComponentOutOfRange {
             axis: dimension,
             node: 2,
             dimension,
         };
         assert_eq!(refused_by_all(&mut body, &supports), refused);
-        let supports = fixed(&body.model).hold(&body.model, [0, nodes], 0, 0.0);
+        let supports = fixed(&body.model).fix(&body.model, [0, nodes], 0, 0.0);
         let found = refused_by_all(&mut body, &supports);
         assert!(matches!(found, Mismatch::NodeBeyondMesh { node, .. } if node == nodes));
     }
@@ -408,7 +408,7 @@ fn a_tip_is_put_on_the_surface_of_its_response() {
         displacement: Vec3::z(),
     }];
     let contact = PatchContact {
-        bond: Friction::Bonded,
+        friction: Friction::Bonded,
         reciprocity: Reciprocity::Imposed,
         youngs_modulus: 1e4,
     };
@@ -427,6 +427,6 @@ fn a_response_of_too_many_triangles_is_refused() {
             ..sound.parts().clone()
         };
         let found = SurfaceResponse::new(parts);
-        assert!(matches!(found, Err(Error::UnsoundResponse { .. })));
+        assert!(matches!(found, Err(Error::InvalidResponse { .. })));
     }
 }

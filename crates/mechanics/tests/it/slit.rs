@@ -4,7 +4,7 @@ use assert_no_alloc::{assert_no_alloc, violation_count};
 use nalgebra::Matrix3;
 use palpate_geometry::{AabbTree, Organ};
 use palpate_mechanics::surface_response::slit::{
-    CutBody, RIM_COMPLIANCE, Slit, SlitFacet, SlitLoad, Spot,
+    CutBody, DiscForce, RIM_COMPLIANCE, Slit, SlitFacet, SlitLoad,
 };
 use palpate_mechanics::surface_response::{Share, SurfaceResponse, TouchId};
 use palpate_mechanics::{Error, Vec3};
@@ -263,7 +263,7 @@ fn random_slits_never_break() {
                 .unwrap();
             for (touch, before) in (0..8).map(|k| 35 * k).zip(&mut before) {
                 let load = kidney.load(&slit, touch);
-                let now = slit.further(&load);
+                let now = slit.added_compliance(&load);
                 assert!(now.iter().all(|x| x.is_finite()));
                 let least = (now - *before).symmetric_eigenvalues().min();
                 let whole = kidney
@@ -312,7 +312,7 @@ fn a_slit_may_be_cut_from_either_end() {
         for touch in [97, 100, 103] {
             let [one, other] = slits
                 .each_ref()
-                .map(|slit| slit.further(&kidney.load(slit, touch)));
+                .map(|slit| slit.added_compliance(&kidney.load(slit, touch)));
             assert!((one - other).norm() < 1e-9 * one.norm(), "{one} {other}");
         }
     }
@@ -337,7 +337,10 @@ fn going_back_is_exact() {
         slit.truncate(count);
         assert_eq!(&kidney.load(&slit, 30), load);
     }
-    assert_eq!(slit.further(&kidney.load(&slit, 30)), Matrix3::zeros());
+    assert_eq!(
+        slit.added_compliance(&kidney.load(&slit, 30)),
+        Matrix3::zeros()
+    );
     for facet in &facets {
         slit.open(&kidney.body(), facet).unwrap();
     }
@@ -367,7 +370,7 @@ fn compliance_and_field_are_one() {
     assert!(slit.opening(6, &jumps).is_none());
     let mut field = vec![0.0; 3 * kidney.response.parts().triangles];
     slit.add_field(&jumps, &mut field);
-    let most = slit.further(&loaded).norm();
+    let most = slit.added_compliance(&loaded).norm();
     let mut scratch = [slit.load(), slit.load()];
     for touch in touches {
         let load = kidney.load(&slit, touch);
@@ -381,7 +384,7 @@ fn compliance_and_field_are_one() {
         assert!((moved - between * force).norm() < 1e-5 * most);
         let away = kidney.solid.centroid(triangle) - kidney.solid.centroid(kidney.solid.free[101]);
         if away.norm() > 50.0 * MM {
-            assert!(slit.further(&load).norm() < 1e-2 * most);
+            assert!(slit.added_compliance(&load).norm() < 1e-2 * most);
         }
     }
 }
@@ -410,7 +413,7 @@ fn what_is_no_facet_is_refused() {
     }
     slit.open(&kidney.body(), &good).unwrap();
     let refused = slit.open(&kidney.body(), &good).unwrap_err();
-    assert_eq!(refused, Error::SlitIsFull { most: 1 });
+    assert_eq!(refused, Error::SlitTooLarge { most: 1 });
 }
 
 #[test]
@@ -425,7 +428,7 @@ fn a_step_of_a_cut_allocates_nothing() {
         triangle: TouchId(60),
         weight: 1.0,
     };
-    let spot = Spot {
+    let spot = DiscForce {
         place: facets[0].middle,
         normal: facets[0].normal,
         radius: 2.0 * MM,
@@ -441,7 +444,7 @@ fn a_step_of_a_cut_allocates_nothing() {
                 Some(&spot),
                 &mut load,
             );
-            sum += slit.further(&load).norm();
+            sum += slit.added_compliance(&load).norm();
             slit.jump([(&load, Vec3::z())].into_iter(), &mut jumps);
             slit.add_field(&jumps, &mut field);
         }

@@ -7,7 +7,7 @@ use nalgebra::Rotation3;
 use palpate_geometry::{AabbTree, TriangleId};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::finite_elements::condensed::CondensedProblem;
-use palpate_mechanics::surface_response::slit::{CutBody, Slit, SlitFacet, Spot};
+use palpate_mechanics::surface_response::slit::{CutBody, DiscForce, Slit, SlitFacet};
 use palpate_mechanics::surface_response::{SurfaceResponse, TipField};
 
 use crate::boundary_response::Held;
@@ -185,14 +185,14 @@ impl Table {
         let further = tip.structural_compliance();
         let aside = mean * (1.0 - 0.5 * nu);
         let own = [mean * (1.0 - nu), aside, aside];
-        let spot = Spot {
+        let spot = DiscForce {
             place,
             normal: axes[0],
             radius: a,
         };
         let mut load = slit.load();
         slit.put(&self.response, tip.shares(), Some(&spot), &mut load);
-        let more = slit.further(&load);
+        let more = slit.added_compliance(&load);
         [
             [0, 1, 2].map(|k| own[k] + axes[k].dot(&(further * axes[k]))),
             [0, 1, 2].map(|k| axes[k].dot(&(more * axes[k]))),

@@ -243,7 +243,7 @@ impl Grid {
         let mut workspace = FiniteElementWorkspace::new(&model).unwrap();
         let mut supports = Supports::none(&model);
         for axis in 0..3 {
-            supports = supports.hold(&model, held_nodes.iter().copied(), axis, 0.0);
+            supports = supports.fix(&model, held_nodes.iter().copied(), axis, 0.0);
         }
         let rest = FiniteElementState::at_rest(&model);
         let mut system = LinearSystem::assemble(&model, &supports, &rest, &mut workspace).unwrap();

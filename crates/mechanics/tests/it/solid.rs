@@ -40,7 +40,7 @@ fn block(cells: usize) -> TetrahedronMesh {
     TetrahedronMesh::block(Vec3::repeat(-HALF), Vec3::repeat(HALF), [cells; 3]).unwrap()
 }
 
-/// A cube of 0.1 m with its bottom held, and a patch of `radius` [m] in the middle of its top that
+/// A cube of 0.1 m with its bottom fixed, and a patch of `radius` [m] in the middle of its top that
 /// moves down by a hundredth of it.
 pub(crate) fn cube(radius: f64, nu: f64, friction: Friction) -> SolidProblem {
     SolidProblem {
@@ -207,9 +207,9 @@ fn pressures_change_nothing_where_nothing_locks() {
         let model = FiniteElementModel::new(mesh, law.clone(), formulation).unwrap();
         let mut supports = Supports::none(&model);
         for axis in 0..3 {
-            supports = supports.hold(&model, bottom.iter().copied(), axis, 0.0);
+            supports = supports.fix(&model, bottom.iter().copied(), axis, 0.0);
         }
-        let supports = supports.hold(&model, top, 2, -1e-3);
+        let supports = supports.fix(&model, top, 2, -1e-3);
         let mut state = FiniteElementState::at_rest(&model);
         let mut workspace = FiniteElementWorkspace::new(&model).unwrap();
         equilibrate(&model, &supports, &mut state, &mut workspace).unwrap();

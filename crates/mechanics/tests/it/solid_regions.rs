@@ -275,7 +275,8 @@ impl Layered {
             layers: vec![(THICKNESS * self.0, of(contrast * BASE))],
             base: of(BASE),
         };
-        let of_layered = layered.yields(LoadShape::Punch, self.0)[1] * self.half_space() / contrast;
+        let of_layered =
+            layered.compliance_ratios(LoadShape::Punch, self.0)[1] * self.half_space() / contrast;
         let of_cube = self.half_space() - self.converged(&self.uniform());
         let off = self.converged(problem) / (of_layered - of_cube) - 1.0;
         let part = of_cube / of_layered;

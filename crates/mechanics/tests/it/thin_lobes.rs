@@ -79,7 +79,7 @@ impl Lobe {
         let surface = mesh.boundary_surface().unwrap();
         let loaded = surface.mesh().triangle_ids().filter(|&id| {
             let centroid = surface.mesh().positions(id).iter().sum::<Vec3>() / 3.0;
-            ball.holds(centroid.into())
+            ball.contains(centroid.into())
         });
         let area: f64 = loaded.map(|id| surface.mesh().area_vector(id).norm()).sum();
         let loaded = Region {

@@ -224,7 +224,7 @@ fn a_bounded_stiffness_is_told() {
             let found = law.force_in_series(&inward, &Matrix3::from_diagonal(&diagonal));
             let told = found.limits.reached(Limit::TipStiffness).unwrap();
             // Rounding of 1/(1 − 0.96).
-            assert!(told.asked == asked || (told.asked / asked - 1.0).abs() < 1e-12);
+            assert!(told.unbounded == asked || (told.unbounded / asked - 1.0).abs() < 1e-12);
             assert_eq!(told.used, 20.0);
             let along = found.limits.reached(Limit::TipShearStiffness);
             assert_eq!(along.is_some(), bond == Friction::Bonded);

@@ -30,7 +30,7 @@ fn a_body_that_nothing_holds_is_singular() {
             assert_eq!(body.solve(Supports::none), Err(SINGULAR), "{kind:?}");
             // Sliding on one plane: two shifts and a turn are left, or nothing on an axis.
             let low = face(body.model.mesh(), 0, 0.0);
-            let one = body.solve(|model| Supports::none(model).hold(model, low, 0, 0.0));
+            let one = body.solve(|model| Supports::none(model).fix(model, low, 0, 0.0));
             assert_eq!(one, Err(SINGULAR), "{kind:?}");
         }
     }
@@ -55,15 +55,15 @@ fn a_hinge_is_singular_and_three_points_are_not() {
             ];
             let hinge = |model: &FiniteElementModel| {
                 (0..3).fold(Supports::none(model), |supports, axis| {
-                    supports.hold(model, edge.iter().copied(), axis, 0.0)
+                    supports.fix(model, edge.iter().copied(), axis, 0.0)
                 })
             };
             assert_eq!(body.solve(hinge), Err(SINGULAR), "{kind:?}");
             let three = |model: &FiniteElementModel| {
                 Supports::none(model)
-                    .hold(model, corners, 2, 0.0)
-                    .hold(model, [corners[0], corners[1]], 1, 0.0)
-                    .hold(model, [corners[0]], 0, 0.0)
+                    .fix(model, corners, 2, 0.0)
+                    .fix(model, [corners[0], corners[1]], 1, 0.0)
+                    .fix(model, [corners[0]], 0, 0.0)
             };
             assert_eq!(body.solve(three), Ok(()), "{kind:?}");
         }
@@ -115,9 +115,9 @@ fn a_body_pushed_through_itself_fails() {
         let found = body.solve(|model| {
             (0..model.dimension())
                 .fold(Supports::none(model), |supports, axis| {
-                    supports.hold(model, low.iter().copied(), axis, 0.0)
+                    supports.fix(model, low.iter().copied(), axis, 0.0)
                 })
-                .hold(model, high, 1, -1.5)
+                .fix(model, high, 1, -1.5)
         });
         assert!(found.is_err(), "{kind:?}");
     }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use palpate_files::{Language, Motion, Overwrite, Scene, write_whole};
+use palpate_files::{Language, Motion, Overwrite, Scene, write_atomically};
 use palpate_simulate::Simulation;
 use palpate_viewer::{Start, check_display};
 
@@ -79,7 +79,7 @@ fn play(why: &palpate_viewer::Error) -> Result<(), Failure> {
     let report = record(&simulation, &motion, recording)?;
     // The inputs, to change and to play again.
     for (name, text) in INPUTS {
-        write_whole(folder.join(name), text.as_bytes())?;
+        write_atomically(folder.join(name), text.as_bytes())?;
     }
     output::text(report.text())?;
     output::text(format!(

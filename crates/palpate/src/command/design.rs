@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use palpate_characterize::design::Criterion;
-use palpate_characterize::inverse::SoughtLaw;
-use palpate_files::write_whole;
+use palpate_characterize::inverse::CandidateLaw;
+use palpate_files::write_atomically;
 use palpate_jobs::design::{Answer, Known, PressesAnswer, Request, Within, design};
 
 use super::overwrite::OverwriteOption;
 use super::recordings::Recordings;
 use crate::failure::Failure;
-use crate::interrupt::{self, Unbroken};
+use crate::interrupt::{self, UninterruptedSection};
 use crate::output;
 use crate::progress::{Progress, Reader};
 
@@ -94,8 +94,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let found = design(&request, &progress)?;
     drop(progress);
     if let Some(path) = &arguments.out {
-        let _unbroken = Unbroken::begin();
-        write_whole(path, found.protocol.as_bytes())?;
+        let _unbroken = UninterruptedSection::begin();
+        write_atomically(path, found.protocol.as_bytes())?;
     }
     if arguments.json {
         return output::json(&found.answer);
@@ -176,7 +176,7 @@ impl Arguments {
     }
 
     /// A guess, which states its own law.
-    fn tissue(&self, path: &Path, law: Option<SoughtLaw>) -> Result<Known, Failure> {
+    fn tissue(&self, path: &Path, law: Option<CandidateLaw>) -> Result<Known, Failure> {
         match law {
             None => Ok(Known::Tissue(path.to_owned())),
             Some(law) => Err(Failure::input(format!(

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use palpate_files::write_whole;
+use palpate_files::write_atomically;
 use palpate_jobs::documents;
 use palpate_jobs::solve::Problem;
 
@@ -237,7 +237,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let paths = files.iter().map(|(file, _)| arguments.folder.join(file));
     let claims = arguments.overwrite.claim(paths)?;
     for (file, text) in &files {
-        write_whole(arguments.folder.join(file), text.as_bytes())?;
+        write_atomically(arguments.folder.join(file), text.as_bytes())?;
     }
     drop(claims);
     let widest = ALL.iter().map(|example| example.file.len()).max();

@@ -41,7 +41,7 @@ impl Recordings {
             force: self.force.clone(),
             depth_unit: self.depth_unit.clone(),
             force_unit: self.force_unit.clone(),
-            said: self.said.clone(),
+            header_entries: self.said.clone(),
         }
     }
 }

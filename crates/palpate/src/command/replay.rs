@@ -101,7 +101,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
                 Some(Box::new(prepared(&folder, None, false)?))
             }
         };
-        let start = Start::Again(Box::new(own), other);
+        let start = Start::Replay(Box::new(own), other);
         return match window::open(start, None, preparation::resources()) {
             Err(why) if window::is_absent(&why) => Err(Failure::failed(format!(
                 "{why}; --frames N --out DIR and --gif FILE.gif need no window"
@@ -187,7 +187,7 @@ fn play(arguments: &Arguments, own: PlayedSession) -> Result<Answer, Failure> {
     };
     let steps = replay.steps();
     let progress = Progress::new(Reader::of_json(arguments.json), Some(steps as u64));
-    progress.say("steps played again");
+    progress.show_step("steps played again");
     let (mut compared, mut largest) = (0, 0.0_f64);
     while replay.advance() {
         let number = replay.played() as u64 - 1;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use palpate_files::write_whole;
+use palpate_files::write_atomically;
 use palpate_jobs::documents::{Kind, kind, kinds, reference, schema, template};
 
 use super::overwrite::OverwriteOption;
@@ -84,7 +84,7 @@ fn write(files: &[(PathBuf, String)], arguments: &Arguments) -> Result<(), Failu
         .overwrite
         .claim(files.iter().map(|(path, _)| path))?;
     for (path, text) in files {
-        write_whole(path, text.as_bytes())?;
+        write_atomically(path, text.as_bytes())?;
         output::line(format!("written: {}", path.display()))?;
     }
     drop(claims);

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
-use palpate_files::{Claim, write_whole};
+use palpate_files::{Claim, write_atomically};
 
 use super::CommandLine;
 use super::overwrite::OverwriteOption;
@@ -68,7 +68,7 @@ pub(crate) fn manual(arguments: &Manual) -> Result<(), Failure> {
         arguments.overwrite.rule(),
     )?;
     for (name, page) in &pages {
-        write_whole(path(name), page)?;
+        write_atomically(path(name), page)?;
     }
     drop(claims);
     output::line(format!(

@@ -24,11 +24,11 @@ pub(super) fn open_in(
     training: Option<Training>,
     resources: Resources,
 ) -> Result<(), Error> {
-    let way_out = Scene::parse(ESOPHAGUS, "built-in scene")?;
+    let fallback = Scene::parse(ESOPHAGUS, "built-in scene")?;
     // The first call starts listening for signals.
     let _ = interrupt::is_requested();
     let options = WindowOptions {
-        way_out,
+        fallback,
         resources,
         training,
         settings: crate::settings::of_window(language),

@@ -10,7 +10,7 @@ use kuva::render::plots::Plot as Drawn;
 use kuva::render::render::{Primitive, Scene, render_multiple};
 use kuva::{Theme, TickAlign, TickFormat};
 
-use super::retouch::{self, SIZE};
+use super::svg_corrections::{self, SIZE};
 use super::{Axis, Band, Plot, Series, Shade, Style, span};
 
 /// Pixels of the picture per unit of the layout.
@@ -57,7 +57,7 @@ fn printed(size: [f64; 2]) -> Look {
 /// The picture of `plot`.
 pub(super) fn png(plot: &Plot) -> Result<Vec<u8>, String> {
     let mut scene = scene(plot, &printed(SIZE));
-    retouch::dash(&mut scene);
+    svg_corrections::dash(&mut scene);
     PngBackend::new().with_scale(PIXELS).render_scene(&scene)
 }
 
@@ -73,7 +73,7 @@ pub(super) fn png_of_two([left, right]: [&Plot; 2]) -> Result<Vec<u8>, String> {
     });
     both.elements.extend(scene(right, &look).elements);
     both.elements.push(Primitive::GroupEnd);
-    retouch::dash(&mut both);
+    svg_corrections::dash(&mut both);
     PngBackend::new().with_scale(PIXELS).render_scene(&both)
 }
 
@@ -84,7 +84,7 @@ pub(super) fn scene(plot: &Plot, look: &Look) -> Scene {
     let unused = height - MARGIN - lowest(&drawn(plot, look, height));
     let mut scene = drawn(plot, look, height + unused);
     (scene.width, scene.height) = (width, height);
-    retouch::titles(&mut scene, plot);
+    svg_corrections::titles(&mut scene, plot);
     scene
 }
 

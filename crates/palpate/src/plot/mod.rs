@@ -1,15 +1,15 @@
 //! Line plots, as PNG pictures and as SVG for pages.
 
 mod drawing;
-mod retouch;
 mod span;
 mod svg;
+mod svg_corrections;
 
 use std::path::Path;
 
 use palpate_files::printable;
 
-pub(crate) use palpate_jobs::plot::{Axis, Band, Plot, Series, Shade, Style, kept};
+pub(crate) use palpate_jobs::plot::{Axis, Band, Plot, Series, Shade, Style, thinned_indices};
 
 use crate::failure::Failure;
 
@@ -24,7 +24,7 @@ pub(crate) trait Draw {
 
     /// Writes the picture to `path`.
     fn write(&self, path: &Path) -> Result<(), Failure> {
-        Ok(palpate_files::write_whole(path, &self.png()?)?)
+        Ok(palpate_files::write_atomically(path, &self.png()?)?)
     }
 }
 
@@ -63,7 +63,7 @@ pub(crate) fn write_pair(plots: [&Plot; 2], path: &Path) -> Result<(), Failure> 
             "the plots of `{title}` cannot be drawn ({cause}); please report this"
         ))
     })?;
-    Ok(palpate_files::write_whole(path, &png)?)
+    Ok(palpate_files::write_atomically(path, &png)?)
 }
 
 #[cfg(test)]

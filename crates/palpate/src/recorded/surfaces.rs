@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use palpate_files::write_whole;
+use palpate_files::write_atomically;
 use palpate_geometry::{Vec3, vtk};
 use palpate_simulate::{Frame, Simulation};
 
@@ -32,7 +32,7 @@ impl<'a> Surfaces<'a> {
         if !frame.is_due(count, self.wanted) {
             return Ok(());
         }
-        let cuts = frame.state.cuts.as_ref().filter(|cuts| cuts.are_there());
+        let cuts = frame.state.cuts.as_ref().filter(|cuts| cuts.has_openings());
         let (rest, triangles, moved) = match cuts {
             Some(cuts) => (cuts.mesh(), cuts.triangles(), cuts.places()),
             None => {
@@ -51,7 +51,7 @@ impl<'a> Surfaces<'a> {
         };
         let bytes = vtk::polydata(moved, triangles, &[field]);
         let name = format!("surface-{:04}.vtp", count + 1);
-        write_whole(self.folder.join(&name), &bytes)?;
+        write_atomically(self.folder.join(&name), &bytes)?;
         self.written.push((frame.time, name));
         Ok(())
     }
@@ -63,7 +63,7 @@ impl<'a> Surfaces<'a> {
         }
         let entries: Vec<_> = self.written.iter().map(|(t, n)| (*t, n.as_str())).collect();
         let path = self.folder.join("surfaces.pvd");
-        write_whole(&path, &vtk::collection(&entries))?;
+        write_atomically(&path, &vtk::collection(&entries))?;
         Ok(Some(path))
     }
 }

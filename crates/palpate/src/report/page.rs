@@ -9,20 +9,20 @@ const STYLE: &str = include_str!("style.css");
 pub(crate) struct Page {
     pub(crate) title: String,
     /// Under the title.
-    pub(crate) lead: Markup,
+    pub(crate) summary: Markup,
     pub(crate) body: Markup,
     /// At the end, small.
-    pub(crate) foot: Markup,
+    pub(crate) footer: Markup,
 }
 
 impl Page {
     /// The text of its file.
     pub(crate) fn html(&self) -> String {
         let title = Markup::from(&*self.title);
-        let header = Markup::plain("h1", &*self.title).and(self.lead.clone());
+        let header = Markup::plain("h1", &*self.title).and(self.summary.clone());
         let header = Markup::of_class("header", "page", header);
         let main = Markup::plain("main", self.body.clone());
-        let foot = Markup::plain("footer", self.foot.clone());
+        let foot = Markup::plain("footer", self.footer.clone());
         format!(
             "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n\
              <meta charset=\"utf-8\"/>\n\

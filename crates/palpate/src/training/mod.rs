@@ -1,20 +1,20 @@
 //! Training: the tasks that come with the program, and the storage of sessions and results.
 
-mod kept;
 mod record;
 mod tasks;
+mod window_record;
 
 use std::path::PathBuf;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use palpate_viewer::training::{Training, TrainingRecord};
 
-pub(crate) use kept::{Author, VARIANT, save_score};
 pub(crate) use record::record_file;
 pub(crate) use tasks::free;
+pub(crate) use window_record::{Author, VARIANT, save_score};
 
 use crate::failure::Failure;
-use kept::WindowRecord;
+use window_record::WindowRecord;
 
 /// The variable that names the folder of sessions and results.
 const FOLDER_VARIABLE: &str = "PALPATE_TRAINING";

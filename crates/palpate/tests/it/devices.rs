@@ -30,7 +30,7 @@ fn devices(arguments: &[&str], haply: &str) -> Output {
 }
 
 fn service() -> HaplyStandIn {
-    let still = Trajectory::way(vec![Waypoint::new(0.0, Vec3::zeros())]).unwrap();
+    let still = Trajectory::waypoints(vec![Waypoint::new(0.0, Vec3::zeros())]).unwrap();
     let hand = VirtualDevice::new(still)
         .with_hand(HandImpedance::default())
         .unwrap();
@@ -184,7 +184,7 @@ fn a_touch_without_a_window_is_shown() {
         seen.extend(&bytes[..length]);
     }
     // A device that is lost ends it, with its name.
-    service.misbehave(Some(Misbehaviour::Drops));
+    service.misbehave(Some(Misbehaviour::Disconnects));
     assert_eq!(child.wait().unwrap().code(), Some(1));
 }
 

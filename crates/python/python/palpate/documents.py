@@ -201,7 +201,7 @@ class SceneNeighbourAnchorSpheres(TypedDict, total=False):
 
 
 class SceneNeighbourAnchor(TypedDict, total=False):
-    """Where it is held, if it bends: its surface in one of these regions of the scene. (default: the attachment of a built-in organ)"""
+    """Where it is fixed, if it bends: its surface in one of these regions of the scene. (default: the attachment of a built-in organ)"""
 
     boxes: Sequence[SceneNeighbourAnchorBoxes]
     """Boxes along the axes. (default: none)"""
@@ -424,7 +424,7 @@ class SceneNeighbour(TypedDict, total=False):
     """Bodies that are shown with the organ: rigid ones, and those that bend. (default: none)"""
 
     anchor: SceneNeighbourAnchor
-    """Where it is held, if it bends: its surface in one of these regions of the scene. (default: the attachment of a built-in organ)"""
+    """Where it is fixed, if it bends: its surface in one of these regions of the scene. (default: the attachment of a built-in organ)"""
     at_cm: Sequence[float] | Draw
     """Where its origin comes to, after it is scaled and turned about it. (default [0.0, 0.0, 0.0])"""
     at_m: Sequence[float] | Draw

@@ -261,7 +261,7 @@ impl SimulationBatch {
     /// Which tools' jaws hold tissue: bool, shape (count, tools).
     #[getter]
     fn holds<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<bool>> {
-        self.of_tools(py, ToolState::holds)
+        self.of_tools(py, ToolState::is_grasping)
     }
 
     /// Forces on the tools [N]: shape (count, tools, 3).

@@ -64,7 +64,7 @@ impl Model {
             let prepared = Prepared::prepare(&scene, &resources, &mut |progress| {
                 told.say(progress.work.words());
                 told.at(progress.part);
-                match told.is_asked_to_stop() {
+                match told.should_stop() {
                     true => ControlFlow::Break(()),
                     false => ControlFlow::Continue(()),
                 }

@@ -36,8 +36,8 @@ pub(crate) fn dict<'py>(
 pub(super) fn status(judge: Option<&Judge>) -> (f64, bool, bool) {
     match judge.map(|judge| judge.performance.status()) {
         None => (f64::NAN, false, false),
-        Some(Status::GoesOn { part, .. }) => (part.unwrap_or(f64::NAN), false, false),
-        Some(Status::Over { late }) => {
+        Some(Status::InProgress { part, .. }) => (part.unwrap_or(f64::NAN), false, false),
+        Some(Status::Ended { late }) => {
             let part = if late { f64::NAN } else { 1.0 };
             (part, true, late)
         }

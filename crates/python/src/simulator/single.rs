@@ -223,9 +223,9 @@ impl Simulation {
             let summary = play(&model.prepared, &motion.motion, |frame| {
                 rows.extend(frame.rows().copied());
                 told.at(frame.number as f64 / frame.steps as f64);
-                Ok::<_, Failure>(match told.is_asked_to_stop() {
+                Ok::<_, Failure>(match told.should_stop() {
                     true => Flow::Stop,
-                    false => Flow::GoOn,
+                    false => Flow::Continue,
                 })
             })?;
             Ok((rows, summary))
@@ -250,7 +250,7 @@ impl Simulation {
     #[getter]
     fn vertices<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         let state = &self.stepper.course.state;
-        match state.cuts.as_ref().filter(|cuts| cuts.are_there()) {
+        match state.cuts.as_ref().filter(|cuts| cuts.has_openings()) {
             Some(cuts) => numbers::rows(py, cuts.places().iter()),
             None => numbers::rows(py, state.deformed.vertices().iter()),
         }
@@ -260,7 +260,7 @@ impl Simulation {
     #[getter]
     fn triangles<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<u32>> {
         let state = &self.stepper.course.state;
-        match state.cuts.as_ref().filter(|cuts| cuts.are_there()) {
+        match state.cuts.as_ref().filter(|cuts| cuts.has_openings()) {
             Some(cuts) => mesh::corners(py, cuts.triangles()),
             None => mesh::corners(py, state.deformed.triangles()),
         }

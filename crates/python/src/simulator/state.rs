@@ -64,7 +64,7 @@ impl Tool {
             touched: tool
                 .contact
                 .map(|contact| (contact.point(), contact.normal())),
-            holds: tool.holds(),
+            holds: tool.is_grasping(),
             grip_force: tool.grip_force,
             events: tool.row.events.iter().map(|event| event.word()).collect(),
         }

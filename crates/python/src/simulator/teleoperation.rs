@@ -178,7 +178,7 @@ impl Teleoperation {
     fn felt_forces<'py>(&mut self, py: Python<'py>) -> Result<Bound<'py, PyArray2<f64>>, Failure> {
         Ok(numbers::rows(
             py,
-            self.tools()?.iter().map(|tool| &tool.felt),
+            self.tools()?.iter().map(|tool| &tool.rendered_force),
         ))
     }
 

@@ -96,7 +96,7 @@ impl Body {
     fn built_in(organ: Organ, triangles: usize) -> Result<Self, Error> {
         let mesh = organ.surface_mesh(triangles)?;
         let whose = format!(
-            "the built-in {organ}, held on {}",
+            "the built-in {organ}, fixed on {}",
             organ.description().fixed
         );
         Self::fixed(Surface::new(mesh)?, &organ.anchor(), &whose)
@@ -106,7 +106,7 @@ impl Body {
         let mesh = surface.mesh();
         let (fixed, free) = mesh.triangle_ids().partition(|&triangle| {
             let centroid = centroid(&surface, triangle);
-            anchor.iter().any(|plane| plane.holds(&centroid))
+            anchor.iter().any(|plane| plane.contains(&centroid))
         });
         let description = format!(
             "{whose}: {} vertices, {} triangles",

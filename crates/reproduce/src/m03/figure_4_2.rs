@@ -1,6 +1,6 @@
 use super::body::{Body, MODELS};
 use crate::Error;
-use crate::portrait::{Painter, Sitter};
+use crate::rendered_body::{Painter, RenderedBody};
 use crate::row::Rows;
 
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
@@ -11,7 +11,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
         let body = Body::new(model)?;
         let mesh = body.surface.mesh();
         let (low, high) = mesh.bounds();
-        let png = painter.draw(&Sitter {
+        let png = painter.draw(&RenderedBody {
             surface: &body.surface,
             places: mesh.vertices(),
             middle: (0.5 * (low + high), body.touched_normal()),

@@ -30,7 +30,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let mut measured = Vec::new();
     let mut left_out = String::new();
     for size in SIZES {
-        rows.say(format!("{size} triangles"));
+        rows.report_step(format!("{size} triangles"));
         match measure(rows, &Body::kidney(size)?) {
             Ok(found) => measured.extend(found),
             Err(why @ MechanicsError::NotEnoughMemory { .. }) => {

@@ -41,7 +41,7 @@ impl Pressed {
             displacement: -depth * normal,
         };
         let contact = PatchContact {
-            bond: Friction::Bonded,
+            friction: Friction::Bonded,
             reciprocity: Reciprocity::Imposed,
             youngs_modulus: YOUNGS_MODULUS,
         };

@@ -13,7 +13,7 @@ use palpate_mechanics::surface_response::{
 use super::body::Body;
 use crate::machine::median;
 use crate::row::Rows;
-use palpate_jobs::{Watch, preparation};
+use palpate_jobs::{ProgressCallback, preparation};
 
 /// Times of the off-line computation [s].
 #[derive(Debug, Clone, Copy)]
@@ -57,8 +57,8 @@ pub(super) fn solve(
             Stage::Columns => (2, "its columns"),
         };
         ends[stage] = start.elapsed().as_secs_f64();
-        rows.say(format!("{words}, {:.0} %", 100.0 * progress.part));
-        match rows.is_asked_to_stop() {
+        rows.report_step(format!("{words}, {:.0} %", 100.0 * progress.part));
+        match rows.should_stop() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
@@ -88,7 +88,7 @@ pub(super) fn touch(body: &Body, response: &SurfaceResponse, triangles: usize) -
         })
         .collect();
     let contact = PatchContact {
-        bond: Friction::Bonded,
+        friction: Friction::Bonded,
         reciprocity: Reciprocity::Imposed,
         youngs_modulus: YOUNGS_MODULUS,
     };

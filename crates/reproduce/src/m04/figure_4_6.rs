@@ -2,12 +2,12 @@ use palpate_files::scene::{Enhancement, EnhancementArea, Smoothing};
 use palpate_geometry::{Surface, Vec3};
 use palpate_mechanics::contact::Tip;
 use palpate_mechanics::enhance::{
-    Carrier, EnhancedPatch, EnhancementModel, Press, SurfaceField, SurfacePoint,
+    EmbeddedDisplayPoints, EnhancedPatch, EnhancementModel, Press, SurfaceField, SurfacePoint,
 };
 
 use crate::Error;
 use crate::m03::{Body, MODELS, Pressed};
-use crate::portrait::{Painter, Sitter};
+use crate::rendered_body::{Painter, RenderedBody};
 use crate::row::Rows;
 
 /// A picture of the figure.
@@ -80,7 +80,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let pressed = Pressed::new(&cube, DEPTH)?;
     for shown in PICTURES {
         let (surface, places) = enhanced(&cube.surface, &pressed, &shown)?;
-        let png = painter.draw(&Sitter {
+        let png = painter.draw(&RenderedBody {
             surface: &surface,
             places: &places,
             middle: (pressed.place, pressed.normal),
@@ -134,7 +134,7 @@ fn enhanced(
     let mut of_patch = vec![Vec3::zeros(); patch.places().len()];
     patch.displace(&field, &mut of_patch);
     let mut moved = vec![Vec3::zeros(); coarse.mesh().vertices().len()];
-    Carrier::of_vertices(model.interpolation()).carry(&field, &mut moved);
+    EmbeddedDisplayPoints::of_vertices(model.interpolation()).interpolate(&field, &mut moved);
     // Its first points are vertices of the coarse mesh.
     moved.extend_from_slice(&of_patch[patch.corners().len()..]);
     let whole = patch.in_mesh(coarse.mesh(), patch.places());

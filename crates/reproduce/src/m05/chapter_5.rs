@@ -49,7 +49,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let specimens = specimens(organ, &animals, &spreads)?;
     let mut found = Vec::new();
     for (animal, (subject, own)) in animals.iter().zip(&specimens).enumerate() {
-        rows.say(format_args!(
+        rows.report_step(format_args!(
             "animal {subject}, {} of {}",
             animal + 1,
             animals.len()

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use palpate_characterize::analyze::Sinusoid;
-use palpate_characterize::inverse::SoughtLaw;
+use palpate_characterize::inverse::CandidateLaw;
 use palpate_characterize::{CleanRecording, analyze};
 use palpate_mechanics::finite_elements::indentation::History;
 use palpate_mechanics::{IndentationCurve, PronySeries};
@@ -75,7 +75,7 @@ impl Organ {
 fn solid(name: &str) -> Result<(IndentationCurve, PronySeries), Error> {
     let c10 = cell(&format!("table-6-4 {name} final_c10_pa"))?;
     let depth_mm = cell(&format!("table-6-4 {name} depth_mm"))?;
-    let curve = elastic(SoughtLaw::NeoHookean, c10, &[])?;
+    let curve = elastic(CandidateLaw::NeoHookean, c10, &[])?;
     Ok((curve, prony(name, depth_mm as u32)?))
 }
 

@@ -1,5 +1,5 @@
 use palpate_characterize::CleanRecording;
-use palpate_characterize::inverse::SoughtLaw;
+use palpate_characterize::inverse::CandidateLaw;
 use palpate_characterize::lumped::{DepthHistory, fit_kelvin};
 use palpate_mechanics::finite_elements::indentation::History;
 use palpate_mechanics::{IndentationCurve, PronySeries};
@@ -17,7 +17,7 @@ const DEPTH: f64 = 6e-3;
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let c10 = cell("table-6-4 liver final_c10_pa")?;
     let course = ramp_and_hold(DEPTH);
-    let curve = elastic(SoughtLaw::NeoHookean, c10, &[])?;
+    let curve = elastic(CandidateLaw::NeoHookean, c10, &[])?;
     let forces = curve.relaxed(&prony("liver", 6)?, &course.times, &course.depths);
     let recording = recorded("liver", 0, &course, &forces, 1)?;
     let columns = (&recording.time, &recording.depth, &recording.force);

@@ -22,7 +22,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             curves.push((course, forces));
         }
         for (noisy, word) in [(false, ""), (true, "noisy/")] {
-            rows.say(format!("{organ}, {word}springs"));
+            rows.report_step(format!("{organ}, {word}springs"));
             let found = refitted(organ, &curves, noisy)?;
             add(rows, organ, word, &values, &found);
         }

@@ -3,7 +3,7 @@
 use palpate_mechanics::contact::FrictionLaw;
 use std::sync::{Arc, OnceLock};
 
-use palpate_characterize::inverse::SoughtLaw;
+use palpate_characterize::inverse::CandidateLaw;
 use palpate_mechanics::finite_elements::indentation::{
     Base, Block, IndentationProblem, Indenter, IndenterShape, Side, solve,
 };
@@ -88,29 +88,29 @@ fn solved(rows: &Rows<'_>) -> Result<Vec<Published>, Error> {
 }
 
 /// The laws of tables 6-4 and 6-5, with their words.
-pub(super) const LAWS: [(SoughtLaw, &str); 2] = [
-    (SoughtLaw::NeoHookean, "neo_hookean"),
-    (SoughtLaw::MooneyRivlin, "mooney_rivlin"),
+pub(super) const LAWS: [(CandidateLaw, &str); 2] = [
+    (CandidateLaw::NeoHookean, "neo_hookean"),
+    (CandidateLaw::MooneyRivlin, "mooney_rivlin"),
 ];
 
 /// The table that a law is in.
-pub(super) fn table(law: SoughtLaw) -> &'static str {
+pub(super) fn table(law: CandidateLaw) -> &'static str {
     match law {
-        SoughtLaw::NeoHookean => "table-6-4",
+        CandidateLaw::NeoHookean => "table-6-4",
         _ => "table-6-5",
     }
 }
 
 /// The moduli of a law.
-pub(super) fn moduli(law: SoughtLaw) -> &'static [&'static str] {
+pub(super) fn moduli(law: CandidateLaw) -> &'static [&'static str] {
     match law {
-        SoughtLaw::NeoHookean => &["c10"],
+        CandidateLaw::NeoHookean => &["c10"],
         _ => &["c10", "c01"],
     }
 }
 
 /// The printed moduli [Pa] of `organ`, of those `when`: `initial` or `final`.
-pub(super) fn printed(law: SoughtLaw, organ: &str, when: &str) -> Result<Vec<f64>, Error> {
+pub(super) fn printed(law: CandidateLaw, organ: &str, when: &str) -> Result<Vec<f64>, Error> {
     let printed = |modulus| cell(&format!("{} {organ} {when}_{modulus}_pa", table(law)));
     moduli(law).iter().map(printed).collect()
 }

@@ -1,4 +1,4 @@
-use palpate_characterize::inverse::SoughtLaw;
+use palpate_characterize::inverse::CandidateLaw;
 use palpate_jobs::plot::{Series, Style};
 use palpate_mechanics::IndentationCurve;
 
@@ -10,16 +10,19 @@ use crate::virtual_rig::{END, elastic, ramp_and_hold, recorded};
 
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     for (organ, depth_mm) in ORGANS {
-        let alone = printed(SoughtLaw::NeoHookean, organ, "final")?[0];
-        let both = printed(SoughtLaw::MooneyRivlin, organ, "final")?;
+        let alone = printed(CandidateLaw::NeoHookean, organ, "final")?[0];
+        let both = printed(CandidateLaw::MooneyRivlin, organ, "final")?;
         let mean = cell(&format!("table-5-1 {organ} {depth_mm} mean_n"))?;
         let sum = both[0] + both[1];
         let shape = [both[1] / sum];
         let laws = [
-            ("neo-Hookean", elastic(SoughtLaw::NeoHookean, alone, &[])?),
+            (
+                "neo-Hookean",
+                elastic(CandidateLaw::NeoHookean, alone, &[])?,
+            ),
             (
                 "Mooney-Rivlin",
-                elastic(SoughtLaw::MooneyRivlin, sum, &shape)?,
+                elastic(CandidateLaw::MooneyRivlin, sum, &shape)?,
             ),
         ];
         let series = add(rows, organ, depth_mm, mean, &laws)?;

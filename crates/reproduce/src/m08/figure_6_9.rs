@@ -1,4 +1,4 @@
-use palpate_characterize::inverse::SoughtLaw;
+use palpate_characterize::inverse::CandidateLaw;
 use palpate_jobs::plot::Series;
 
 use super::block::{ORGANS, moduli, printed, table};
@@ -12,17 +12,22 @@ const SHOWN: usize = 21;
 
 /// Figure 6-9.
 pub(crate) fn neo_hookean(rows: &mut Rows<'_>) -> Result<(), Error> {
-    run(rows, SoughtLaw::NeoHookean, "neo-Hookean", &ORGANS)
+    run(rows, CandidateLaw::NeoHookean, "neo-Hookean", &ORGANS)
 }
 
 /// Figure 6-10.
 pub(crate) fn mooney_rivlin(rows: &mut Rows<'_>) -> Result<(), Error> {
-    run(rows, SoughtLaw::MooneyRivlin, "Mooney-Rivlin", &ORGANS[1..])
+    run(
+        rows,
+        CandidateLaw::MooneyRivlin,
+        "Mooney-Rivlin",
+        &ORGANS[1..],
+    )
 }
 
 fn run(
     rows: &mut Rows<'_>,
-    law: SoughtLaw,
+    law: CandidateLaw,
     law_name: &str,
     organs: &[(&str, u32)],
 ) -> Result<(), Error> {

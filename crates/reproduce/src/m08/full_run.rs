@@ -1,6 +1,6 @@
 //! Force over time by the full viscoelastic run of finite elements, with internal variables.
 
-use palpate_characterize::inverse::{Body, SoughtLaw};
+use palpate_characterize::inverse::{Body, CandidateLaw};
 use palpate_mechanics::finite_elements::indentation::{
     History, IndentationRun, IndentationSettings,
 };
@@ -21,14 +21,16 @@ const FIRST: f64 = 0.02;
 /// coarsest mesh.
 pub(super) fn full_run(
     rows: &Rows<'_>,
-    law: SoughtLaw,
+    law: CandidateLaw,
     parameters: &[f64],
     series: &PronySeries,
     depth: f64,
 ) -> Result<(History, Vec<f64>), Error> {
     let law: Arc<dyn Law> = match (law, parameters) {
-        (SoughtLaw::NeoHookean, &[c10]) => Arc::new(NeoHookean::incompressible(c10)?),
-        (SoughtLaw::MooneyRivlin, &[c10, c01]) => Arc::new(MooneyRivlin::incompressible(c10, c01)?),
+        (CandidateLaw::NeoHookean, &[c10]) => Arc::new(NeoHookean::incompressible(c10)?),
+        (CandidateLaw::MooneyRivlin, &[c10, c01]) => {
+            Arc::new(MooneyRivlin::incompressible(c10, c01)?)
+        }
         _ => {
             return Err(Error::failed("no such law is printed; please report this"));
         }
@@ -48,7 +50,7 @@ pub(super) fn full_run(
     let depths: Vec<f64> = times.iter().map(|t| depth * (t / RAMP).min(1.0)).collect();
     let mut forces = Vec::with_capacity(times.len());
     for (&time, &depth) in times.iter().zip(&depths) {
-        rows.say(format!("full viscoelastic run, {time:.2} of {END} s"));
+        rows.report_step(format!("full viscoelastic run, {time:.2} of {END} s"));
         forces.push(run.press(time, depth, |_| {})?.force);
     }
     Ok((History { times, depths }, forces))

@@ -49,7 +49,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             for (place, (algorithm, word)) in ALGORITHMS.into_iter().enumerate() {
                 // A color for each start, or where there is but one for each algorithm.
                 let color = if count > 1 { color } else { place };
-                rows.say(format!("{}, {which}, {word}", case.name));
+                rows.report_step(format!("{}, {which}, {word}", case.name));
                 let arrived = arrived(&case, algorithm, &moved)?;
                 add(rows, &format!("{}/{which}/{word}", case.name), &arrived);
                 // The truth alone makes no line.

@@ -35,7 +35,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
 fn add_starts(rows: &mut Rows<'_>, case: &str, model: &Model, truth: &[f64]) -> Result<(), Error> {
     let starts = starts(truth);
     for (algorithm, word) in ALGORITHMS {
-        rows.say(format_args!("{case}, {word}"));
+        rows.report_step(format_args!("{case}, {word}"));
         let (mut arrived, mut implausible) = (0, 0);
         for start in &starts {
             let (way, ended) = model.way(algorithm, truth, start)?;
@@ -77,7 +77,7 @@ fn add_noise(rows: &mut Rows<'_>, case: &str, model: &Model, truth: &[f64]) -> R
     };
     let largest = forces.iter().copied().fold(0.0, f64::max);
     for percent in NOISE {
-        rows.say(format_args!("{case}, {percent} % of noise"));
+        rows.report_step(format_args!("{case}, {percent} % of noise"));
         let deviation = 1e-2 * f64::from(percent) * largest;
         let mut found = Vec::new();
         for draw in 0..DRAWS {

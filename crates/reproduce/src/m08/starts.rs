@@ -1,7 +1,7 @@
 //! Starts from which a fit of a law converges: its own force is fitted again from other parameters.
 
 use palpate_characterize::fit::{Parameter, Settings, least_squares};
-use palpate_characterize::inverse::{Body, Curves, SHAPES, SoughtLaw};
+use palpate_characterize::inverse::{Body, CandidateLaw, Curves, SHAPES};
 use palpate_characterize::lumped::column_force;
 use palpate_files::tissue::EffectiveColumn;
 use palpate_mechanics::PronySeries;
@@ -64,7 +64,7 @@ pub(super) enum Model {
 
 impl Model {
     /// A ramp to `depth` [m] and a hold, of a tissue that follows `law`.
-    pub(super) fn indented(law: SoughtLaw, depth: f64, series: PronySeries) -> Self {
+    pub(super) fn indented(law: CandidateLaw, depth: f64, series: PronySeries) -> Self {
         let whole = ramp_and_hold(depth);
         let some = |values: Vec<f64>| values.into_iter().step_by(EVERY).collect();
         Self::Indented {

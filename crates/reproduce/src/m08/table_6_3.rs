@@ -1,5 +1,5 @@
 use palpate_characterize::CleanRecording;
-use palpate_characterize::inverse::SoughtLaw;
+use palpate_characterize::inverse::CandidateLaw;
 use palpate_characterize::viscoelastic::{
     Relaxation, RelaxationRecord, RelaxationSettings, relaxation, relaxation_of_steps,
 };
@@ -17,7 +17,7 @@ const ROWS: [(&str, u32); 3] = [("liver", 6), ("kidney", 5), ("kidney", 4)];
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     for (organ, depth_mm) in ROWS {
         let c10 = cell(&format!("table-6-4 {organ} final_c10_pa"))?;
-        let curve = elastic(SoughtLaw::NeoHookean, c10, &[])?;
+        let curve = elastic(CandidateLaw::NeoHookean, c10, &[])?;
         let course = ramp_and_hold(1e-3 * f64::from(depth_mm));
         let forces = curve.relaxed(&prony(organ, depth_mm)?, &course.times, &course.depths);
         let recording = recorded(organ, 0, &course, &forces, u64::from(depth_mm))?;

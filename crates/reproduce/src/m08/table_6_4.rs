@@ -1,5 +1,5 @@
 use palpate_characterize::inverse::{
-    Body, Curves, Indentation, LawDescription, SoughtLaw, law_fit,
+    Body, CandidateLaw, Curves, Indentation, LawDescription, law_fit,
 };
 use palpate_characterize::viscoelastic::{RelaxationRecord, RelaxationSettings, relaxation};
 use palpate_characterize::{CharacterizeSettings, characterize};
@@ -15,20 +15,20 @@ use crate::row::Rows;
 use crate::virtual_rig::{RADIUS, elastic, without_noise};
 
 pub(crate) fn neo_hookean(rows: &mut Rows<'_>) -> Result<(), Error> {
-    run(rows, SoughtLaw::NeoHookean)
+    run(rows, CandidateLaw::NeoHookean)
 }
 
 pub(crate) fn mooney_rivlin(rows: &mut Rows<'_>) -> Result<(), Error> {
-    run(rows, SoughtLaw::MooneyRivlin)
+    run(rows, CandidateLaw::MooneyRivlin)
 }
 
-fn run(rows: &mut Rows<'_>, law: SoughtLaw) -> Result<(), Error> {
+fn run(rows: &mut Rows<'_>, law: CandidateLaw) -> Result<(), Error> {
     for (organ, depth_mm) in ORGANS {
         let truth = printed(law, organ, "final")?;
         let series = prony(organ, depth_mm)?;
         let depth = 1e-3 * f64::from(depth_mm);
         let (course, forces) = full_run(rows, law, &truth, &series, depth)?;
-        let assumed = elastic(SoughtLaw::NeoHookean, 1.0, &[])?;
+        let assumed = elastic(CandidateLaw::NeoHookean, 1.0, &[])?;
         let largest = forces.iter().copied().fold(0.0, f64::max);
         let seen =
             RelaxationRecord::new(&course.times, &course.depths, &forces, largest, |depth| {
@@ -63,7 +63,7 @@ fn add_modulus(rows: &mut Rows<'_>, name: &str, estimate: &Estimate) {
 fn add_in_loop(
     rows: &mut Rows<'_>,
     organ: &str,
-    law: SoughtLaw,
+    law: CandidateLaw,
     course: &History,
     forces: &[f64],
 ) -> Result<(), Error> {
@@ -75,7 +75,7 @@ fn add_in_loop(
         in_loop: true,
         closed_forms: false,
     };
-    rows.say(format!("{organ}, finite elements in the loop"));
+    rows.report_step(format!("{organ}, finite elements in the loop"));
     let answer = characterize(&[recording], &settings, &mut |_| ());
     let Some((_, found)) = answer.laws.into_iter().next() else {
         return Ok(());
@@ -91,10 +91,10 @@ fn add_in_loop(
 }
 
 /// (6.17) and (6.18), which have their own items.
-fn add_initial(rows: &mut Rows<'_>, organ: &str, law: SoughtLaw) {
+fn add_initial(rows: &mut Rows<'_>, organ: &str, law: CandidateLaw) {
     let column = Column::of(organ);
     let own: Option<Vec<f64>> = match law {
-        SoughtLaw::NeoHookean => Some(vec![column.neo_hookean()]),
+        CandidateLaw::NeoHookean => Some(vec![column.neo_hookean()]),
         _ => column
             .mooney_rivlin()
             .map(|found| found.as_slice().to_vec()),

@@ -2,8 +2,8 @@ use palpate_geometry::{SimplifySettings, Surface, TriangleMesh, Vec3, simplify};
 
 use super::section_7_4::esophagus;
 use crate::Error;
-use crate::portrait::{Painter, Sitter};
 use crate::published::cell;
+use crate::rendered_body::{Painter, RenderedBody};
 use crate::row::Rows;
 
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
@@ -30,7 +30,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
 fn portrait(painter: &mut Painter, mesh: TriangleMesh) -> Result<Vec<u8>, Error> {
     let (low, high) = mesh.bounds();
     let places = mesh.vertices().to_vec();
-    painter.draw(&Sitter {
+    painter.draw(&RenderedBody {
         surface: &Surface::new(mesh)?,
         places: &places,
         middle: ((low + high) / 2.0, Vec3::zeros()),

@@ -4,7 +4,7 @@ use palpate_geometry::{AabbTree, Vec3};
 use palpate_simulate::{Simulation, SimulationState, SimulationWorkspace, step};
 use palpate_viewer::{FRAME_SIZE, RgbaImage, Studio, pick, png};
 
-use super::look;
+use super::visual_measures;
 use crate::Error;
 use crate::row::Rows;
 
@@ -45,15 +45,15 @@ pub(crate) fn figure_7_12(rows: &mut Rows<'_>) -> Result<(), Error> {
 
 /// Measures that the film changes, versus those printed of photographs.
 fn add_looks(rows: &mut Rows<'_>, plain: &RgbaImage, [middle, right]: [&RgbaImage; 2]) {
-    let tissue = look::tissue(plain);
-    let unlike = look::unlike(&tissue, middle, right);
+    let tissue = visual_measures::tissue(plain);
+    let unlike = visual_measures::different_part(&tissue, middle, right);
     rows.add("wet_unlike_textured", 100.0 * unlike);
     for (name, picture) in [("middle", middle), ("right", right)] {
-        let highlights = look::highlights(&tissue, picture);
+        let highlights = visual_measures::highlights(&tissue, picture);
         rows.add(&format!("highlights/{name}"), 100.0 * highlights);
-        let red = look::red(&tissue, picture);
+        let red = visual_measures::red(&tissue, picture);
         rows.add(&format!("red_is_strongest/{name}"), 100.0 * red);
-        let hues = look::hue_spread(&tissue, picture);
+        let hues = visual_measures::hue_spread(&tissue, picture);
         rows.add(&format!("hue_spread/{name}"), hues);
     }
 }

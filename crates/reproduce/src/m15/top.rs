@@ -87,11 +87,11 @@ impl Top {
         let open = OpenedSurface::new(cut, surface, moved, look.width);
         self.studio.view.shading = look.shading;
         self.studio.view.looks.relief = look.shading != Shading::Plain;
-        self.studio.beside.clear();
+        self.studio.other_bodies.clear();
         if let Some(width) = look.wires {
             let wires = wire_frame(open.mesh(), open.places(), width).map_err(Error::failed)?;
             let body = Body::of_mesh(&self.studio.gpu, &wires, Tint::WIRE);
-            self.studio.beside.push(body);
+            self.studio.other_bodies.push(body);
         }
         let is_cut = !open.drawn().rims.is_empty();
         let picture = self

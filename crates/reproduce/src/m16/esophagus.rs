@@ -97,10 +97,10 @@ fn methods(rows: &Rows<'_>) -> Result<Vec<Method>, Error> {
     let finite = at_finite_strain(rows)?;
     let small = at_small_strain(rows, None)?;
     let short = at_small_strain(rows, Some(FREE))?;
-    rows.say("simulator");
+    rows.report_step("simulator");
     let simulation = simulated(rows, &scene()?)?;
     let of_source = unit_forces(&simulation, &depths);
-    rows.say("trainer");
+    rows.report_step("trainer");
     let of_trainer = unit_forces(&simulated(rows, &scene_of_the_trainer()?)?, &depths);
     let organ = organ(rows, &simulation)?;
     let through = |forces: &[f64]| IndentationCurve::through(&depths, forces);

@@ -72,7 +72,7 @@ fn add(
             let forces = frame.state.tools.iter().map(|tool| tool.force.norm());
             last = Some((studio.picture(frame.state)?, forces.fold(0.0, f64::max)));
         }
-        Ok(Flow::GoOn)
+        Ok(Flow::Continue)
     })?;
     let Some((picture, force)) = last else {
         return Ok(());

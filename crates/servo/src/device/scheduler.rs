@@ -6,7 +6,7 @@ use crate::{Disabled, Fault};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Next {
     /// At its next period.
-    Again,
+    Continue,
     /// Never again.
     End,
 }

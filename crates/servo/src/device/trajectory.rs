@@ -21,7 +21,7 @@ pub struct Waypoint {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Trajectory {
     /// Straight lines between waypoints; at rest before the first and after the last.
-    Way(Vec<Waypoint>),
+    Waypoints(Vec<Waypoint>),
     /// center + amplitude sin(2π f t).
     Sine {
         /// The middle [m].
@@ -51,7 +51,7 @@ impl Trajectory {
     ///
     /// # Errors
     /// When there is none, or their times do not increase.
-    pub fn way(places: Vec<Waypoint>) -> Result<Self, Fault> {
+    pub fn waypoints(places: Vec<Waypoint>) -> Result<Self, Fault> {
         let setting = |what, found, expected| Fault::Setting {
             what,
             found,
@@ -66,14 +66,14 @@ impl Trajectory {
                 return Err(setting("the time of a place [s]", pair[1].time, expected));
             }
         }
-        Ok(Self::Way(places))
+        Ok(Self::Waypoints(places))
     }
 
     /// The state of the hand at `time` [s]. Between two waypoints the handle turns about one axis and keeps the buttons
     /// of the first.
     pub fn at(&self, time: f64) -> Waypoint {
         match self {
-            Self::Way(places) => on_the_way(places, time),
+            Self::Waypoints(places) => on_the_way(places, time),
             Self::Sine {
                 center,
                 amplitude,
@@ -121,13 +121,13 @@ mod tests {
                 ..Waypoint::new(3.0, Vec3::x())
             },
         ];
-        let way = Trajectory::way(places).unwrap();
+        let way = Trajectory::waypoints(places).unwrap();
         assert_eq!(way.at(0.0).position, Vec3::zeros());
         assert_eq!(way.at(1.5).position, Vec3::x() * 0.25);
         assert_eq!(way.at(2.0).grip, 0.5);
         assert_eq!(way.at(7.0).position, Vec3::x());
-        assert!(Trajectory::way(Vec::new()).is_err());
+        assert!(Trajectory::waypoints(Vec::new()).is_err());
         let twice = vec![Waypoint::new(1.0, Vec3::x()); 2];
-        assert!(Trajectory::way(twice).is_err());
+        assert!(Trajectory::waypoints(twice).is_err());
     }
 }

@@ -57,7 +57,7 @@ impl VirtualDevice {
     }
 
     /// How often it was disabled; also readable after it is dropped.
-    pub fn stops(&self) -> Arc<AtomicU32> {
+    pub fn disable_count(&self) -> Arc<AtomicU32> {
         self.stops.clone()
     }
 

@@ -129,7 +129,7 @@ impl Compensator {
     }
 
     /// Restarts: the next position is not reached by a motion.
-    pub(crate) fn forget(&mut self) {
+    pub(crate) fn reset(&mut self) {
         self.last = None;
     }
 }

@@ -73,7 +73,7 @@ impl Linkage {
     }
 
     /// The length over which a force at the handle turns each joint [m].
-    pub fn arms(&self) -> Vec3 {
+    pub fn moment_arms(&self) -> Vec3 {
         let [l1, l2, ..] = self.lengths;
         Vec3::new(l1, l1, l2)
     }

@@ -32,7 +32,7 @@ pub struct Conditions {
     /// Magnitude of the commanded force [N].
     pub force: f64,
     /// Whether a person asked to arm again.
-    pub asked: bool,
+    pub rearm_requested: bool,
 }
 
 impl Stage {
@@ -40,12 +40,14 @@ impl Stage {
     #[must_use]
     pub fn next(self, conditions: &Conditions, limits: &Limits, dt: f64) -> Self {
         match self {
-            Self::Faulted(_) if conditions.asked || (conditions.allowed && !limits.latched) => {
+            Self::Faulted(_)
+                if conditions.rearm_requested || (conditions.allowed && !limits.latched) =>
+            {
                 Self::Off
             }
             Self::Faulted(_) => self,
             // Forces were off in between, if only for less than a tick.
-            _ if conditions.asked || !conditions.ready => Self::Off,
+            _ if conditions.rearm_requested || !conditions.ready => Self::Off,
             Self::Off => Self::Ready,
             Self::Ready => {
                 let slow = conditions.speed < limits.arming_speed;
@@ -80,7 +82,7 @@ mod tests {
         allowed: true,
         speed: 0.0,
         force: 0.0,
-        asked: false,
+        rearm_requested: false,
     };
 
     fn after(mut stage: Stage, conditions: Conditions, ticks: usize) -> Stage {
@@ -118,7 +120,7 @@ mod tests {
         let fault = Stage::Faulted(Fault::Silent);
         assert_eq!(after(fault, STILL, 1000), fault);
         let asked = Conditions {
-            asked: true,
+            rearm_requested: true,
             ..STILL
         };
         assert_eq!(after(fault, asked, 1), Stage::Off);

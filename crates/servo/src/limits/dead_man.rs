@@ -13,7 +13,7 @@ pub enum DeadMan {
 
 impl DeadMan {
     /// Whether it is held in `state`.
-    pub fn is_held(&self, state: &DeviceState) -> bool {
+    pub fn is_pressed(&self, state: &DeviceState) -> bool {
         match *self {
             Self::Buttons(buttons) => state.buttons & buttons != 0,
             Self::Grip(shut) => state.grip >= shut,
@@ -23,17 +23,17 @@ impl DeadMan {
 
 /// The state of a dead-man's switch.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Hold {
+pub enum DeadManState {
     /// Not held.
     #[default]
     Free,
     /// Held.
     Held,
     /// Released, this long ago [s].
-    LettingGo(f64),
+    Releasing(f64),
 }
 
-impl Hold {
+impl DeadManState {
     /// The state `dt` [s] later. A release always takes its full time `release` [s], even if the hand holds the switch
     /// again meanwhile: forces are then armed anew.
     #[must_use]
@@ -42,13 +42,13 @@ impl Hold {
             Self::Free | Self::Held if held => return Self::Held,
             Self::Free => return Self::Free,
             Self::Held => dt,
-            Self::LettingGo(since) => since + dt,
+            Self::Releasing(since) => since + dt,
         };
         // A millionth of a tick: rounding of the times.
         if since >= release - 1e-6 * dt {
             Self::Free
         } else {
-            Self::LettingGo(since)
+            Self::Releasing(since)
         }
     }
 
@@ -57,7 +57,7 @@ impl Hold {
         match self {
             Self::Free => 0.0,
             Self::Held => 1.0,
-            Self::LettingGo(since) => 1.0 - since / release,
+            Self::Releasing(since) => 1.0 - since / release,
         }
     }
 }
@@ -71,24 +71,27 @@ mod tests {
     fn a_button_or_a_grip_is_held() {
         let mut state = DeviceState::at(0.0, Vec3::zeros());
         let (button, grip) = (DeadMan::Buttons(0b110), DeadMan::Grip(0.5));
-        assert!(!button.is_held(&state) && !grip.is_held(&state));
+        assert!(!button.is_pressed(&state) && !grip.is_pressed(&state));
         (state.buttons, state.grip) = (0b010, 0.5);
-        assert!(button.is_held(&state) && grip.is_held(&state));
+        assert!(button.is_pressed(&state) && grip.is_pressed(&state));
         (state.buttons, state.grip) = (0b001, f64::NAN);
-        assert!(!button.is_held(&state) && !grip.is_held(&state));
+        assert!(!button.is_pressed(&state) && !grip.is_pressed(&state));
     }
 
     #[test]
     fn what_is_let_go_of_is_gone_in_fifty_ticks() {
         let release = 0.050;
-        let mut hold = Hold::Held;
+        let mut hold = DeadManState::Held;
         for tick in 1..50 {
             // Holding it again does not restore the force.
             hold = hold.next(tick > 20, 1e-3, release);
             // A line from one to zero.
             assert!((hold.part(release) - (1.0 - f64::from(tick) / 50.0)).abs() < 1e-12);
         }
-        assert_eq!(hold.next(true, 1e-3, release), Hold::Free);
-        assert_eq!(Hold::Free.next(true, 1e-3, release), Hold::Held);
+        assert_eq!(hold.next(true, 1e-3, release), DeadManState::Free);
+        assert_eq!(
+            DeadManState::Free.next(true, 1e-3, release),
+            DeadManState::Held
+        );
     }
 }

@@ -1,11 +1,11 @@
 use super::arming::{Conditions, Stage};
-use super::dead_man::Hold;
+use super::dead_man::DeadManState;
 use super::magnitude::saturate;
 use super::passivity::Passivity;
 use super::slew::limit_rise;
 use super::thermal::ThermalModel;
 use super::walls::wall_force;
-use super::watchdog::{Verdict, judge_gap, judge_silence};
+use super::watchdog::{Verdict, check_deadline, check_model_age};
 use super::{Interventions, Limits};
 use crate::{Capabilities, DeviceState, Fault, Vec3};
 
@@ -48,7 +48,7 @@ pub struct CommandedForce {
     /// Whether the session allows a force.
     pub allowed: bool,
     /// Whether a person asked to arm again.
-    pub asked: bool,
+    pub rearm_requested: bool,
 }
 
 /// All stages in their order, with their state. No force reaches a device without it.
@@ -58,7 +58,7 @@ pub struct Guard {
     device: Bounds,
     period: f64,
     stage: Stage,
-    hold: Hold,
+    hold: DeadManState,
     thermal: ThermalModel,
     passivity: Passivity,
     /// Position of the hand at the last tick [m].
@@ -122,7 +122,7 @@ impl Guard {
             period,
             limits,
             stage: Stage::Off,
-            hold: Hold::Free,
+            hold: DeadManState::Free,
             thermal: ThermalModel::default(),
             passivity: Passivity::default(),
             position: None,
@@ -140,7 +140,7 @@ impl Guard {
 
     /// The gain on forces: ramp times dead-man's switch [-].
     pub fn part(&self) -> f64 {
-        self.stage.part(&self.limits) * self.hold.part(self.limits.release)
+        self.stage.part(&self.limits) * self.hold.part(self.limits.release_time)
     }
 
     /// The current upper bound of the force [N].
@@ -220,7 +220,8 @@ impl Guard {
         }
         self.position = place;
         let force = self.before.whole.norm();
-        self.thermal.add(force, dt, self.limits.heat_time);
+        self.thermal
+            .add(force, dt, self.limits.thermal_time_constant);
         self.before = self.last;
     }
 
@@ -229,9 +230,9 @@ impl Guard {
         let held = self
             .device
             .dead_man
-            .is_none_or(|switch| switch.is_held(state));
-        let hold = self.hold.next(held, dt, self.limits.release);
-        let is_released = self.hold == Hold::Held && hold != Hold::Held;
+            .is_none_or(|switch| switch.is_pressed(state));
+        let hold = self.hold.next(held, dt, self.limits.release_time);
+        let is_released = self.hold == DeadManState::Held && hold != DeadManState::Held;
         self.interventions.dead_man_released += u64::from(is_released && self.part() > 0.0);
         self.hold = hold;
     }
@@ -239,12 +240,12 @@ impl Guard {
     fn limited(&mut self, commanded: &CommandedForce, state: &DeviceState, dt: f64) -> Sent {
         self.arm(commanded, state, dt);
         let part = self.part();
-        let late = self.judge_gap(commanded) == Verdict::NoForce;
+        let deadline_tolerance = self.check_deadline(commanded) == Verdict::NoForce;
         let (on, counted) = (part > 0.0, &mut self.interventions);
-        counted.deadline_missed += u64::from(on && late);
+        counted.deadline_missed += u64::from(on && deadline_tolerance);
         let is_overdue = |overdue: f64| overdue > 0.0 && overdue.is_finite();
         counted.faded += u64::from(on && commanded.overdue.is_some_and(is_overdue));
-        if late || !on {
+        if deadline_tolerance || !on {
             return Sent::default();
         }
         let rendered = self.render(commanded, state, dt);
@@ -290,11 +291,14 @@ impl Guard {
     /// Advances the stage of arming by `dt` [s].
     fn arm(&mut self, commanded: &CommandedForce, state: &DeviceState, dt: f64) {
         let conditions = Conditions {
-            ready: commanded.allowed && state.ready && state.present && self.hold != Hold::Free,
+            ready: commanded.allowed
+                && state.ready
+                && state.present
+                && self.hold != DeadManState::Free,
             allowed: commanded.allowed,
             speed: commanded.velocity.norm(),
             force: commanded.force.norm(),
-            asked: commanded.asked,
+            rearm_requested: commanded.rearm_requested,
         };
         self.stage = self.stage.next(&conditions, &self.limits, dt);
     }
@@ -319,9 +323,9 @@ impl Guard {
             .overdue
             .filter(|overdue| on && overdue.is_finite());
         let judged = [
-            self.judge_gap(commanded),
+            self.check_deadline(commanded),
             overdue.map_or(Verdict::InTime, |overdue| {
-                judge_silence(overdue, self.limits.silence)
+                check_model_age(overdue, self.limits.model_timeout)
             }),
         ];
         judged.into_iter().find_map(|verdict| match verdict {
@@ -330,13 +334,18 @@ impl Guard {
         })
     }
 
-    fn judge_gap(&self, commanded: &CommandedForce) -> Verdict {
+    fn check_deadline(&self, commanded: &CommandedForce) -> Verdict {
         let Limits {
-            late,
-            much_too_late,
+            deadline_tolerance,
+            deadline_fault_threshold,
             ..
         } = self.limits;
-        judge_gap(commanded.gap, self.period, late, much_too_late)
+        check_deadline(
+            commanded.gap,
+            self.period,
+            deadline_tolerance,
+            deadline_fault_threshold,
+        )
     }
 
     fn walls(&self, state: &DeviceState) -> Vec3 {

@@ -40,7 +40,7 @@ pub use dead_man::DeadMan;
 pub use guard::{CommandedForce, Guard, OutputForce};
 pub use interventions::Interventions;
 
-use crate::extrapolate::FADE;
+use crate::extrapolate::FADE_TIME;
 use crate::{Capabilities, Fault};
 
 /// The numerical limits of the stages.
@@ -61,20 +61,20 @@ pub struct Limits {
     /// Width of the wall before the ends of the workspace [m].
     pub wall: f64,
     /// How much longer than a tick a device may keep a force before it gets zero force [s].
-    pub late: f64,
+    pub deadline_tolerance: f64,
     /// How much longer than a tick it may keep one before that is a fault [s].
-    pub much_too_late: f64,
+    pub deadline_fault_threshold: f64,
     /// How long a model's answer may be overdue before that is a fault [s].
-    pub silence: f64,
+    pub model_timeout: f64,
     /// Time in which the force drops to zero after a release of the dead-man's switch [s].
-    pub release: f64,
+    pub release_time: f64,
     /// The part of the largest force that is allowed without such a switch [-].
     pub without_dead_man: f64,
     /// The energy budget: energy that may come out of a contact beyond what a hand put in [J]; infinite disables the
     /// passivity controller.
     pub energy_budget: f64,
     /// τ, thermal time constant of the motors [s].
-    pub heat_time: f64,
+    pub thermal_time_constant: f64,
     /// Whether a fault keeps forces off until a person arms again; otherwise arming restarts when the fault ends.
     pub latched: bool,
 }
@@ -89,13 +89,13 @@ impl Default for Limits {
             arming_force: 0.3,
             ramp: 0.5,
             wall: 0.01,
-            late: 0.005,
-            much_too_late: 0.020,
-            silence: FADE,
-            release: 0.050,
+            deadline_tolerance: 0.005,
+            deadline_fault_threshold: 0.020,
+            model_timeout: FADE_TIME,
+            release_time: 0.050,
             without_dead_man: 0.5,
             energy_budget: 0.25e-3,
-            heat_time: 30.0,
+            thermal_time_constant: 30.0,
             latched: true,
         }
     }
@@ -113,8 +113,8 @@ impl Limits {
             speed: f64::INFINITY,
             arming_speed: f64::INFINITY,
             arming_force: f64::INFINITY,
-            much_too_late: f64::INFINITY,
-            silence: f64::INFINITY,
+            deadline_fault_threshold: f64::INFINITY,
+            model_timeout: f64::INFINITY,
             energy_budget: f64::INFINITY,
             latched: false,
             ..default
@@ -140,13 +140,13 @@ impl Limits {
             arming_force,
             ramp,
             wall,
-            late,
-            much_too_late,
-            silence,
-            release,
+            deadline_tolerance,
+            deadline_fault_threshold,
+            model_timeout,
+            release_time,
             without_dead_man,
             energy_budget,
-            heat_time,
+            thermal_time_constant,
             latched: _,
         } = *self;
         Fault::unless_finite_and_positive("the largest force [N]", force)?;
@@ -156,15 +156,21 @@ impl Limits {
         Fault::unless_positive("the fastest hand [m/s]", speed)?;
         Fault::unless_positive("the fastest hand at arming [m/s]", arming_speed)?;
         Fault::unless_positive("the largest force at arming [N]", arming_force)?;
-        Fault::unless_positive("the time that is late [s]", late)?;
-        Fault::unless_positive("the time that is much too late [s]", much_too_late)?;
-        Fault::unless_positive("the longest silence of the model [s]", silence)?;
-        Fault::unless_finite_and_positive("the time to let go in [s]", release)?;
+        Fault::unless_positive("the time that is late [s]", deadline_tolerance)?;
+        Fault::unless_positive(
+            "the time that is much too late [s]",
+            deadline_fault_threshold,
+        )?;
+        Fault::unless_positive("the longest silence of the model [s]", model_timeout)?;
+        Fault::unless_finite_and_positive("the time to let go in [s]", release_time)?;
         Fault::unless_finite_and_positive(
             "the part without a dead-man's switch [-]",
             without_dead_man,
         )?;
         Fault::unless_positive("the energy that may come out [J]", energy_budget)?;
-        Fault::unless_finite_and_positive("the time in which motors cool [s]", heat_time)
+        Fault::unless_finite_and_positive(
+            "the time in which motors cool [s]",
+            thermal_time_constant,
+        )
     }
 }

@@ -6,7 +6,7 @@ use crate::Vec3;
 /// `rise` of some force along `last` that is not larger than it. So it falls at once, and a force that
 /// turns about falls to zero and rises from there.
 pub fn limit_rise(last: &Vec3, commanded: &Vec3, rise: f64) -> Vec3 {
-    let fallen = fallen_towards(last, commanded);
+    let fallen = reduced_towards(last, commanded);
     let risen = commanded - fallen;
     let size = risen.norm();
     if size <= rise {
@@ -16,7 +16,7 @@ pub fn limit_rise(last: &Vec3, commanded: &Vec3, rise: f64) -> Vec3 {
 }
 
 /// The force between zero and `last` that is nearest to `wanted`.
-pub fn fallen_towards(last: &Vec3, commanded: &Vec3) -> Vec3 {
+pub fn reduced_towards(last: &Vec3, commanded: &Vec3) -> Vec3 {
     let square = last.norm_squared();
     if square == 0.0 {
         return Vec3::zeros();

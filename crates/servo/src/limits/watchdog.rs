@@ -13,22 +13,22 @@ pub enum Verdict {
     Faulted(Fault),
 }
 
-/// Judges a `gap` [s] between two commands with the nominal `period` [s]: beyond the period by more than `late` [s] the
-/// next force is zero, by more than `much_too_late` [s] it is a fault.
-pub fn judge_gap(gap: f64, period: f64, late: f64, much_too_late: f64) -> Verdict {
+/// Judges a `gap` [s] between two commands with the nominal `period` [s]: beyond the period by more than `tolerance` [s] the
+/// next force is zero, by more than `fault_threshold` [s] it is a fault.
+pub fn check_deadline(gap: f64, period: f64, tolerance: f64, fault_threshold: f64) -> Verdict {
     let beyond = gap - period;
-    if beyond > much_too_late {
-        let limit = period + much_too_late;
+    if beyond > fault_threshold {
+        let limit = period + fault_threshold;
         return Verdict::Faulted(Fault::Late { gap, limit });
     }
-    if beyond > late {
+    if beyond > tolerance {
         return Verdict::NoForce;
     }
     Verdict::InTime
 }
 
 /// Judges for how long the model's answer has been `overdue` [s].
-pub fn judge_silence(overdue: f64, limit: f64) -> Verdict {
+pub fn check_model_age(overdue: f64, limit: f64) -> Verdict {
     if overdue > limit {
         return Verdict::Faulted(Fault::StaleModel { overdue, limit });
     }
@@ -41,12 +41,12 @@ mod tests {
 
     #[test]
     fn late_is_no_force_and_much_too_late_is_a_fault() {
-        let judge = |gap| judge_gap(gap, 1e-3, 5e-3, 20e-3);
+        let judge = |gap| check_deadline(gap, 1e-3, 5e-3, 20e-3);
         assert_eq!(judge(1e-3), Verdict::InTime);
         assert_eq!(judge(5.9e-3), Verdict::InTime);
         assert_eq!(judge(6.1e-3), Verdict::NoForce);
         assert!(matches!(judge(22e-3), Verdict::Faulted(Fault::Late { .. })));
-        assert_eq!(judge_silence(0.009, 0.01), Verdict::InTime);
-        assert!(matches!(judge_silence(0.011, 0.01), Verdict::Faulted(_)));
+        assert_eq!(check_model_age(0.009, 0.01), Verdict::InTime);
+        assert!(matches!(check_model_age(0.011, 0.01), Verdict::Faulted(_)));
     }
 }

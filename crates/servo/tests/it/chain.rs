@@ -1,6 +1,6 @@
 //! All stages at once, in a loop: whatever a law returns, only a bounded force that rises slowly is sent.
 
-use palpate_servo::limits::slew::fallen_towards;
+use palpate_servo::limits::slew::reduced_towards;
 use palpate_servo::{
     Capabilities, Clock, DeadMan, DeviceState, Fault, HandOver, Limits, Sample, ServoLoop,
     ServoSettings, Stage, Trajectory, Vec3, VirtualDevice, Waypoint,
@@ -29,7 +29,7 @@ fn does() -> impl Strategy<Value = Does> {
 }
 
 fn handle(held: Vec<Waypoint>) -> VirtualDevice {
-    VirtualDevice::new(Trajectory::way(held).unwrap()).with_capabilities(Capabilities {
+    VirtualDevice::new(Trajectory::waypoints(held).unwrap()).with_capabilities(Capabilities {
         workspace: Some([Vec3::repeat(-0.1), Vec3::repeat(0.1)]),
         dead_man: Some(DeadMan::Buttons(1)),
         ..Capabilities::premium("test")
@@ -48,9 +48,9 @@ fn assert_within_limits(samples: &[Sample]) -> Result<(), TestCaseError> {
     let mut last = Vec3::zeros();
     let mut let_go: Option<f64> = None;
     for sample in samples {
-        let sent = sample.sent;
+        let sent = sample.output;
         prop_assert!(sent.norm() <= limits.force, "{sample:?}");
-        let rise = (sent - fallen_towards(&last, &sent)).norm();
+        let rise = (sent - reduced_towards(&last, &sent)).norm();
         // Rounding of forces of 3 N.
         prop_assert!(rise <= limits.slew * PERIOD + 1e-14, "{last} {sample:?}");
         last = sent;
@@ -141,13 +141,17 @@ fn a_switch_that_is_let_go_of_takes_the_force_in_fifty_milliseconds() {
     let (samples, let_go) = let_go_at(1.5);
     assert_eq!(let_go, 1);
     let tick = samples.iter().position(|s| s.state.buttons == 0).unwrap();
-    let force = samples[tick - 1].sent.norm();
+    let force = samples[tick - 1].output.norm();
     assert!((force - 1.0).abs() < 1e-9, "{force}");
     for (after, sample) in (1..=49).zip(&samples[tick..]) {
         let expected = force * (1.0 - f64::from(after) / 50.0);
-        assert!((sample.sent.norm() - expected).abs() < 1e-9, "{sample:?}");
+        assert!((sample.output.norm() - expected).abs() < 1e-9, "{sample:?}");
     }
-    assert!(samples[tick + 49..].iter().all(|s| s.sent == Vec3::zeros()));
+    assert!(
+        samples[tick + 49..]
+            .iter()
+            .all(|s| s.output == Vec3::zeros())
+    );
     assert_eq!(samples[1999].stage, Stage::Off);
 }
 
@@ -174,14 +178,14 @@ fn what_is_let_go_of_in_a_fault_is_not_armed() {
         tick < 1000
     });
     let samples: Vec<Sample> = reader.log.drain().collect();
-    assert!(samples[699].sent.norm() > 0.0);
-    assert!(samples[700..].iter().all(|sample| sample.sent == none));
+    assert!(samples[699].output.norm() > 0.0);
+    assert!(samples[700..].iter().all(|sample| sample.output == none));
 }
 
 /// Without a switch there is half of the force: 1.5 of 3 N.
 #[test]
 fn a_device_without_a_switch_has_half_the_force() {
-    let still = Trajectory::way(vec![at(0.0, Vec3::zeros(), 0)]).unwrap();
+    let still = Trajectory::waypoints(vec![at(0.0, Vec3::zeros(), 0)]).unwrap();
     let steps = |state: &DeviceState, _: f64| Vec3::x() * if state.time > 0.8 { 20.0 } else { 0.0 };
     let settings = ServoSettings::default();
     let device = Box::new(VirtualDevice::new(still));
@@ -227,10 +231,13 @@ fn a_law_lost_in_contact_is_a_fault_within_25_ms() {
             longest = longest.max(after);
             assert!(after <= 0.025, "{after}");
             let tail = &samples[first..];
-            assert!(tail.iter().all(|s| s.sent == Vec3::zeros() && is_stale(s)));
+            assert!(
+                tail.iter()
+                    .all(|s| s.output == Vec3::zeros() && is_stale(s))
+            );
             // It was felt before, and had faded: 1 − 0.9² of 1 N a tick ago.
-            assert!((samples[1195].sent.norm() - 1.0).abs() < 1e-9);
-            assert!(samples[first - 1].sent.norm() < 0.2);
+            assert!((samples[1195].output.norm() - 1.0).abs() < 1e-9);
+            assert!(samples[first - 1].output.norm() < 0.2);
         }
         println!("{rate} Hz: {:.1} ms at most", 1e3 * longest);
     }
@@ -248,6 +255,6 @@ fn a_law_lost_on_this_machine() {
         let first = samples.iter().find(faulted).unwrap();
         let after = first.state.time - dies_at;
         println!("{:.2} ms: {:?}", 1e3 * after, first.stage);
-        assert_eq!(first.sent, Vec3::zeros());
+        assert_eq!(first.output, Vec3::zeros());
     }
 }

@@ -137,7 +137,7 @@ fn a_hand_swings_at_its_frequency() {
 #[test]
 fn a_virtual_device_is_disabled_when_it_is_dropped() {
     let device = VirtualDevice::new(still());
-    let stops = device.stops();
+    let stops = device.disable_count();
     drop(device);
     assert_eq!(stops.load(Ordering::Relaxed), 1);
 }

@@ -82,7 +82,7 @@ fn settings_out_of_range_are_refused_by_name() {
         stiffness: 0.0,
         ..HandImpedance::default()
     };
-    let still = Trajectory::way(vec![Waypoint::new(0.0, Vec3::zeros())]).unwrap();
+    let still = Trajectory::waypoints(vec![Waypoint::new(0.0, Vec3::zeros())]).unwrap();
     let text = VirtualDevice::new(still)
         .with_hand(limp)
         .unwrap_err()

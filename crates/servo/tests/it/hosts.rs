@@ -82,7 +82,7 @@ impl Scheduler for Paced {
         let calls = self.calls.lock().unwrap().take().ok_or(Fault::NoThread)?;
         let ended = self.ended.clone();
         std::thread::spawn(move || {
-            while calls.recv().is_ok() && tick() == Next::Again {}
+            while calls.recv().is_ok() && tick() == Next::Continue {}
             drop(tick);
             ended.store(true, Ordering::Release);
         });
@@ -134,7 +134,7 @@ fn both_hosts_make_the_same_ticks() {
     direct.run(&mut Clock::virtual_time(), |tick| tick < 1500);
     let expected: Vec<Sample> = reader.log.drain().collect();
     let (device, call) = Scheduled::new();
-    let stops = device.device.stops();
+    let stops = device.device.disable_count();
     let (scheduled, mut reader) = servo(device);
     let thread = ServoThread::start(scheduled, Clock::virtual_time()).unwrap();
     for _ in 0..1500 {
@@ -162,7 +162,7 @@ fn defect(state: &DeviceState, _: f64) -> Vec3 {
 #[test]
 fn a_panic_in_a_scheduler_disables_the_device_and_trips_the_session() {
     let (device, call) = Scheduled::new();
-    let stops = device.device.stops();
+    let stops = device.device.disable_count();
     let (servo, reader) =
         ServoLoop::new(Box::new(device), Box::new(defect), ServoSettings::default()).unwrap();
     let thread = ServoThread::start(servo, Clock::virtual_time()).unwrap();
@@ -192,7 +192,7 @@ fn a_panic_takes_the_force_off_before_it_is_reported() {
 #[ignore = "helper: of the test before it, in a program of its own"]
 fn a_panic_under_a_hook_that_looks_at_the_device() {
     let (device, call) = Scheduled::new();
-    let stops = device.device.stops();
+    let stops = device.device.disable_count();
     let seen = Arc::new(Mutex::new(None));
     let (at_hook, at_stops) = (seen.clone(), stops.clone());
     std::panic::set_hook(Box::new(move |panic| {
@@ -216,7 +216,7 @@ fn a_panic_under_a_hook_that_looks_at_the_device() {
 #[test]
 fn a_panic_in_a_stepped_loop_is_a_fault() {
     let (device, _call) = Scheduled::new();
-    let stops = device.device.stops();
+    let stops = device.device.disable_count();
     let device = Box::new(Unscheduled(device));
     let (servo, reader) =
         ServoLoop::new(device, Box::new(defect), ServoSettings::default()).unwrap();
@@ -283,7 +283,7 @@ fn a_stepped_loop_gives_the_samples_of_its_host() {
         let expected = direct.tick(f64::from(tick) * 1e-3, 0.0).unwrap();
         let found = scheduled.tick(0.0, 0.0).unwrap();
         assert_eq!(found.tick, expected.tick);
-        assert!((found.sent - expected.sent).norm() < 1e-12);
+        assert!((found.output - expected.output).norm() < 1e-12);
     }
     // Nobody calls any more.
     assert_eq!(scheduled.tick(0.0, 0.0), Err(Fault::Silent));

@@ -1,6 +1,6 @@
 //! Nothing but a bounded, slowly rising force reaches a hand.
 
-use palpate_servo::limits::slew::fallen_towards;
+use palpate_servo::limits::slew::reduced_towards;
 use palpate_servo::limits::{CommandedForce, Guard, Limits};
 use palpate_servo::{Capabilities, DeadMan, DeviceState, Fault, OutputForce, Stage, Vec3};
 use proptest::prelude::*;
@@ -23,7 +23,7 @@ fn commanded(force: Vec3) -> CommandedForce {
         overdue: None,
         gap: PERIOD,
         allowed: true,
-        asked: false,
+        rearm_requested: false,
     }
 }
 
@@ -86,7 +86,7 @@ proptest! {
             let sent = guard.pass(&commanded, &state, PERIOD).newtons();
             prop_assert!(sent.norm() <= peak, "{sent}");
             prop_assert!(guard.rendered().norm() <= limits.force, "{sent}");
-            let rise = (sent - fallen_towards(&last, &sent)).norm();
+            let rise = (sent - reduced_towards(&last, &sent)).norm();
             // Rounding of forces of 8.5 N.
             prop_assert!(rise <= limits.slew * PERIOD + 1e-14, "{last} {sent}");
             if !compensation.iter().all(|c| c.is_finite()) {
@@ -108,13 +108,13 @@ proptest! {
         let (mut guard, mut state) = if begins_live { live() } else { (guard(), live().1) };
         let limits = Limits::default();
         let mut last = Vec3::zeros();
-        for (force, position, asked, gap) in commanded_forces {
+        for (force, position, rearm_requested, gap) in commanded_forces {
             state.position = position;
-            let commanded = CommandedForce { gap: gap * PERIOD, asked, ..commanded(force) };
+            let commanded = CommandedForce { gap: gap * PERIOD, rearm_requested, ..commanded(force) };
             let sent = guard.pass(&commanded, &state, commanded.gap).newtons();
             prop_assert!(sent.iter().all(|c| c.is_finite()), "{sent}");
             prop_assert!(sent.norm() <= limits.force, "{sent}");
-            let rise = (sent - fallen_towards(&last, &sent)).norm();
+            let rise = (sent - reduced_towards(&last, &sent)).norm();
             // Rounding of forces of 3 N.
             prop_assert!(rise <= limits.slew * PERIOD + 1e-14, "{last} {sent}");
             if !force.iter().all(|c| c.is_finite()) {
@@ -159,11 +159,11 @@ fn what_is_no_number_latches_until_somebody_arms() {
             );
         }
         assert_eq!(guard.stage(), Stage::Faulted(Fault::NonFiniteForce));
-        let asked = CommandedForce {
-            asked: true,
+        let rearm_requested = CommandedForce {
+            rearm_requested: true,
             ..commanded(Vec3::x() * 0.1)
         };
-        guard.pass(&asked, &state, PERIOD);
+        guard.pass(&rearm_requested, &state, PERIOD);
         for _ in 0..600 {
             guard.pass(&commanded(Vec3::x() * 0.1), &state, PERIOD);
         }

@@ -54,7 +54,7 @@ fn put_in(samples: &[Sample]) -> Vec<f64> {
     let mut sum = 0.0;
     let course = pairs.map(|pair| {
         let moved = pair[1].state.position - pair[0].state.position;
-        sum -= pair[0].held.dot(&moved);
+        sum -= pair[0].applied.dot(&moved);
         sum
     });
     course.collect()
@@ -68,7 +68,7 @@ fn least(course: &[f64]) -> f64 {
 fn leaning(hand: HandImpedance) -> VirtualDevice {
     let places = [(0.0, 5.0), (1.0, 5.0), (1.3, -2.0)];
     let places = places.map(|(time, mm)| Waypoint::new(time, Vec3::z() * (1e-3 * mm)));
-    VirtualDevice::new(Trajectory::way(places.to_vec()).unwrap())
+    VirtualDevice::new(Trajectory::waypoints(places.to_vec()).unwrap())
         .with_hand(hand)
         .unwrap()
 }
@@ -142,11 +142,11 @@ fn a_minute_in_contact_is_changed_by_little() {
     let (with, damped) = course(true);
     let (without, _) = course(false);
     let (with, without) = (&with[ARMED..], &without[ARMED..]);
-    let square = |samples: &[Sample]| samples.iter().map(|s| s.sent.norm_squared()).sum::<f64>();
+    let square = |samples: &[Sample]| samples.iter().map(|s| s.output.norm_squared()).sum::<f64>();
     let apart: f64 = with
         .iter()
         .zip(without)
-        .map(|(a, b)| (a.sent - b.sent).norm_squared())
+        .map(|(a, b)| (a.output - b.output).norm_squared())
         .sum();
     let part = (apart / square(without)).sqrt();
     println!("{:.2} % of the force, in {} ticks", 100.0 * part, damped);

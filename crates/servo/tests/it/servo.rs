@@ -47,7 +47,7 @@ fn every_tick_is_in_the_log() {
     let samples = played();
     for (number, pair) in samples.windows(2).enumerate() {
         assert_eq!(pair[0].tick, number as u64);
-        assert_eq!(pair[1].held, pair[0].sent);
+        assert_eq!(pair[1].applied, pair[0].output);
         let expected = spring(&pair[0].state, 0.0);
         assert_eq!(pair[0].commanded, expected);
     }
@@ -119,7 +119,7 @@ fn skips_and_never_bursts() {
     // The last says why there are no more.
     let last = samples.pop().unwrap();
     assert_eq!(last.stage, Stage::Faulted(Fault::Silent));
-    assert_eq!((last.sent, last.state.present), (Vec3::zeros(), false));
+    assert_eq!((last.output, last.state.present), (Vec3::zeros(), false));
     assert_eq!(samples.len(), 39);
     let first = samples[0].state.time;
     for sample in &samples {
@@ -145,7 +145,7 @@ impl Controller for Panics {
 #[test]
 fn a_panic_stops_the_device() {
     let device = VirtualDevice::new(sine());
-    let stops = device.stops();
+    let stops = device.disable_count();
     let (servo, _reader) =
         ServoLoop::new(Box::new(device), Box::new(Panics), ServoSettings::default()).unwrap();
     let thread = ServoThread::start(servo, Clock::real()).unwrap();
@@ -159,11 +159,11 @@ fn a_panic_stops_the_device() {
 #[test]
 fn a_loop_that_is_dropped_or_stopped_stops_its_device() {
     let device = VirtualDevice::new(sine());
-    let stops = device.stops();
+    let stops = device.disable_count();
     drop(servo(device));
     assert!(stops.load(Ordering::Relaxed) >= 1);
     let device = VirtualDevice::new(sine());
-    let stops = device.stops();
+    let stops = device.disable_count();
     let thread = ServoThread::start(servo(device).0, Clock::real()).unwrap();
     let report = thread.stop().unwrap();
     assert!(stops.load(Ordering::Relaxed) >= 1 && report.fault.is_none());

@@ -7,7 +7,7 @@ use palpate_servo::{
 
 /// The same at `place` [m] from the beginning, then at zero.
 fn let_go(place: f64) -> Result<Trajectory, Fault> {
-    Trajectory::way(vec![
+    Trajectory::waypoints(vec![
         Waypoint::new(0.0, Vec3::x() * place),
         Waypoint::new(1.0, Vec3::x() * place),
         Waypoint::new(1.05, Vec3::zeros()),

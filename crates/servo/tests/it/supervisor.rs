@@ -1,7 +1,7 @@
 //! Several loops in one session. Judge: the table of `palpate_servo::supervisor`, at every tick.
 
 use palpate_servo::dynamics::Compensation;
-use palpate_servo::supervisor::SILENCE;
+use palpate_servo::supervisor::REPORT_TIMEOUT;
 use palpate_servo::{
     Capabilities, DeviceState, Fault, ForceState, NoDevice, Sample, ServoLoop, ServoSettings,
     Stage, Supervisor, Trajectory, Vec3, VirtualDevice, Waypoint,
@@ -28,7 +28,7 @@ impl Session {
                 Waypoint::new(0.2, Vec3::zeros()),
                 Waypoint::new(0.6, pressed * side),
             ];
-            let device = VirtualDevice::new(Trajectory::way(way).unwrap())
+            let device = VirtualDevice::new(Trajectory::waypoints(way).unwrap())
                 .with_capabilities(Capabilities::premium("test"));
             let law = |state: &DeviceState, _: f64| match state.time {
                 // What a fault looks like from inside a loop.
@@ -91,7 +91,7 @@ pub(crate) fn is_tripped_at(supervisor: &Supervisor, time: f64) -> bool {
 }
 
 fn is_forceless(sample: &Sample) -> bool {
-    let forces = [sample.held, sample.sent, sample.compensation];
+    let forces = [sample.applied, sample.output, sample.compensation];
     forces.iter().all(|force| *force == Vec3::zeros())
 }
 
@@ -106,7 +106,7 @@ fn fault(sample: &Sample) -> Option<Fault> {
 fn an_emergency_stop_takes_every_force_at_the_next_tick_until_somebody_arms() {
     let mut session = Session::new(Supervisor::armed());
     let pressed = session.after(2000);
-    assert!(pressed.iter().all(|sample| sample.sent.norm() > 0.9));
+    assert!(pressed.iter().all(|sample| sample.output.norm() > 0.9));
     assert!(
         pressed
             .iter()
@@ -158,10 +158,12 @@ fn a_pause_has_no_force_and_a_silent_program_none_either() {
     session.supervisor.arm();
     session.supervisor.report(0.7);
     // Silent until 0.7 s and the time it may be.
-    let last = (SILENCE / PERIOD) as u64 - 1;
+    let last = (REPORT_TIMEOUT / PERIOD) as u64 - 1;
     assert!(session.after(last).iter().all(|s| fault(s).is_none()));
     let samples = session.after(4);
-    let silent = Some(Fault::ProgramSilent { limit: SILENCE });
+    let silent = Some(Fault::ProgramSilent {
+        limit: REPORT_TIMEOUT,
+    });
     assert!(
         samples
             .iter()
@@ -234,13 +236,18 @@ fn a_stop_is_not_lost_when_somebody_arms_before_the_next_tick() {
         session
             .tick()
             .iter()
-            .all(|sample| sample.sent == Vec3::zeros())
+            .all(|sample| sample.output == Vec3::zeros())
     );
     // Who arms what runs changes nothing.
     let mut session = Session::new(Supervisor::armed());
     session.after(2000);
     session.supervisor.arm();
-    assert!(session.tick().iter().all(|sample| sample.sent.norm() > 0.9));
+    assert!(
+        session
+            .tick()
+            .iter()
+            .all(|sample| sample.output.norm() > 0.9)
+    );
 }
 
 /// The table of `docs/theory/haptics.md`, row by row, by what a session does.

@@ -4,18 +4,18 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use palpate_servo::supervisor::WATCH_SILENCE;
-use palpate_servo::watch::{HUNG, Pulse, Watch, WatchThread, Watched};
+use palpate_servo::monitor::{HANG_TIMEOUT, Heartbeat, LoopMonitor, MonitorThread, MonitoredLoop};
+use palpate_servo::supervisor::MONITOR_TIMEOUT;
 use palpate_servo::{Clock, ForceState, StopReason, Supervisor};
 
 fn nobody() -> bool {
     false
 }
 
-fn watched(names: [&str; 2]) -> [Watched; 2] {
-    names.map(|name| Watched {
+fn watched(names: [&str; 2]) -> [MonitoredLoop; 2] {
+    names.map(|name| MonitoredLoop {
         name: name.to_owned(),
-        pulse: Pulse::default(),
+        pulse: Heartbeat::default(),
     })
 }
 
@@ -24,16 +24,16 @@ fn watched(names: [&str; 2]) -> [Watched; 2] {
 fn a_silent_loop_hangs_from_its_first_answer_until_it_ends() {
     let supervisor = Supervisor::armed();
     let loops = watched(["the left device", "the right device"]);
-    let watch = Watch::new(supervisor.clone(), loops.to_vec(), nobody);
+    let watch = LoopMonitor::new(supervisor.clone(), loops.to_vec(), nobody);
     let hangs = |time| {
-        watch.look(time);
+        watch.check_loops(time);
         watch.hung().len()
     };
     assert_eq!(hangs(1e6), 0);
     loops[0].pulse.begin(10.0);
     assert_eq!((hangs(10.9), supervisor.state()), (0, ForceState::Armed));
     loops.iter().for_each(|each| each.pulse.beat(11.0));
-    assert_eq!(hangs(11.0 + HUNG), 0);
+    assert_eq!(hangs(11.0 + HANG_TIMEOUT), 0);
     loops[0].pulse.beat(11.1);
     assert_eq!((hangs(11.15), supervisor.state()), (1, ForceState::Tripped));
     let warning = watch.warning().unwrap();
@@ -53,9 +53,9 @@ fn a_silent_loop_hangs_from_its_first_answer_until_it_ends() {
 fn a_watch_names_what_hangs_when_forces_are_off() {
     let loops = watched(["one", "other"]);
     let supervisor = Supervisor::default();
-    let watch = Watch::new(supervisor.clone(), loops.to_vec(), || true);
+    let watch = LoopMonitor::new(supervisor.clone(), loops.to_vec(), || true);
     loops[0].pulse.beat(0.0);
-    watch.look(1.0);
+    watch.check_loops(1.0);
     assert_eq!(
         (watch.hung(), supervisor.state()),
         (vec!["one"], ForceState::Off)
@@ -68,10 +68,10 @@ fn a_watch_names_what_hangs_when_forces_are_off() {
 fn a_program_that_shall_end_has_no_force() {
     static ENDED: AtomicBool = AtomicBool::new(false);
     let supervisor = Supervisor::armed();
-    let watch = Watch::new(supervisor.clone(), Vec::new(), || {
+    let watch = LoopMonitor::new(supervisor.clone(), Vec::new(), || {
         ENDED.load(Ordering::Relaxed)
     });
-    let thread = WatchThread::start(watch, Clock::real()).unwrap();
+    let thread = MonitorThread::start(watch, Clock::real()).unwrap();
     let mut times: Vec<Duration> = (0..100)
         .map(|_| {
             let asked = Instant::now();
@@ -98,8 +98,8 @@ fn a_program_that_shall_end_has_no_force() {
 fn a_watch_that_is_gone_is_noticed_unless_it_ended_in_good_order() {
     static PANICS: AtomicBool = AtomicBool::new(false);
     let supervisor = Arc::new(Supervisor::armed());
-    let watch = |is_ended| Watch::new((*supervisor).clone(), Vec::new(), is_ended);
-    drop(WatchThread::start(watch(nobody), Clock::real()).unwrap());
+    let watch = |is_ended| LoopMonitor::new((*supervisor).clone(), Vec::new(), is_ended);
+    drop(MonitorThread::start(watch(nobody), Clock::real()).unwrap());
     assert!(!crate::supervisor::is_tripped_at(&supervisor, 1e9));
     let dies = || {
         assert!(
@@ -109,7 +109,7 @@ fn a_watch_that_is_gone_is_noticed_unless_it_ended_in_good_order() {
         false
     };
     let clock = Clock::real();
-    let thread = WatchThread::start(watch(dies), clock).unwrap();
+    let thread = MonitorThread::start(watch(dies), clock).unwrap();
     std::thread::sleep(Duration::from_millis(20));
     PANICS.store(true, Ordering::Relaxed);
     while thread.is_running() {
@@ -119,7 +119,7 @@ fn a_watch_that_is_gone_is_noticed_unless_it_ended_in_good_order() {
     drop(thread);
     assert!(crate::supervisor::is_tripped_at(
         &supervisor,
-        clock.now() + 1.1 * WATCH_SILENCE
+        clock.now() + 1.1 * MONITOR_TIMEOUT
     ));
-    supervisor.trip_because(StopReason::EmergencyStop);
+    supervisor.trip_with_reason(StopReason::EmergencyStop);
 }

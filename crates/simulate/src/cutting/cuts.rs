@@ -72,7 +72,7 @@ impl Cuts {
     /// No cuts.
     pub(crate) fn new(simulation: &Simulation, model: &CuttingModel) -> Self {
         let surface = CutSurface::new(&simulation.surface, model.method);
-        let [vertices, triangles] = surface.room();
+        let [vertices, triangles] = surface.capacity();
         let mut places = Vec::with_capacity(vertices);
         let mut shown = Vec::with_capacity(triangles);
         shown.extend_from_slice(surface.mesh().triangles());
@@ -106,7 +106,7 @@ impl Cuts {
         self.largest_lag = 0;
         self.version += 1;
         self.detached.clear();
-        self.show();
+        self.update_triangles();
         // A closed cut does not gape.
         self.gape.clear();
         self.gapes = self.version;
@@ -140,7 +140,7 @@ impl Cuts {
     }
 
     /// Takes over the detached pieces of the `surface` and of the vertices that openings have added to it.
-    pub(crate) fn detach(&mut self, surface: &[u32], rims: impl Iterator<Item = (u32, u32)>) {
+    pub(crate) fn set_detached(&mut self, surface: &[u32], rims: impl Iterator<Item = (u32, u32)>) {
         if surface.is_empty() && self.detached.is_empty() {
             return;
         }
@@ -158,7 +158,7 @@ impl Cuts {
     }
 
     /// Finds the triangles to display.
-    fn show(&mut self) {
+    fn update_triangles(&mut self) {
         let mesh = self.surface.mesh();
         self.detached.truncate(mesh.vertices().len());
         let all = mesh.triangles().iter();
@@ -189,7 +189,7 @@ impl Cuts {
     }
 
     /// Whether there is an opening, or one begins.
-    pub fn are_there(&self) -> bool {
+    pub fn has_openings(&self) -> bool {
         self.cut_path.is_some() || !self.before.is_empty()
     }
 
@@ -204,7 +204,7 @@ impl Cuts {
     }
 
     /// Whether a blade is in the tissue.
-    pub(crate) fn is_being_made(&self) -> bool {
+    pub(crate) fn is_cutting(&self) -> bool {
         self.cut_path.is_some()
     }
 
@@ -227,7 +227,7 @@ impl Cuts {
     }
 
     /// Whether the surface is being opened.
-    pub(crate) fn goes_on(&self) -> bool {
+    pub(crate) fn is_in_progress(&self) -> bool {
         self.cut_path.is_some_and(|cut_path| cut_path.opens)
     }
 
@@ -250,7 +250,7 @@ impl Cuts {
 
     /// Undoes the last cut. Returns whether there was one; while a cut is in progress there is none.
     pub(crate) fn undo(&mut self) -> bool {
-        if self.is_being_made() {
+        if self.is_cutting() {
             return false;
         }
         let Some(mark) = self.before.pop() else {
@@ -279,7 +279,7 @@ impl Cuts {
         if self.gapes != self.version {
             self.gapes = self.version;
             self.gape.follow(&self.surface, width);
-            self.show();
+            self.update_triangles();
         }
         self.surface
             .place(&simulation.surface, moved, 0.0, &mut self.places);
@@ -293,7 +293,7 @@ impl Cuts {
     }
 
     /// Whether an update is due at once, because the triangles have changed.
-    pub(crate) fn is_behind(&self) -> bool {
+    pub(crate) fn is_outdated(&self) -> bool {
         self.gapes != self.version
     }
 

@@ -5,8 +5,8 @@
 //!
 //! *Limits*: it moves tips and jaws, and turns no tool.
 
+mod paths;
 mod uncover;
-mod ways;
 
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
@@ -18,7 +18,7 @@ use palpate_geometry::Vec3;
 use crate::performance::{Performance, Status};
 use crate::polyline::Polyline;
 use crate::{Simulation, SimulationState, SimulationWorkspace, step};
-use ways::{RestSurface, cut, depths, found, pulled};
+use paths::{RestSurface, depths, steps_to_cut, steps_to_find, steps_to_pull};
 
 /// Speed through the air [m/s], and in or towards the tissue [m/s].
 const FREE: f64 = 0.025;
@@ -93,7 +93,7 @@ impl Demonstration {
         let steps = match &scene.task.goal {
             Goal::Free => return None,
             Goal::Find { target_m, size, .. } => {
-                let mut steps = found(&rest, &Vec3::from(*target_m));
+                let mut steps = steps_to_find(&rest, &Vec3::from(*target_m));
                 if let Some(size) = size {
                     steps.extend([Step::Wait(1.5), Step::State(2.0 * size.radius_m)]);
                 }
@@ -111,7 +111,7 @@ impl Demonstration {
                 };
                 let tool = scene.tools.iter().position(named)?;
                 let direction = direction.map_or(-Vec3::y(), |(own, _)| Vec3::from(own));
-                pulled(&rest, tool, *force_n * direction.normalize())
+                steps_to_pull(&rest, tool, *force_n * direction.normalize())
             }
             Goal::Cut { line, layers, .. } => {
                 let of = |kinds: &[ToolKind]| {
@@ -121,7 +121,7 @@ impl Demonstration {
                 let blade = of(&[ToolKind::Scissors, ToolKind::Hook])?;
                 let depths = depths(simulation, layers.unwrap_or(1));
                 let line = Polyline::new(line)?;
-                cut(&rest, &line, &depths, blade, of(&[ToolKind::Grasper]))
+                steps_to_cut(&rest, &line, &depths, blade, of(&[ToolKind::Grasper]))
             }
             Goal::Touch(touch) => {
                 let number = |name: &String| scene.tools.iter().position(|own| own.name == *name);
@@ -157,7 +157,7 @@ impl Demonstration {
         let mut rows = Vec::new();
         for number in 0.. {
             let time = period * f64::from(number);
-            if time > longest || matches!(performance.status(), Status::Over { .. }) {
+            if time > longest || matches!(performance.status(), Status::Ended { .. }) {
                 break;
             }
             if number % 50 == 0 && on_progress(time / longest).is_break() {

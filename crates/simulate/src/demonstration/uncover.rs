@@ -8,7 +8,7 @@ use nalgebra::{Rotation3, Unit};
 use palpate_files::scene::TouchGoal;
 use palpate_geometry::Vec3;
 
-use super::ways::{BITE, RestSurface, grasped};
+use super::paths::{BITE, RestSurface, steps_to_grasp};
 use super::{FREE, SLOW, Step};
 use crate::Simulation;
 
@@ -71,10 +71,10 @@ pub(super) fn touched(
     let mut steps = Vec::new();
     if let (Some(holder), Some(rim)) = (holder, path.rim()) {
         let rest = RestSurface(simulation);
-        steps.extend(grasped(&rest, holder, &rim.place));
+        steps.extend(steps_to_grasp(&rest, holder, &rim.place));
         steps.push(Step::Move {
             tool: holder,
-            to: rest.over(&rim.place, -BITE) + rim.lift,
+            to: rest.above_surface(&rim.place, -BITE) + rim.lift,
             speed: SLOW,
             cuts: false,
         });

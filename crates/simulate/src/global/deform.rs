@@ -36,7 +36,8 @@ impl GlobalModel {
         }
         state.shown_deformed = touched;
         self.find_field(simulation, state, workspace);
-        self.carrier.carry(&workspace.field, &mut workspace.shown);
+        self.carrier
+            .interpolate(&workspace.field, &mut workspace.shown);
         let rest = simulation.surface.mesh();
         for (number, (from, by)) in rest.vertices().iter().zip(&workspace.shown).enumerate() {
             let to = moved(from, by);
@@ -98,7 +99,7 @@ impl GlobalModel {
         state: &mut SimulationState,
         workspace: &mut GlobalWorkspace,
     ) {
-        let Some(organ) = &mut state.whole else {
+        let Some(organ) = &mut state.organ_field else {
             return;
         };
         self.sum_field(simulation, &state.tools, workspace);
@@ -119,7 +120,7 @@ impl GlobalModel {
         for hold in state
             .tools
             .iter()
-            .filter_map(|tool| tool.grip.hold.as_ref())
+            .filter_map(|tool| tool.grip.grasp.as_ref())
         {
             for (part, triangles) in hold.patch().into_iter().flat_map(|patch| patch.parts()) {
                 for one in triangles {

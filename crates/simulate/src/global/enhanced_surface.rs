@@ -1,7 +1,9 @@
 use palpate_files::scene::{Enhancement, EnhancementArea};
 use palpate_geometry::{NodeId, TriangleId, TriangleMesh, Vec3};
 use palpate_mechanics::contact::Tip;
-use palpate_mechanics::enhance::{Carrier, EnhancedPatch, EnhancementModel, Press, SurfaceField};
+use palpate_mechanics::enhance::{
+    EmbeddedDisplayPoints, EnhancedPatch, EnhancementModel, Press, SurfaceField,
+};
 
 use super::deform::moved;
 use crate::grip::Swept;
@@ -54,7 +56,7 @@ impl OrganField {
 impl DisplayedContact {
     /// For a tool whose jaws hold the organ: the faces of the jaws move it like a flat tip of their area.
     pub(super) fn of_hold(tool: &Tool, state: &ToolState) -> Option<Self> {
-        let (hold, jaws) = (state.grip.hold.as_ref()?, tool.jaws?);
+        let (hold, jaws) = (state.grip.grasp.as_ref()?, tool.jaws?);
         let radius = (Swept::face(&jaws) / std::f64::consts::PI).sqrt();
         let press = Press {
             at: hold.displayed.at?,
@@ -92,7 +94,7 @@ impl DisplayedContact {
 pub struct EnhancedSurface {
     model: EnhancementModel,
     /// Displacements of the vertices without a patch.
-    carrier: Carrier,
+    carrier: EmbeddedDisplayPoints,
     field: SurfaceField,
     patch: EnhancedPatch,
     touched: Vec<TriangleId>,
@@ -184,7 +186,8 @@ impl EnhancedSurface {
     fn carry(&mut self) {
         let shown = self.carrier.places().len();
         self.displacements.truncate(shown);
-        self.carrier.carry(&self.field, &mut self.displacements);
+        self.carrier
+            .interpolate(&self.field, &mut self.displacements);
         self.of_patch
             .resize(self.patch.places().len(), Vec3::zeros());
         self.patch.displace(&self.field, &mut self.of_patch);

@@ -4,7 +4,7 @@ use crate::Error;
 use crate::walls::thicknesses;
 
 /// Largest number of triangles of a mesh that is its own mechanical mesh.
-const MOST_OF_ITS_OWN: usize = 6_000;
+const MAX_OWN_TRIANGLES: usize = 6_000;
 
 /// Number of mechanical triangles for a finer mesh.
 const OF_A_FINER_ONE: usize = 5_000;
@@ -26,7 +26,7 @@ pub(super) fn mechanical_surface(
     wanted: Option<usize>,
 ) -> Result<(Surface, Vec<String>), Error> {
     let triangles = shown.mesh().triangles().len();
-    if triangles <= wanted.unwrap_or(MOST_OF_ITS_OWN) {
+    if triangles <= wanted.unwrap_or(MAX_OWN_TRIANGLES) {
         return Ok((shown.clone(), Vec::new()));
     }
     let wanted = wanted.unwrap_or(OF_A_FINER_ONE);

@@ -4,7 +4,7 @@ use palpate_geometry::Surface;
 use crate::walls::Walls;
 
 /// More tetrahedra are not tried: a wall with so many takes minutes, a thick body some gigabytes.
-pub(super) const MOST_TETRAHEDRA: f64 = 25_000.0;
+pub(super) const MAX_TETRAHEDRA: f64 = 25_000.0;
 
 /// Where a wall is lost between tetrahedra, ones with this part of the edge are tried [-], so many times
 /// in all.

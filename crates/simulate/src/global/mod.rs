@@ -25,7 +25,8 @@
 
 mod deform;
 mod enhanced_surface;
-mod held;
+mod grasp_selection;
+mod grasped_part;
 mod key;
 mod mechanical_surface;
 mod method;
@@ -33,7 +34,6 @@ mod organ_slit;
 mod press;
 mod solve;
 mod surroundings;
-mod take_hold;
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -43,7 +43,7 @@ use palpate_files::Scene;
 use palpate_files::scene::{Organ, Smoothing};
 use palpate_geometry::{AabbTree, Surface, TriangleId, Vec3};
 use palpate_mechanics::LinearElastic;
-use palpate_mechanics::enhance::{Carrier, EnhancementModel, Press, SurfaceField};
+use palpate_mechanics::enhance::{EmbeddedDisplayPoints, EnhancementModel, Press, SurfaceField};
 use palpate_mechanics::finite_elements::condensed::RegionLaws;
 use palpate_mechanics::regions::RegionMap;
 use palpate_mechanics::surface_response::{SurfaceResponse, TipField};
@@ -53,13 +53,13 @@ use crate::tool::Tool;
 use crate::walls::Walls;
 use crate::{Error, Progress, Resources, fixed_region};
 pub use enhanced_surface::{EnhancedSurface, OrganField};
-use held::HeldWorkspace;
+use grasp_selection::Candidate;
+use grasped_part::GraspWorkspace;
 use key::Ingredients;
-use method::{MOST_TETRAHEDRA, Method};
+use method::{MAX_TETRAHEDRA, Method};
 use organ_slit::OrganSlit;
 use solve::Found;
 pub(crate) use surroundings::surround;
-use take_hold::Candidate;
 
 /// The organ-scale model.
 #[derive(Debug, Clone)]
@@ -70,7 +70,7 @@ pub(crate) struct GlobalModel {
     /// How displacements of its triangles are interpolated on it, and on the displayed surface.
     pub(crate) enhancement: EnhancementModel,
     /// The displayed vertices.
-    pub(crate) carrier: Carrier,
+    pub(crate) carrier: EmbeddedDisplayPoints,
     /// The boxes around the mechanical surface.
     pub(crate) tree: AabbTree,
 }
@@ -89,7 +89,7 @@ pub struct ResponseOrigin {
     /// The file that stores it.
     pub file: Option<PathBuf>,
     /// Whether it was read from that file.
-    pub was_kept: bool,
+    pub was_cached: bool,
 }
 
 /// Scratch of the organ-scale model in a step.
@@ -97,7 +97,7 @@ pub struct ResponseOrigin {
 pub(crate) struct GlobalWorkspace {
     /// Compliance [m/N] of tool i to a force on tool j, at i tools + j.
     between: Vec<Matrix3<f64>>,
-    held: HeldWorkspace,
+    held: GraspWorkspace,
     /// The effect of cuts on it, if the mechanics follow them.
     slit: Option<OrganSlit>,
     between_jaws: Vec<Candidate>,
@@ -133,11 +133,11 @@ impl GlobalModel {
         let triangles = self.response.parts().triangles;
         GlobalWorkspace {
             between: vec![Matrix3::zeros(); tools * tools],
-            held: HeldWorkspace::new(tools),
+            held: GraspWorkspace::new(tools),
             slit: is_cut.then(|| OrganSlit::new(&self.response, tools)),
             between_jaws: Vec::with_capacity(self.response.touchable().len()),
             sums: vec![0.0; 3 * triangles],
-            field: SurfaceField::with_room(self.enhancement.interpolation(), tools),
+            field: SurfaceField::with_capacity(self.enhancement.interpolation(), tools),
             presses: Vec::with_capacity(tools),
             shown: vec![Vec3::zeros(); self.carrier.places().len()],
         }
@@ -200,7 +200,7 @@ impl<'a> GlobalProblem<'a> {
                 regions.is_some(),
                 &surface,
                 &walls,
-                MOST_TETRAHEDRA,
+                MAX_TETRAHEDRA,
             ),
             regions: regions.map(OrganRegions::new).transpose()?,
             walls,
@@ -228,7 +228,7 @@ impl<'a> GlobalProblem<'a> {
             touchable: parts.touchable.len(),
             bytes: size_of_val(parts.displacements.as_slice()),
             file: found.file,
-            was_kept: found.was_kept,
+            was_cached: found.was_cached,
         };
         let same = self.surface.mesh() == shown.mesh();
         let tree = AabbTree::new(self.surface.mesh());
@@ -239,7 +239,7 @@ impl<'a> GlobalProblem<'a> {
         }
         let enhancement = match same {
             true => EnhancementModel::new(self.surface, settings)?,
-            false => EnhancementModel::carrying(shown.clone(), self.surface, settings)?,
+            false => EnhancementModel::with_display_mesh(shown.clone(), self.surface, settings)?,
         };
         let model = GlobalModel {
             response: found.response,
@@ -261,7 +261,7 @@ impl<'a> GlobalProblem<'a> {
         for &method in &self.finite {
             match solve::response(&self.ingredients(method), resources, on_progress) {
                 Ok(found) => return Ok((method, found)),
-                Err(error @ Error::Model(palpate_mechanics::Error::BrokenOff)) => {
+                Err(error @ Error::Model(palpate_mechanics::Error::Cancelled)) => {
                     return Err(error);
                 }
                 Err(error) => missed = Some(error),
@@ -305,10 +305,10 @@ fn sort(organ: &Organ, surface: &Surface) -> (Vec<TriangleId>, Vec<TriangleId>) 
     let mesh = surface.mesh();
     let (fixed, free): (Vec<_>, Vec<_>) = mesh
         .triangle_ids()
-        .partition(|&triangle| anchor.holds(centroid(surface, triangle)));
+        .partition(|&triangle| anchor.contains(centroid(surface, triangle)));
     let within = |&triangle: &TriangleId| {
         let region = organ.touchable.as_ref();
-        region.is_none_or(|region| region.holds(centroid(surface, triangle)))
+        region.is_none_or(|region| region.contains(centroid(surface, triangle)))
     };
     let touchable = free.into_iter().filter(within).collect();
     (fixed, touchable)

@@ -12,13 +12,13 @@
 use nalgebra::Matrix3;
 use palpate_geometry::Vec3;
 use palpate_mechanics::surface_response::slit::{
-    CutBody, Slit, SlitFacet, SlitJumps, SlitLoad, Spot,
+    CutBody, DiscForce, Slit, SlitFacet, SlitJumps, SlitLoad,
 };
 use palpate_mechanics::surface_response::{Share, SurfaceResponse};
 
 use super::{GlobalModel, GlobalWorkspace};
 use crate::cutting::{CutPart, Cuts, CuttingModel};
-use crate::grip::{HeldTriangle, MOST_PARTS};
+use crate::grip::{GraspedTriangle, MAX_PARTS};
 use crate::simulation::Simulation;
 use crate::state::ToolState;
 
@@ -77,7 +77,7 @@ impl OrganSlit {
         let loads = |count: usize| (0..count).map(|_| slit.load()).collect();
         Self {
             tips: loads(tools),
-            parts: loads(tools * MOST_PARTS),
+            parts: loads(tools * MAX_PARTS),
             scratch: slit.load(),
             jumps: slit.jumps(),
             slit,
@@ -106,7 +106,7 @@ impl OrganSlit {
         }
         while let Some(part) = path.get(self.taken) {
             let wanted = (OF_THE_DEPTH * model.depth_of(part.in_mechanics)).max(SHORTEST);
-            let Some(next) = next(path, self.taken, cuts.goes_on(), wanted) else {
+            let Some(next) = next(path, self.taken, cuts.is_in_progress(), wanted) else {
                 break;
             };
             let first = std::mem::replace(&mut self.taken, next.end);
@@ -161,7 +161,7 @@ impl OrganSlit {
         let each = simulation.tools.iter().zip(tools).zip(&mut self.tips);
         for ((tool, state), load) in each {
             let on = global.load(tool, state);
-            let spot = state.contact.map(|contact| Spot {
+            let spot = state.contact.map(|contact| DiscForce {
                 place: contact.point(),
                 normal: contact.rest_normal(),
                 radius: tool.typical_radius,
@@ -176,7 +176,7 @@ impl OrganSlit {
         &mut self,
         response: &SurfaceResponse,
         number: usize,
-        part: &[HeldTriangle],
+        part: &[GraspedTriangle],
     ) {
         let load = &mut self.parts[number];
         self.slit.put(response, shares(part), None, load);
@@ -184,7 +184,7 @@ impl OrganSlit {
 
     /// Its addition to the self-compliance of a tip, times E [1/m].
     pub(super) fn further(&self, tip: usize) -> Matrix3<f64> {
-        self.slit.further(&self.tips[tip])
+        self.slit.added_compliance(&self.tips[tip])
     }
 
     /// Its addition to the compliance between two tips, times E [1/m].
@@ -206,7 +206,7 @@ impl OrganSlit {
     pub(super) fn carry(
         &mut self,
         response: &SurfaceResponse,
-        part: &[HeldTriangle],
+        part: &[GraspedTriangle],
         forces: impl Iterator<Item = (usize, Vec3)>,
     ) -> Vec3 {
         self.slit
@@ -266,7 +266,7 @@ impl GlobalWorkspace {
     }
 }
 
-fn shares(part: &[HeldTriangle]) -> impl Iterator<Item = Share> {
+fn shares(part: &[GraspedTriangle]) -> impl Iterator<Item = Share> {
     part.iter().map(|one| Share {
         triangle: one.touch,
         weight: one.weight,

@@ -9,7 +9,7 @@
 //!
 //! An elastic organ moves nowhere as far as under the tip that presses on it. C of constant triangles and a stiffening
 //! tip law violate that for tips on one spot, so it is enforced: another tip displaces a tip by at most
-//! [`MOST_CARRIED`] of its displacement under itself. So the motions of the tools bound every displacement of a tip,
+//! [`MAX_CARRIED`] of its displacement under itself. So the motions of the tools bound every displacement of a tip,
 //! and every force. The coupling of a tip with held parts is bounded likewise, see `held`.
 //!
 //! *How we know*: `hybrid::…`, `grip::jumps::…`, `random_scenes::…`.
@@ -27,14 +27,14 @@ use crate::state::ToolState;
 use crate::tool::Tool;
 
 /// Largest number of sweeps, most of which are never needed.
-const MOST_SWEEPS: usize = 60;
+const MAX_SWEEPS: usize = 60;
 
 /// Relative change of a force that ends the sweeps [-].
 const SETTLED: f64 = 1e-10;
 
 /// Largest displacement of a tip due to another, relative to that other's displacement under itself [-]: the motions of
 /// two tools cause displacements larger by 1/(1 − this) at most.
-pub(super) const MOST_CARRIED: f64 = 0.99;
+pub(super) const MAX_CARRIED: f64 = 0.99;
 
 impl GlobalModel {
     /// The contact point on the mechanical surface.
@@ -45,7 +45,7 @@ impl GlobalModel {
     ) -> Option<SurfacePoint> {
         let contact = state.contact.as_ref()?;
         let place = contact.place;
-        if !self.enhancement.is_finer() {
+        if !self.enhancement.has_finer_display() {
             let corners = simulation.surface.mesh().positions(place.triangle);
             return Some(SurfacePoint {
                 triangle: place.triangle,
@@ -90,7 +90,7 @@ impl GlobalModel {
             state.elastic = Vec3::zeros();
             state.own = Vec3::zeros();
             state.displaced = Vec3::zeros();
-            state.moves = 0.0;
+            state.self_displacement = 0.0;
             state.stiffness = Matrix3::zeros();
             state.limited = Limits::NONE;
         }
@@ -98,13 +98,13 @@ impl GlobalModel {
             slit.put_tips(self, simulation, tools);
         }
         self.couple(simulation, tools, softness, workspace);
-        let holds = self.hold(simulation, tools, workspace);
+        let holds = self.prepare_grasps(simulation, tools, workspace);
         if holds {
             // Due to the jaws alone: no tip has a force yet.
-            self.answer_held(simulation, tools, workspace);
+            self.solve_grasped_forces(simulation, tools, workspace);
         }
         let tips = tools.iter().filter(|state| state.contact.is_some()).count();
-        for sweep in 1..=MOST_SWEEPS {
+        for sweep in 1..=MAX_SWEEPS {
             let (mut change, mut largest) = (0.0_f64, 0.0_f64);
             for number in 0..tools.len() {
                 let before = tools[number].elastic;
@@ -117,9 +117,9 @@ impl GlobalModel {
             if tips < 2 || change <= SETTLED * largest {
                 break;
             }
-            if sweep == MOST_SWEEPS {
+            if sweep == MAX_SWEEPS {
                 let reached = Reached {
-                    asked: change / largest,
+                    unbounded: change / largest,
                     used: SETTLED,
                 };
                 for tool in tools.iter_mut() {
@@ -128,7 +128,7 @@ impl GlobalModel {
             }
         }
         if holds {
-            self.answer_held(simulation, tools, workspace);
+            self.solve_grasped_forces(simulation, tools, workspace);
         }
     }
 
@@ -175,7 +175,7 @@ impl GlobalModel {
             return;
         };
         let GlobalWorkspace { held, between, .. } = workspace;
-        let mut carried = held.carries(number, tools.len());
+        let mut carried = held.tip_displacement(number, tools.len());
         let mut bounded = held.bounded(number);
         for (other, state) in tools
             .iter()
@@ -183,16 +183,16 @@ impl GlobalModel {
             .filter(|(other, _)| *other != number)
         {
             let place = number * tools.len() + other;
-            let by = (between[place] - held.fixes(number, other, tools.len())) * state.elastic;
-            let most = MOST_CARRIED * state.moves;
+            let by = (between[place] - held.reduction(number, other, tools.len())) * state.elastic;
+            let most = MAX_CARRIED * state.self_displacement;
             if by.norm() <= most {
                 carried -= by;
                 continue;
             }
             carried -= by * (most / by.norm());
             bounded = Some(Reached {
-                asked: by.norm() / state.moves,
-                used: MOST_CARRIED,
+                unbounded: by.norm() / state.self_displacement,
+                used: MAX_CARRIED,
             });
         }
         let frame = contact.place.frame;
@@ -203,7 +203,7 @@ impl GlobalModel {
             let slit = workspace.slit.as_ref();
             let more = slit.map_or(Matrix3::zeros(), |slit| slit.further(number));
             let free = (load.structural_compliance() + more) * softness;
-            frame.tr_mul(&(free - held.fixes(number, number, tools.len()))) * frame
+            frame.tr_mul(&(free - held.reduction(number, number, tools.len()))) * frame
         });
         let exchange = load.and_then(|load| {
             let place = &contact.place;
@@ -220,10 +220,10 @@ impl GlobalModel {
         let over = exchange.map(|exchange| (exchange, &simulation.material.at_rest));
         let (answer, compliance) = tool.force_in_series(&law, &moved, &compliance, over);
         let mut own = moved + compliance * answer.force;
-        if tool.bond == Friction::Frictionless {
+        if tool.tip_friction == Friction::Frictionless {
             own = Vec3::new(0.0, 0.0, own.z);
         }
-        state.moves = moved.norm();
+        state.self_displacement = moved.norm();
         state.own = frame * own;
         // The organ moves a slipping tip along its surface.
         state.displaced = frame * (own - compliance * answer.force) + carried;

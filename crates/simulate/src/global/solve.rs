@@ -26,7 +26,7 @@ pub(super) struct Found {
     /// The file that holds it.
     pub(super) file: Option<PathBuf>,
     /// Whether it was read.
-    pub(super) was_kept: bool,
+    pub(super) was_cached: bool,
     pub(super) warnings: Vec<String>,
 }
 
@@ -45,7 +45,7 @@ pub(super) fn response(
                 return Ok(Found {
                     response,
                     file,
-                    was_kept: true,
+                    was_cached: true,
                     warnings,
                 });
             }
@@ -64,7 +64,7 @@ pub(super) fn response(
     Ok(Found {
         response,
         file,
-        was_kept: false,
+        was_cached: false,
         warnings,
     })
 }

@@ -28,7 +28,7 @@ use crate::walls::Walls;
 const TRIANGLES: usize = 500;
 
 /// More tetrahedra would take longer than acceptable for this model: some seconds.
-const MOST_TETRAHEDRA: f64 = 5_000.0;
+const MAX_TETRAHEDRA: f64 = 5_000.0;
 
 /// Gives every tool the compliance of the organ of `scene` beyond a half-space; the organ is displayed as `shown`;
 /// returns a warning.
@@ -44,7 +44,7 @@ pub(crate) fn surround(
     let mesh = surface.mesh();
     let (fixed, free): (Vec<_>, Vec<_>) = mesh
         .triangle_ids()
-        .partition(|&triangle| anchor.holds(centroid(&surface, triangle)));
+        .partition(|&triangle| anchor.contains(centroid(&surface, triangle)));
     let walls = Walls::new(&surface, &free);
     let by = |method| {
         let ingredients = Ingredients {
@@ -62,7 +62,7 @@ pub(crate) fn surround(
         false,
         &surface,
         &walls,
-        MOST_TETRAHEDRA,
+        MAX_TETRAHEDRA,
     );
     let finite = finite.into_iter().find_map(|method| by(method).ok());
     let (response, warning) = match finite {
@@ -97,7 +97,7 @@ pub(crate) fn surround(
             known.push((radius, further.clone()));
             further
         };
-        tool.further = Some(further);
+        tool.structural_compliance = Some(further);
     }
     Ok(warning)
 }

@@ -36,17 +36,17 @@ impl Swept {
     }
 
     /// The far end of the drawn-in tissue, in the scene [m].
-    pub(crate) fn ahead(&self) -> Vec3 {
+    pub(crate) fn far_end(&self) -> Vec3 {
         self.tip - self.turned * Vec3::z() * AHEAD
     }
 
     /// Whether a place in the tool's frame lies between the jaws.
-    pub(crate) fn holds(&self, place: &Vec3) -> bool {
+    pub(crate) fn contains(&self, place: &Vec3) -> bool {
         (0..3).all(|axis| (self.low[axis]..=self.high[axis]).contains(&place[axis]))
     }
 
     /// Whether a part of a triangle with these corners in the tool's frame lies between the jaws.
-    pub(crate) fn reaches(&self, corners: &[Vec3; 3]) -> bool {
+    pub(crate) fn intersects(&self, corners: &[Vec3; 3]) -> bool {
         // Almost all triangles of an organ fail this test.
         let misses = |axis: usize| {
             let along = corners.map(|corner| corner[axis]);
@@ -60,7 +60,7 @@ impl Swept {
         along.any(|z| {
             ACROSS.iter().any(|part| {
                 let point = Vec3::new(part * self.high.x, 0.0, z);
-                self.holds(&closest_on_triangle(corners, &point).position)
+                self.contains(&closest_on_triangle(corners, &point).position)
             })
         })
     }
@@ -114,14 +114,14 @@ mod tests {
         let turned = UnitQuaternion::from_axis_angle(&Vec3::x_axis(), std::f64::consts::PI);
         let swept = Swept::new(&Jaws::GRASPER, Vec3::x(), turned, 0.0);
         // The shaft runs down.
-        let inside = |place: Vec3| swept.holds(&swept.inside_of_tool(&place));
+        let inside = |place: Vec3| swept.contains(&swept.inside_of_tool(&place));
         assert!(inside(Vec3::new(1.004, 0.0, -0.011)));
         assert!(!inside(Vec3::new(1.004, 0.0, 0.011)));
         assert!(!inside(Vec3::new(1.0, 0.003, -0.001)));
         // A triangle wider than the jaws has no corner between them.
         let wide = [[-0.1, -0.1], [0.1, -0.1], [0.0, 0.2]].map(|[x, y]| Vec3::new(x, y, 0.004));
-        assert!(swept.reaches(&wide));
+        assert!(swept.intersects(&wide));
         let below = wide.map(|corner| corner + Vec3::z() * 0.01);
-        assert!(!swept.reaches(&below));
+        assert!(!swept.intersects(&below));
     }
 }

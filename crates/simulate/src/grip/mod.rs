@@ -20,7 +20,7 @@
 //! work on the hand; a pull across the jaws (along the tool's x) never causes slip; the patch keeps its size while it
 //! slides.
 
-mod hold;
+mod grasp;
 mod jaws;
 mod place;
 mod slip;
@@ -30,12 +30,12 @@ use palpate_files::session::{Event, Events};
 use palpate_geometry::Vec3;
 use palpate_mechanics::finite_spheres::LocalContact;
 
-pub(crate) use hold::{
-    DisplayedHold, Held, HeldArea, HeldPart, HeldPatch, HeldTriangle, Hold, MOST_PARTS,
-    MOST_TRIANGLES,
+pub(crate) use grasp::{
+    DisplayedGrasp, Grasp, Grasped, GraspedArea, GraspedPart, GraspedPatch, GraspedTriangle,
+    MAX_PARTS, MAX_TRIANGLES,
 };
 pub(crate) use jaws::Swept;
-pub(crate) use place::{HeldPlace, answer};
+pub(crate) use place::{GraspedPlace, answer};
 
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, SimulationWorkspace, ToolState};
@@ -49,7 +49,7 @@ const GRASPS_ABOVE: f64 = 0.6;
 const RELEASES_BELOW: f64 = 0.4;
 
 /// Passes for slip in a step, since each slip changes the force on the other tool.
-const MOST_SLIPS: usize = 12;
+const MAX_SLIPS: usize = 12;
 
 /// The state of a tool's jaws.
 #[derive(Debug, Clone)]
@@ -58,7 +58,7 @@ pub(crate) struct Grip {
     shut: bool,
     /// Whether they shut in this step.
     shuts: bool,
-    pub(crate) hold: Option<Hold>,
+    pub(crate) grasp: Option<Grasp>,
     slides: Slides,
 }
 
@@ -67,7 +67,7 @@ impl Default for Grip {
         Self {
             shut: true,
             shuts: false,
-            hold: None,
+            grasp: None,
             slides: Slides::NONE,
         }
     }
@@ -85,11 +85,11 @@ pub(crate) fn follow(tool: &Tool, pose: Option<Pose>, state: &mut ToolState) -> 
             GRASPS_ABOVE
         };
     own.shuts = own.shut && !was_shut && tool.jaws.is_some();
-    if let (Some(hold), Some(pose), true) = (&mut own.hold, pose, own.shut) {
+    if let (Some(hold), Some(pose), true) = (&mut own.grasp, pose, own.shut) {
         hold.follow(tool, &pose);
         return Events::NONE;
     }
-    match own.hold.take() {
+    match own.grasp.take() {
         Some(_) => [Event::GripRelease].into_iter().collect(),
         None => Events::NONE,
     }
@@ -128,7 +128,7 @@ fn slide(
     for own in &mut state.tools {
         own.grip.slides = Slides::NONE;
     }
-    for _ in 0..MOST_SLIPS {
+    for _ in 0..MAX_SLIPS {
         let mut slipped = false;
         for (tool, own) in simulation.tools.iter().zip(&mut state.tools) {
             slipped |= slip::slip(simulation, tool, elapsed, own);
@@ -149,8 +149,8 @@ fn lose(
     let mut lost = false;
     for (tool, own) in simulation.tools.iter().zip(&mut state.tools) {
         let length = tool.jaws.map_or(0.0, |jaws| jaws.length_m);
-        let gone = |hold: &mut Hold| hold.slid().norm() >= length;
-        if own.grip.hold.take_if(gone).is_some() {
+        let gone = |hold: &mut Grasp| hold.slid().norm() >= length;
+        if own.grip.grasp.take_if(gone).is_some() {
             own.row.events.insert(Event::GripRelease);
             own.row.events.insert(Event::Release);
             lost = true;
@@ -180,7 +180,7 @@ fn grasp(
         place::grasp(simulation, tool, &mut state.tools[number], workspace)
     };
     let own = &mut state.tools[number];
-    if let (true, Some(at)) = (took, own.grip.hold.as_ref().map(Hold::place)) {
+    if let (true, Some(at)) = (took, own.grip.grasp.as_ref().map(Grasp::place)) {
         own.contact = None;
         own.row.events.insert(Event::Grip);
         if !touched {
@@ -192,41 +192,41 @@ fn grasp(
 
 impl Grip {
     /// Its patch of the organ-scale model.
-    pub(crate) fn patch(&self) -> Option<&HeldPatch> {
-        self.hold.as_ref()?.patch()
+    pub(crate) fn patch(&self) -> Option<&GraspedPatch> {
+        self.grasp.as_ref()?.patch()
     }
 
     /// The held place of the local model, and its displacement [m].
     pub(crate) fn shown_place(&self) -> Option<(LocalContact, Vec3)> {
-        let hold = self.hold.as_ref()?;
-        match &hold.held {
-            Held::Place(held) => Some((held.place, hold.displaced())),
-            Held::Patch(_) | Held::Area(_) => None,
+        let hold = self.grasp.as_ref()?;
+        match &hold.grasped {
+            Grasped::Place(held) => Some((held.place, hold.displaced())),
+            Grasped::Patch(_) | Grasped::Area(_) => None,
         }
     }
 }
 
 impl ToolState {
     /// Whether its jaws hold tissue.
-    pub fn holds(&self) -> bool {
-        self.grip.hold.is_some()
+    pub fn is_grasping(&self) -> bool {
+        self.grip.grasp.is_some()
     }
 
     /// Whether its tip touches the organ or its jaws hold it.
     pub(crate) fn touches(&self) -> bool {
-        self.contact.is_some() || self.holds()
+        self.contact.is_some() || self.is_grasping()
     }
 
     /// Displacement of the tissue between its jaws from rest [m].
     pub(crate) fn pulled(&self) -> f64 {
-        let hold = self.grip.hold.as_ref();
+        let hold = self.grip.grasp.as_ref();
         hold.map_or(0.0, |hold| hold.displaced().norm())
     }
 
     /// Force of each jaw on the tissue that they hold [N].
     fn press(&self, simulation: &Simulation, tool: &Tool) -> f64 {
         let modulus = simulation.material.at_rest.youngs_modulus();
-        match (&self.grip.hold, &tool.jaws, &self.pose) {
+        match (&self.grip.grasp, &tool.jaws, &self.pose) {
             (Some(hold), Some(jaws), Some(pose)) => {
                 jaws::press(jaws, hold.area, hold.thickness, pose.grip, modulus)
             }

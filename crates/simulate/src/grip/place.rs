@@ -11,8 +11,8 @@ use palpate_geometry::Vec3;
 use palpate_mechanics::contact::{Friction, half_space_stiffness, half_space_tangential_stiffness};
 use palpate_mechanics::finite_spheres::{FiniteSphereWorkspace, LocalContact, Response};
 
-use super::hold::DisplayedHold;
-use super::{Held, Hold, Swept};
+use super::grasp::DisplayedGrasp;
+use super::{Grasp, Grasped, Swept};
 use crate::contact;
 use crate::simulation::Simulation;
 use crate::state::ToolState;
@@ -20,7 +20,7 @@ use crate::tool::Tool;
 
 /// A held place.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct HeldPlace {
+pub(crate) struct GraspedPlace {
     pub(crate) place: LocalContact,
     /// The tip [m], and its elastic force [N], at the start of the grasp.
     tip: Vec3,
@@ -37,7 +37,7 @@ pub(super) fn grasp(
     let (Some(swept), Some(jaws)) = (state.swept(tool), tool.jaws) else {
         return false;
     };
-    let ahead = || contact::detect(&simulation.rest_surface(tool), tool, None, &swept.ahead());
+    let ahead = || contact::detect(&simulation.rest_surface(tool), tool, None, &swept.far_end());
     let Some(contact) = state.contact.or_else(ahead) else {
         return false;
     };
@@ -47,19 +47,19 @@ pub(super) fn grasp(
     };
     let mut place = contact.place;
     place.radius = (Swept::face(&jaws) / std::f64::consts::PI).sqrt();
-    let displayed = DisplayedHold {
+    let displayed = DisplayedGrasp {
         triangle: place.triangle,
         place: place.point,
         at: None,
         displaced,
     };
-    let held = Held::Place(HeldPlace {
+    let held = Grasped::Place(GraspedPlace {
         place,
         tip: swept.tip,
         force: state.elastic,
     });
     let area = Swept::face(&jaws);
-    state.grip.hold = Some(Hold::new(&swept, area, jaws.opening_m, held, displayed));
+    state.grip.grasp = Some(Grasp::new(&swept, area, jaws.opening_m, held, displayed));
     answer(simulation, tool, state, workspace);
     true
 }
@@ -71,10 +71,10 @@ pub(crate) fn answer(
     state: &mut ToolState,
     workspace: &mut FiniteSphereWorkspace,
 ) -> bool {
-    let Some(hold) = &state.grip.hold else {
+    let Some(hold) = &state.grip.grasp else {
         return false;
     };
-    let Held::Place(held) = &hold.held else {
+    let Grasped::Place(held) = &hold.grasped else {
         return false;
     };
     let response = tool.model.respond(&held.place, workspace);
@@ -94,7 +94,7 @@ fn stiffness(
 ) -> Matrix3<f64> {
     let law = &simulation.material.at_rest;
     let normal = response.stiffness[(2, 2)];
-    let along = match tool.bond {
+    let along = match tool.tip_friction {
         Friction::Bonded => 0.5 * (response.stiffness[(0, 0)] + response.stiffness[(1, 1)]),
         Friction::Frictionless => {
             let ratio = normal / half_space_stiffness(law, place.radius, Friction::Frictionless);

@@ -71,7 +71,7 @@ pub(super) fn slip(
         let mut history = state.history;
         history.advance(series, elastic, elapsed)
     };
-    let Some(hold) = &state.grip.hold else {
+    let Some(hold) = &state.grip.grasp else {
         return false;
     };
     let turned = hold.turned().to_rotation_matrix();
@@ -83,7 +83,7 @@ pub(super) fn slip(
         return false;
     };
     let longer = state.grip.slides.next(&pull, limit);
-    if let Some(hold) = &mut state.grip.hold {
+    if let Some(hold) = &mut state.grip.grasp {
         hold.slide(&(by * longer));
     }
     true

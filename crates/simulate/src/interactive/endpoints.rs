@@ -1,5 +1,5 @@
 use palpate_servo::latest::{Receiver, Sender, channel};
-use palpate_servo::watch::Watched;
+use palpate_servo::monitor::MonitoredLoop;
 use palpate_servo::{
     AffineForce, Device, Extrapolator, LoopReport, Sample, ServoLoop, ServoSettings, Supervisor,
     log,
@@ -35,7 +35,7 @@ pub(super) struct ModelEndpoint {
 }
 
 /// The readers' ends of a device's loop.
-pub(super) struct Watch {
+pub(super) struct LoopReaders {
     pub(super) samples: log::Reader<Sample>,
     pub(super) report: Receiver<LoopReport>,
 }
@@ -44,9 +44,9 @@ pub(super) struct Watch {
 pub(super) struct DeviceEndpoints {
     pub(super) servo: ServoLoop,
     pub(super) endpoint: ModelEndpoint,
-    pub(super) watch: Watch,
+    pub(super) watch: LoopReaders,
     /// Name of its loop, and time of its last tick.
-    pub(super) watched: Watched,
+    pub(super) watched: MonitoredLoop,
     /// Whether its forces reach a hand.
     pub(super) displays_force: bool,
 }
@@ -92,7 +92,7 @@ impl DeviceEndpoints {
         let (servo, reader) =
             ServoLoop::supervised(device, Box::new(renderer), settings, supervisor.clone())?;
         Ok(Self {
-            watched: Watched {
+            watched: MonitoredLoop {
                 name: format!("the device of the tool {tool:?} ({name})"),
                 pulse: reader.pulse,
             },
@@ -103,7 +103,7 @@ impl DeviceEndpoints {
                 answers,
                 placement,
             },
-            watch: Watch {
+            watch: LoopReaders {
                 samples: reader.log,
                 report: reader.report,
             },

@@ -33,7 +33,7 @@ pub fn affine_force(tool: &Tool, state: &ToolState, time: f64) -> AffineForce {
 
 /// The same of the organ alone.
 fn of_organ(tool: &Tool, state: &ToolState, time: f64) -> AffineForce {
-    if let (true, Some(pose)) = (state.holds(), &state.pose) {
+    if let (true, Some(pose)) = (state.is_grasping(), &state.pose) {
         let tip = Vec3::from(pose.position_m);
         let answer = AffineForce::new(time, tip, state.with_pull, -state.stiffness);
         let finite = answer.gradient.iter().chain(answer.force.iter());
@@ -46,7 +46,7 @@ fn of_organ(tool: &Tool, state: &ToolState, time: f64) -> AffineForce {
         return AffineForce::none(time);
     };
     let normal = contact.normal();
-    let gradient = match tool.bond == Friction::Frictionless || contact.slides {
+    let gradient = match tool.tip_friction == Friction::Frictionless || contact.slides {
         // Without friction nothing holds the tip along the surface.
         true => -normal.dot(&(state.stiffness * normal)) * normal * normal.transpose(),
         false => -state.stiffness,

@@ -4,17 +4,17 @@ use std::thread::JoinHandle;
 
 use palpate_devices::publisher::Publisher;
 use palpate_files::SessionRow;
-use palpate_servo::watch::{Watch as LoopWatch, WatchThread};
+use palpate_servo::monitor::{LoopMonitor, MonitorThread};
 use palpate_servo::{
     Clock, Fault, LoopReport, Sample, ServoSettings, ServoThread, Supervisor, latest, log,
     raise_model_priority,
 };
 
 use super::command::commands;
-use super::endpoints::{DeviceEndpoints, PlacedDevice, Watch, device_endpoints};
-use super::model::{PreparedModel, Replacing, take_over};
+use super::endpoints::{DeviceEndpoints, LoopReaders, PlacedDevice, device_endpoints};
+use super::model::{PreparedModel, ReplacementSender, replacement};
 use super::model_loop::{Channels, ModelLoop};
-use super::recorder::{SessionRecorder, Unwritten};
+use super::recorder::{RecordingFailure, SessionRecorder};
 use super::{ModelCommand, ModelReport, Quality, ROWS, Snapshot};
 use crate::{Error, SessionFolderWriter, Simulation};
 
@@ -24,14 +24,14 @@ pub struct Interaction {
     stop: Arc<AtomicBool>,
     model: Option<JoinHandle<ModelReport>>,
     servos: Vec<Option<ServoThread>>,
-    watches: Vec<Option<Watch>>,
+    watches: Vec<Option<LoopReaders>>,
     /// Dropped after the loops that it watches.
-    watch: WatchThread,
+    watch: MonitorThread,
     recorder: SessionRecorder,
     rows: log::Reader<SessionRow>,
     commands: log::Writer<ModelCommand>,
     snapshots: latest::Receiver<Snapshot>,
-    replacing: Replacing,
+    replacing: ReplacementSender,
     supervisor: Supervisor,
     clock: Clock,
 }
@@ -60,7 +60,7 @@ impl Default for Environment<'_> {
 struct Running {
     servos: Vec<Option<ServoThread>>,
     endpoints: Vec<Option<super::endpoints::ModelEndpoint>>,
-    watches: Vec<Option<Watch>>,
+    watches: Vec<Option<LoopReaders>>,
 }
 
 impl Interaction {
@@ -97,11 +97,11 @@ impl Interaction {
         let recorder = SessionRecorder::start(read_rows, stops);
         let (recorder, read_rows) = recorder.ok_or(Fault::NoThread)?;
         let (give, commands) = commands();
-        let (replacing, taking_over) = take_over(&simulation, &supervisor);
+        let (replacing, taking_over) = replacement(&simulation, &supervisor);
         let clock = Clock::real();
         let watched = parts.iter().flatten().map(|parts| parts.watched.clone());
-        let watch = LoopWatch::new(supervisor.clone(), watched.collect(), environment.is_ended);
-        let watch = WatchThread::start(watch, clock)?;
+        let watch = LoopMonitor::new(supervisor.clone(), watched.collect(), environment.is_ended);
+        let watch = MonitorThread::start(watch, clock)?;
         let Running {
             servos,
             endpoints,
@@ -171,7 +171,7 @@ impl Interaction {
     }
 
     /// Reports that the program that shows the touch is alive. After the first report, forces go off if the next one
-    /// does not come within [`SILENCE`](palpate_servo::supervisor::SILENCE).
+    /// does not come within [`REPORT_TIMEOUT`](palpate_servo::supervisor::REPORT_TIMEOUT).
     pub fn report_alive(&self) {
         self.supervisor.report(self.clock.now());
     }
@@ -191,8 +191,8 @@ impl Interaction {
     }
 
     /// Why the rows of the recording can no longer be written, if they cannot: known within a twentieth of a second.
-    pub fn unwritten(&self) -> Option<Unwritten> {
-        self.recorder.unwritten()
+    pub fn recording_failure(&self) -> Option<RecordingFailure> {
+        self.recorder.recording_failure()
     }
 
     /// Writes the recording from its start to another folder, also after its end; a running one continues there.
@@ -307,7 +307,7 @@ fn run(mut model: ModelLoop, mut clock: Clock, period: f64, stop: &AtomicBool) -
         model.shape();
         model.show();
         let next = (clock.now() / period).ceil() as u64;
-        model.miss(next.saturating_sub(number + 1));
+        model.count_missed(next.saturating_sub(number + 1));
         number = next.max(number + 1);
     }
     model.report()

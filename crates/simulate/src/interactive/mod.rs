@@ -6,8 +6,8 @@
 //! ```
 //!
 //! A [`ModelCommand`] (pause, resume, undo, reset) reaches the model through a ring of its own. The recorder writes a
-//! session that is recorded, and passes its rows on for display. A watch thread detects a loop that hangs and a request
-//! to end the program ([`palpate_servo::watch`]). Another model can take over while the devices stay open
+//! session that is recorded, and passes its rows on for display. A monitor thread detects a loop that hangs and a request
+//! to end the program ([`palpate_servo::monitor`]). Another model can take over while the devices stay open
 //! ([`PreparedModel`]).
 //!
 //! No thread waits for another: unread values are replaced, and values that do not fit are counted. [`Interaction`]
@@ -21,10 +21,10 @@
 mod command;
 mod device_placement;
 mod endpoints;
+mod extrapolation_error;
 mod force_renderer;
 mod hand_over;
 mod interaction;
-mod judge;
 mod model;
 mod model_loop;
 mod placement;
@@ -41,15 +41,15 @@ const ROWS: usize = 24_000;
 pub use command::ModelCommand;
 pub use device_placement::DevicePlacement;
 pub use endpoints::PlacedDevice;
+pub use extrapolation_error::measure_extrapolation_error;
 pub use force_renderer::ForceRenderer;
 pub use hand_over::affine_force;
 pub use interaction::{Environment, Interaction};
-pub use judge::judge_samples;
 pub use model::PreparedModel;
 pub use model_loop::CUTS;
 pub(crate) use model_loop::DISPLAY;
 pub use quality::{ExtrapolationError, ModelReport, Quality};
-pub use recorder::{MOST_ROWS_IN_MEMORY, Unwritten};
+pub use recorder::{MAX_ROWS_IN_MEMORY, RecordingFailure};
 pub use scene_devices::SceneDevices;
 pub use snapshot::{ContactSnapshot, OpenedPart, OpenedSnapshot, Snapshot, ToolSnapshot};
 pub use virtual_interaction::VirtualInteraction;

@@ -57,7 +57,7 @@ impl PreparedModel {
 }
 
 /// The caller's end of a replacement.
-pub(super) struct Replacing {
+pub(super) struct ReplacementSender {
     next: SyncSender<Box<Model>>,
     replaced: Receiver<Box<Model>>,
     /// The model that runs, or will within a moment.
@@ -65,7 +65,7 @@ pub(super) struct Replacing {
 }
 
 /// The model thread's end of a replacement, used between two steps.
-pub(super) struct TakingOver {
+pub(super) struct ReplacementReceiver {
     next: Receiver<Box<Model>>,
     replaced: SyncSender<Box<Model>>,
     supervisor: Supervisor,
@@ -75,18 +75,18 @@ pub(super) struct TakingOver {
 }
 
 /// Both ends, for the session of `supervisor` with the model `touched`.
-pub(super) fn take_over(
+pub(super) fn replacement(
     touched: &Arc<Simulation>,
     supervisor: &Supervisor,
-) -> (Replacing, TakingOver) {
+) -> (ReplacementSender, ReplacementReceiver) {
     let (next, waiting) = sync_channel(1);
     let (give_back, replaced) = sync_channel(1);
-    let replacing = Replacing {
+    let replacing = ReplacementSender {
         next,
         replaced,
         touched: touched.clone(),
     };
-    let taking_over = TakingOver {
+    let taking_over = ReplacementReceiver {
         next: waiting,
         replaced: give_back,
         supervisor: supervisor.clone(),
@@ -96,7 +96,7 @@ pub(super) fn take_over(
     (replacing, taking_over)
 }
 
-impl Replacing {
+impl ReplacementSender {
     /// Sends `prepared` to the model thread, and returns the viewer's end of its output.
     pub(super) fn replace(
         &mut self,
@@ -133,7 +133,7 @@ fn have_one_touch(one: &Simulation, other: &Simulation) -> bool {
         && fulcrums(one) == fulcrums(other)
 }
 
-impl TakingOver {
+impl ReplacementReceiver {
     /// The model that takes over now; none if there is none, or if a loop still displays a force of the old one,
     /// according to its last of `samples`.
     pub(super) fn next(&mut self, samples: &[Option<Sample>]) -> Option<Box<Model>> {

@@ -4,9 +4,9 @@ use palpate_files::{Event, Events, Pose, SessionRow};
 use palpate_servo::{AffineForce, Histogram, Priority, Sample, Stage, log};
 
 use super::endpoints::ModelEndpoint;
+use super::extrapolation_error::force_on_tool;
 use super::hand_over::affine_force;
-use super::judge::made;
-use super::model::{Model, TakingOver};
+use super::model::{Model, ReplacementReceiver};
 use super::quality::ExtrapolationError;
 use super::snapshot::RenderedForce;
 use super::{DevicePlacement, ModelCommand, ModelReport};
@@ -21,7 +21,7 @@ pub const CUTS: u32 = 1;
 /// The model with its ends of all channels. A step allocates nothing and waits for no other thread.
 pub(super) struct ModelLoop {
     model: Box<Model>,
-    taking_over: TakingOver,
+    taking_over: ReplacementReceiver,
     endpoints: Vec<Option<ModelEndpoint>>,
     samples: Vec<Option<Sample>>,
     poses: Vec<Option<Pose>>,
@@ -56,7 +56,7 @@ pub(super) struct ModelLoop {
 pub(super) struct Channels {
     pub(super) commands: log::Reader<ModelCommand>,
     pub(super) rows: log::Writer<SessionRow>,
-    pub(super) taking_over: TakingOver,
+    pub(super) taking_over: ReplacementReceiver,
 }
 
 impl ModelLoop {
@@ -191,7 +191,7 @@ impl ModelLoop {
     }
 
     /// Counts missed steps.
-    pub(super) fn miss(&mut self, steps: u64) {
+    pub(super) fn count_missed(&mut self, steps: u64) {
         self.missed += steps;
     }
 
@@ -227,7 +227,7 @@ impl ModelLoop {
     fn mark_restart(&mut self) {
         self.were_present.fill(false);
         self.last = None;
-        self.command_events.insert(Event::BeginAnew);
+        self.command_events.insert(Event::Restart);
     }
 
     /// Processes commands. The next row records a change of the organ, one at a time.
@@ -264,7 +264,7 @@ impl ModelLoop {
             self.samples[number] = sample;
             self.poses[number] = sample.and_then(|sample| pose(&endpoint.placement, &sample));
             self.rendered[number] = sample.map_or(RenderedForce::NOTHING, |sample| RenderedForce {
-                force: endpoint.placement.force_in_scene(&sample.sent),
+                force: endpoint.placement.force_in_scene(&sample.output),
                 fault: match sample.stage {
                     Stage::Faulted(fault) => Some(fault),
                     _ => None,
@@ -285,7 +285,7 @@ impl ModelLoop {
             };
             // Before the first answer the loop had no force.
             let answered = sample.age.is_some_and(f64::is_finite);
-            let made = made(simulation, &endpoint.placement, sample);
+            let made = force_on_tool(simulation, &endpoint.placement, sample);
             if answered && made.iter().all(|component| component.is_finite()) {
                 self.error.add(&made, &tool.force);
             }

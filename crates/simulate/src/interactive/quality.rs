@@ -49,7 +49,7 @@ impl Quality {
 
 /// The extrapolation error: the force that the servo loop extrapolated from older answers minus the one that the model
 /// then found for the same hand position: at every step in contact, where the last answer is oldest, or at every tick
-/// ([`super::judge_samples`]).
+/// ([`super::measure_extrapolation_error`]).
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct ExtrapolationError {
     /// Number of compared forces.

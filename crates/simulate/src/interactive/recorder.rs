@@ -14,23 +14,23 @@ const PERIOD: Duration = Duration::from_millis(50);
 
 /// Rows of a recording that stay in memory until the next one begins [-], in case the disk fails: 20 minutes of two
 /// tools at 200 Hz, 70 MB.
-pub const MOST_ROWS_IN_MEMORY: usize = 480_000;
+pub const MAX_ROWS_IN_MEMORY: usize = 480_000;
 
-/// A recording whose rows can no longer be written. The rows so far stay in memory, up to [`MOST_ROWS_IN_MEMORY`], and
+/// A recording whose rows can no longer be written. The rows so far stay in memory, up to [`MAX_ROWS_IN_MEMORY`], and
 /// further ones join them.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Unwritten {
+pub struct RecordingFailure {
     /// Why, in a sentence.
     pub cause: String,
-    /// Whether every row since the beginning is in memory. Else the first [`MOST_ROWS_IN_MEMORY`] are.
-    pub is_whole: bool,
+    /// Whether every row since the beginning is in memory. Else the first [`MAX_ROWS_IN_MEMORY`] are.
+    pub is_complete: bool,
 }
 
 /// The recorder thread: it reads every row of the model, writes those of a session and passes all of them on, so that
 /// neither a slow disk nor a sleeping window loses one.
 pub(super) struct SessionRecorder {
     requests: Sender<Request>,
-    unwritten: Arc<Mutex<Option<Unwritten>>>,
+    unwritten: Arc<Mutex<Option<RecordingFailure>>>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -57,7 +57,7 @@ struct Recording {
     beginning: Option<SessionRow>,
     /// Why rows can no longer be written.
     failed: Option<String>,
-    unwritten: Arc<Mutex<Option<Unwritten>>>,
+    unwritten: Arc<Mutex<Option<RecordingFailure>>>,
     /// The session whose forces go off when a row cannot be written.
     stops: Option<Supervisor>,
 }
@@ -80,7 +80,7 @@ impl SessionRecorder {
         from: log::Reader<SessionRow>,
         stops: Option<Supervisor>,
     ) -> Option<(Self, log::Reader<SessionRow>)> {
-        Self::with_memory(from, MOST_ROWS_IN_MEMORY, stops)
+        Self::with_memory(from, MAX_ROWS_IN_MEMORY, stops)
     }
 
     /// With another limit of rows in memory.
@@ -121,7 +121,7 @@ impl SessionRecorder {
     }
 
     /// Why rows can no longer be written, if they cannot.
-    pub(super) fn unwritten(&self) -> Option<Unwritten> {
+    pub(super) fn recording_failure(&self) -> Option<RecordingFailure> {
         let unwritten = self.unwritten.lock();
         unwritten.unwrap_or_else(PoisonError::into_inner).clone()
     }
@@ -217,7 +217,7 @@ impl Recording {
         while self.beginning.is_none()
             && let Some(row) = self.from.next_value()
         {
-            match row.events.contains(Event::BeginAnew) {
+            match row.events.contains(Event::Restart) {
                 true => self.beginning = Some(row),
                 false => self.copy_row(row),
             }
@@ -232,7 +232,7 @@ impl Recording {
     }
 
     fn copy_row(&mut self, row: SessionRow) {
-        if self.stage == Stage::Awaited && row.events.contains(Event::BeginAnew) {
+        if self.stage == Stage::Awaited && row.events.contains(Event::Restart) {
             self.stage = Stage::Begun;
         }
         if self.stage == Stage::Begun {
@@ -261,21 +261,21 @@ impl Recording {
             self.failed = Some(error.to_string());
             self.writer = None;
             if let Some(supervisor) = &self.stops {
-                supervisor.trip_because(StopReason::Unrecorded);
+                supervisor.trip_with_reason(StopReason::Unrecorded);
             }
             self.show_failure();
         }
     }
 
-    fn is_whole(&self) -> bool {
+    fn is_complete(&self) -> bool {
         self.in_memory.len() <= self.most
     }
 
     /// Publishes the failure, if any, to the viewers of the session.
     fn show_failure(&self) {
-        let unwritten = self.failed.clone().map(|cause| Unwritten {
+        let unwritten = self.failed.clone().map(|cause| RecordingFailure {
             cause,
-            is_whole: self.is_whole(),
+            is_complete: self.is_complete(),
         });
         *self
             .unwritten
@@ -290,7 +290,7 @@ impl Recording {
             writer.write(row)?;
         }
         writer.flush()?;
-        if !self.is_whole() {
+        if !self.is_complete() {
             return Err(failure(format!(
                 "only the first {most} rows were in memory; they are there as an incomplete session"
             )));

@@ -19,7 +19,7 @@ pub struct Snapshot {
     /// Whether the model is paused.
     pub paused: bool,
     /// The displacement field of the organ-scale model, if there is one.
-    pub whole: Option<OrganField>,
+    pub organ_field: Option<OrganField>,
     /// Per tool, in the scene's order.
     pub tools: Vec<ToolSnapshot>,
     /// Measurements of the model.
@@ -38,7 +38,7 @@ pub struct ToolSnapshot {
     /// The torque on it about its tip [N m], which no device gets.
     pub torque: Vec3,
     /// The force that its device gets [N]: scaled, extrapolated, limited; in the scene's frame.
-    pub felt: Vec3,
+    pub rendered_force: Vec3,
     /// Why its device gets no force, if there is a reason.
     pub fault: Option<Fault>,
     /// Its contact.
@@ -48,7 +48,7 @@ pub struct ToolSnapshot {
     /// Force of each of its jaws on the tissue that it holds [N]; zero without.
     pub grip_force: f64,
     /// Whether its jaws hold tissue.
-    pub holds: bool,
+    pub is_grasping: bool,
     /// Bounds of the models that acted in its steps so far.
     pub limits: LimitCounts,
 }
@@ -123,12 +123,12 @@ impl Snapshot {
             orientation: [0.0, 0.0, 0.0, 1.0],
             force: Vec3::zeros(),
             torque: Vec3::zeros(),
-            felt: Vec3::zeros(),
+            rendered_force: Vec3::zeros(),
             fault: None,
             contact: None,
             cuts: false,
             grip_force: 0.0,
-            holds: false,
+            is_grasping: false,
             limits: LimitCounts::default(),
         };
         Self {
@@ -139,7 +139,7 @@ impl Snapshot {
                 .as_ref()
                 .map(|_| OpenedSnapshot::default()),
             paused: false,
-            whole: OrganField::at_rest(simulation),
+            organ_field: OrganField::at_rest(simulation),
             tools: vec![nobody; simulation.tools().len()],
             report: ModelReport::default(),
         }
@@ -160,7 +160,7 @@ impl Snapshot {
         if let (Some(seen), Some(cuts)) = (&mut self.opened, &state.cuts) {
             seen.fill(cuts, state);
         }
-        if let (Some(seen), Some(whole)) = (&mut self.whole, &state.whole) {
+        if let (Some(seen), Some(whole)) = (&mut self.organ_field, &state.organ_field) {
             seen.copy(whole);
         }
         for ((seen, tool), rendered) in self.tools.iter_mut().zip(&state.tools).zip(rendered) {
@@ -182,7 +182,7 @@ impl Snapshot {
 impl OpenedSnapshot {
     /// Copies the `cuts` of `state`.
     pub fn fill(&mut self, cuts: &Cuts, state: &SimulationState) {
-        if !cuts.are_there() {
+        if !cuts.has_openings() {
             return self.clear();
         }
         self.places.clear();
@@ -249,7 +249,7 @@ impl ToolSnapshot {
             orientation: tool.row.orientation,
             force: tool.force,
             torque: tool.torque,
-            felt: rendered.force,
+            rendered_force: rendered.force,
             fault: rendered.fault,
             contact: tool.contact.map(|contact| ContactSnapshot {
                 point: contact.point(),
@@ -258,7 +258,7 @@ impl ToolSnapshot {
             }),
             cuts: tool.blade.is_some(),
             grip_force: tool.grip_force,
-            holds: tool.holds(),
+            is_grasping: tool.is_grasping(),
             limits: tool.limits,
         }
     }

@@ -4,8 +4,8 @@ use palpate_files::SessionRow;
 use palpate_servo::{Fault, Sample, ServoLoop, ServoSettings, Supervisor, latest, log};
 
 use super::command::commands;
-use super::endpoints::{PlacedDevice, Watch, device_endpoints};
-use super::model::{PreparedModel, Replacing, take_over};
+use super::endpoints::{LoopReaders, PlacedDevice, device_endpoints};
+use super::model::{PreparedModel, ReplacementSender, replacement};
 use super::model_loop::{Channels, ModelLoop};
 use super::{ModelCommand, Quality, Snapshot};
 use crate::{Error, Simulation};
@@ -16,11 +16,11 @@ pub struct VirtualInteraction {
     model: ModelLoop,
     model_period: f64,
     servos: Vec<Option<ServoLoop>>,
-    watches: Vec<Option<Watch>>,
+    watches: Vec<Option<LoopReaders>>,
     rows: log::Reader<SessionRow>,
     commands: log::Writer<ModelCommand>,
     snapshots: latest::Receiver<Snapshot>,
-    replacing: Replacing,
+    replacing: ReplacementSender,
     supervisor: Supervisor,
     period: f64,
     tick: u64,
@@ -42,7 +42,7 @@ impl VirtualInteraction {
         let (rows, read_rows) = log::ring(settings.log.max(1) * parts.len());
         let (give, commands) = commands();
         let PreparedModel { model, viewer } = PreparedModel::new(simulation.clone());
-        let (replacing, taking_over) = take_over(&simulation, &supervisor);
+        let (replacing, taking_over) = replacement(&simulation, &supervisor);
         let channels = Channels {
             commands,
             rows,

@@ -19,7 +19,7 @@ impl<'a> Anchor<'a> {
     }
 
     /// Whether a point of the boundary of the mesh [m] is fixed.
-    pub(super) fn fixes(&self, place: &Vec3) -> bool {
+    pub(super) fn is_fixed(&self, place: &Vec3) -> bool {
         let mesh = self.surface.mesh();
         let nearest = self.tree.nearest(mesh, place);
         // An anchor that ends in the plane of a triangle contains it; rounding of a point on it would hide that.

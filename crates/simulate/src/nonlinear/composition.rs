@@ -143,9 +143,9 @@ impl Composition {
         let of_tissues = regions.nonlinear_warnings.clone();
         let mut walls = WallField::default();
         let anchor = fixed_region(&scene.organ.shape, scene.organ.anchor.as_ref());
-        walls.extend(surface, &regions, |place| anchor.holds((*place).into()));
+        walls.extend(surface, &regions, |place| anchor.contains((*place).into()));
         for body in soft {
-            walls.extend(&body.surface, &body.regions, |place| body.holds(place));
+            walls.extend(&body.surface, &body.regions, |place| body.is_fixed(place));
         }
         let composition = Self {
             pieces: Piece::all(surface, regions, soft, tools),
@@ -190,9 +190,9 @@ impl Composition {
 
     /// The fixed regions of the pieces.
     pub(super) fn anchors(&self) -> Vec<Anchor<'_>> {
-        let organ = Anchor::new(&self.surface, |place| self.anchor.holds((*place).into()));
+        let organ = Anchor::new(&self.surface, |place| self.anchor.contains((*place).into()));
         let soft = self.soft.iter();
-        let soft = soft.map(|body| Anchor::new(&body.surface, |place| body.holds(place)));
+        let soft = soft.map(|body| Anchor::new(&body.surface, |place| body.is_fixed(place)));
         std::iter::once(organ).chain(soft).collect()
     }
 
@@ -205,7 +205,7 @@ impl Composition {
     ) -> Result<NonlinearModel, Error> {
         let anchors = self.anchors();
         let is_fixed = |tetrahedron: usize, place: &Vec3| {
-            anchors[merged.pieces[tetrahedron] as usize].fixes(place)
+            anchors[merged.pieces[tetrahedron] as usize].is_fixed(place)
         };
         let Elements {
             moduli,
@@ -225,7 +225,7 @@ impl Composition {
         };
         let is_pressed = cavities.iter().any(|own| own.content.own_pressure() != 0.0);
         settled.map_err(|error| match error {
-            palpate_mechanics::Error::UnsoundResponse { .. } if is_pressed => Error::CavityPressure,
+            palpate_mechanics::Error::InvalidResponse { .. } if is_pressed => Error::CavityPressure,
             other => other.into(),
         })
     }

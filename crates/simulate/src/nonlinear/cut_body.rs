@@ -13,12 +13,12 @@ use std::time::Duration;
 
 use palpate_geometry::Vec3;
 
-use super::cut_thread::{Below, Job, Left, OfElements, Ready, Rims};
+use super::cut_thread::{Below, Discarded, ElementState, Job, Ready, Rims};
 use super::slits::key;
 use super::target::Now;
 use super::{Body, NonlinearOrgan, NonlinearWorkspace, REACH_IN_RADII, jaws_radius};
 use crate::cutting::Cuts;
-use crate::grip::Held;
+use crate::grip::Grasped;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, ToolState};
 
@@ -54,12 +54,12 @@ pub(super) struct FollowedCuts {
     below: Vec<Vec3>,
     /// The body without cuts, while it has some, and the body with the cuts before a reset: so neither allocates nor
     /// frees.
-    whole: Option<OfElements>,
-    left: Option<Left>,
+    whole: Option<ElementState>,
+    left: Option<Discarded>,
 }
 
 impl FollowedCuts {
-    fn is_whole(simulation: &Simulation, organ: &Arc<NonlinearOrgan>) -> bool {
+    fn is_uncut(simulation: &Simulation, organ: &Arc<NonlinearOrgan>) -> bool {
         let whole = simulation.nonlinear.as_ref();
         whole.is_some_and(|whole| Arc::ptr_eq(whole, organ))
     }
@@ -155,7 +155,7 @@ impl NonlinearWorkspace {
                     let numbers = rims.numbers.iter().copied();
                     numbers.zip(rims.detached.iter().copied())
                 });
-                cuts.detach(body.organ.detached.of_vertices(), rims);
+                cuts.set_detached(body.organ.detached.of_vertices(), rims);
                 state.energy.close();
             }
             _ => self.closed = cuts.length(),
@@ -177,12 +177,12 @@ impl NonlinearWorkspace {
             thread.job = Some(job);
         }
         let idle = &mut thread.job;
-        let Some(mut job) = idle.take_if(|job| !job.made(cut.key, &body.organ)) else {
+        let Some(mut job) = idle.take_if(|job| !job.has_prepared(cut.key, &body.organ)) else {
             return;
         };
         job.is_used = false;
         job.key = cut.key;
-        job.whole = Arc::clone(whole);
+        job.uncut = Arc::clone(whole);
         job.now = Arc::clone(&body.organ);
         job.paths.follow(model, cuts, cut.parts);
         job.cuts = cuts.count();
@@ -212,7 +212,7 @@ impl NonlinearWorkspace {
                 }
                 continue;
             };
-            if job.made(cut.key, &body.organ) {
+            if job.has_prepared(cut.key, &body.organ) {
                 return Some(job);
             }
             thread.job = Some(job);
@@ -226,9 +226,9 @@ impl NonlinearWorkspace {
             return;
         };
         let own = std::mem::replace(&mut self.own, workspace);
-        if FollowedCuts::is_whole(simulation, &before) {
+        if FollowedCuts::is_uncut(simulation, &before) {
             ready.workspace = self.whole.replace(own);
-            ready.left_workspace = self.left.take();
+            ready.discarded_workspace = self.left.take();
         } else {
             ready.workspace = Some(own);
         }
@@ -239,7 +239,7 @@ impl NonlinearWorkspace {
         if Arc::ptr_eq(&self.of, &body.organ) {
             return;
         }
-        let is_whole = FollowedCuts::is_whole(simulation, &body.organ);
+        let is_whole = FollowedCuts::is_uncut(simulation, &body.organ);
         let own = match self.whole.take_if(|_| is_whole) {
             Some(own) => own,
             None => body.organ.workspace_of(body.loads.len()),
@@ -261,7 +261,7 @@ impl Body {
             own.rims = None;
         }
         // A cut in progress counts once its blade has been lifted, and after those before it.
-        if own.version == cuts.version() || cuts.is_being_made() || own.pending.is_some() {
+        if own.version == cuts.version() || cuts.is_cutting() || own.pending.is_some() {
             return;
         }
         own.version = cuts.version();
@@ -288,9 +288,9 @@ impl Ready {
         std::mem::swap(&mut body.organ, &mut self.organ);
         std::mem::swap(&mut body.state, &mut state);
         std::mem::swap(&mut body.loads, &mut loads);
-        if FollowedCuts::is_whole(simulation, &self.organ) {
+        if FollowedCuts::is_uncut(simulation, &self.organ) {
             self.body = body.cuts.whole.replace((state, loads));
-            self.left = body.cuts.left.take();
+            self.discarded = body.cuts.left.take();
         } else {
             self.body = Some((state, loads));
         }
@@ -307,12 +307,12 @@ impl Body {
     /// Jaws keep holding the same tissue, in other elements.
     fn keep_holding(&mut self, simulation: &Simulation, number: usize, own: &mut ToolState) {
         let tool = &simulation.tools[number];
-        let (Some(hold), Some(radius)) = (&mut own.grip.hold, jaws_radius(tool)) else {
+        let (Some(hold), Some(radius)) = (&mut own.grip.grasp, jaws_radius(tool)) else {
             return;
         };
         let turned = *hold.turned();
         let place = hold.displayed.place;
-        let Held::Area(area) = &mut hold.held else {
+        let Grasped::Area(area) = &mut hold.grasped else {
             return;
         };
         let organ = Arc::clone(&self.organ);

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use palpate_geometry::{NodeId, Vec3};
 use palpate_mechanics::nonlinear::{EmbeddedPoints, NonlinearState, SpreadLoad, StateTransfer};
 
-use super::slits::{ASIDE, CutPaths};
+use super::slits::{CLEARANCE, CutPaths};
 use super::{NonlinearOrgan, OrganWorkspace};
 use crate::Error;
 use crate::simulation::Simulation;
@@ -20,10 +20,10 @@ const OF_DEPTH: f64 = 6.0;
 const CAPACITY: usize = 1024;
 
 /// The parts of a body that depend on its elements.
-pub(super) type OfElements = (NonlinearState, Vec<SpreadLoad>);
+pub(super) type ElementState = (NonlinearState, Vec<SpreadLoad>);
 
 /// The data that a reset discards, until the other thread frees them.
-pub(super) type Left = (OfElements, Arc<NonlinearOrgan>, Option<Arc<Rims>>);
+pub(super) type Discarded = (ElementState, Arc<NonlinearOrgan>, Option<Arc<Rims>>);
 
 /// The vertices that openings have added to the displayed surface, embedded in the elements.
 #[derive(Debug)]
@@ -50,7 +50,7 @@ pub(super) struct Below {
 /// A request for a cut organ, in the background of the steps.
 pub(super) struct Job {
     pub(super) key: u64,
-    pub(super) whole: Arc<NonlinearOrgan>,
+    pub(super) uncut: Arc<NonlinearOrgan>,
     pub(super) now: Arc<NonlinearOrgan>,
     pub(super) paths: CutPaths,
     /// The vertices of the openings: their numbers, their positions at rest [m], and the directions in which they open
@@ -70,14 +70,14 @@ pub(super) struct Ready {
     pub(super) organ: Arc<NonlinearOrgan>,
     pub(super) transfer: StateTransfer,
     /// None once they are in use.
-    pub(super) body: Option<OfElements>,
+    pub(super) body: Option<ElementState>,
     pub(super) workspace: Option<OrganWorkspace>,
     pub(super) rims: Option<Arc<Rims>>,
     pub(super) rims_moved: Vec<Vec3>,
     pub(super) below: Vec<Vec3>,
     /// Data of earlier resets, to be freed.
-    pub(super) left: Option<Left>,
-    pub(super) left_workspace: Option<OrganWorkspace>,
+    pub(super) discarded: Option<Discarded>,
+    pub(super) discarded_workspace: Option<OrganWorkspace>,
     /// Total length of the cuts that stay closed [m].
     pub(super) closed: f64,
 }
@@ -119,7 +119,7 @@ impl CutThread {
             done: Mutex::new(done),
             job: Some(Box::new(Job {
                 key: 0,
-                whole: Arc::clone(whole),
+                uncut: Arc::clone(whole),
                 now: Arc::clone(whole),
                 paths: CutPaths::with_capacity(CAPACITY),
                 rims: Vec::with_capacity(simulation.surface.mesh().vertices().len()),
@@ -148,22 +148,22 @@ impl CutThread {
 
 impl Job {
     /// Whether it made the organ with the cuts of this key for bodies of `now`, and no body uses it yet.
-    pub(super) fn made(&self, key: u64, now: &Arc<NonlinearOrgan>) -> bool {
+    pub(super) fn has_prepared(&self, key: u64, now: &Arc<NonlinearOrgan>) -> bool {
         let is_done = self.ready.is_some() && !self.is_used;
         is_done && self.key == key && Arc::ptr_eq(&self.now, now)
     }
 
     fn make(&self) -> Result<Ready, Error> {
         let (organ, closed) = match self.key {
-            0 => (Arc::clone(&self.whole), 0.0),
+            0 => (Arc::clone(&self.uncut), 0.0),
             _ => {
-                let (organ, closed) = self.whole.slit(&self.paths)?;
+                let (organ, closed) = self.uncut.slit(&self.paths)?;
                 (Arc::new(organ), closed)
             }
         };
         let places = self.rims.iter();
         let places: Vec<Vec3> = places
-            .map(|(_, place, opens)| place + ASIDE * opens)
+            .map(|(_, place, opens)| place + CLEARANCE * opens)
             .collect();
         let all = 0..organ.model.mesh().tetrahedra().len();
         let embedded = organ.model.embed(&places, all)?;
@@ -184,8 +184,8 @@ impl Job {
             workspace: Some(organ.workspace_of(self.tools)),
             rims_moved: vec![Vec3::zeros(); self.rims.len()],
             below: vec![Vec3::zeros(); rims.below.rest.len()],
-            left: None,
-            left_workspace: None,
+            discarded: None,
+            discarded_workspace: None,
             rims: Some(Arc::new(rims)),
             organ,
             closed,
@@ -218,7 +218,7 @@ impl Job {
             PointBelow {
                 number: *number,
                 place: *place,
-                aside: ASIDE * opens,
+                aside: CLEARANCE * opens,
                 normal: shown.mesh().area_vector(nearest.triangle).normalize(),
                 piece: *piece,
             }

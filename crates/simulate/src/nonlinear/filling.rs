@@ -19,11 +19,11 @@ const MORE: usize = 3;
 const OF_EDGE: f64 = 0.6;
 
 /// Where a body is thinner than this number of edges, they are shorter in proportion [-], by a factor of
-/// [`MOST_GRADED`] at most: rims and lobes bend within their thickness. With twice as much grading the bulk becomes too
+/// [`MAX_GRADED`] at most: rims and lobes bend within their thickness. With twice as much grading the bulk becomes too
 /// coarse for a tip. A body that is a wall of one element is not graded, nor are neighbours, whose short edges at a rim
 /// fold where a stiffer organ presses on them.
 const THIN: f64 = 3.0;
-const MOST_GRADED: f64 = 3.0;
+const MAX_GRADED: f64 = 3.0;
 
 /// Part of the work before edges collapse [-].
 const BEFORE_COLLAPSES: f64 = 0.3;
@@ -34,7 +34,12 @@ const FILLINGS: usize = 5;
 /// A mesh of about `wanted` tetrahedra, or of more if walls are lost. If it has other holes than `surface`, for example
 /// across a thin wall, one finer mesh is tried.
 fn filled(surface: &Surface, mut wanted: usize) -> Result<TetrahedronMesh, TetrahedronError> {
-    let of = |wanted| fill(surface, &FillSettings::with_about(surface, wanted));
+    let of = |wanted| {
+        fill(
+            surface,
+            &FillSettings::with_tetrahedron_count(surface, wanted),
+        )
+    };
     let mut filling = of(wanted);
     for _ in 1..FILLINGS {
         if filling.is_ok() {
@@ -66,12 +71,12 @@ fn has_topology_of(surface: &Surface, filling: &TetrahedronMesh) -> bool {
 
 /// The factor by which edges are shorter where the body within `surface` is thin, if it has so many nodes [-].
 pub(super) fn grading(surface: &Surface, nodes: usize) -> impl Fn(&Vec3) -> f64 {
-    let edge = FillSettings::with_about(surface, nodes).edge;
+    let edge = FillSettings::with_tetrahedron_count(surface, nodes).edge;
     let thickness = Thickness::new(surface);
     let is_wall = thickness.typical() < edge;
     move |place| match is_wall {
         true => 1.0,
-        false => (THIN * edge / thickness.at(place)).clamp(1.0, MOST_GRADED),
+        false => (THIN * edge / thickness.at(place)).clamp(1.0, MAX_GRADED),
     }
 }
 
@@ -85,7 +90,7 @@ pub(super) fn tetrahedra(
     finer: impl Fn(&Vec3) -> f64,
     on_progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<(TetrahedronMesh, Vec<String>), Error> {
-    let edge = FillSettings::with_about(surface, nodes).edge;
+    let edge = FillSettings::with_tetrahedron_count(surface, nodes).edge;
     let longest = |place: &Vec3| regions.longest_edge(place).min(edge);
     let mut filling = filled(surface, TETRAHEDRA_PER_NODE * nodes);
     if regions.has_inclusions() {
@@ -97,7 +102,7 @@ pub(super) fn tetrahedra(
     let mesh = filling
         .and_then(|fine| coarsen_with_progress(&fine, surface, nodes, detail, &mut on_progress));
     if let Err(TetrahedronError::Cancelled) = mesh {
-        return Err(palpate_mechanics::Error::BrokenOff.into());
+        return Err(palpate_mechanics::Error::Cancelled.into());
     }
     regions.with_cavities(mesh.map_err(palpate_mechanics::Error::from)?, surface)
 }

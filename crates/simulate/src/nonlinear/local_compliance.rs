@@ -19,7 +19,7 @@ use crate::tool::Tool;
 use crate::walls::through_walls;
 
 /// Largest ratio of half a wall's thickness to the radius of its convex side [-]: a lumen is no narrower than the rest.
-const MOST_CURVED: f64 = 0.8;
+const MAX_CURVED: f64 = 0.8;
 
 /// The walls under the vertices of the displayed surface.
 #[derive(Debug, Clone, Default)]
@@ -68,7 +68,7 @@ impl WallField {
                 continue;
             }
             let thickness = volume / of_walls;
-            let of_middle = |own: f64| own / (1.0 - (0.5 * thickness * own).min(MOST_CURVED));
+            let of_middle = |own: f64| own / (1.0 - (0.5 * thickness * own).min(MAX_CURVED));
             let curvatures = patches.principal_curvatures(node).map(of_middle);
             let inward = -patches.vertex_normals()[number];
             let stiffness = regions.stiffness_through(place, &(inward * thickness));

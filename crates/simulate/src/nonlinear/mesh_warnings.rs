@@ -14,7 +14,7 @@ pub(super) fn mesh_warnings(
     mesh: &TetrahedronMesh,
     anchor: &Anchor<'_>,
 ) -> Vec<String> {
-    let edge = FillSettings::with_about(surface, nodes).edge;
+    let edge = FillSettings::with_tetrahedron_count(surface, nodes).edge;
     let missing = Fidelity::of(mesh, surface).warning(edge);
     let missing = missing.map(|warning| format!("{warning}; more `nodes` follow it closer"));
     let missed = missed_anchor(surface, mesh, anchor).map(|part| {
@@ -30,7 +30,7 @@ pub(super) fn mesh_warnings(
 
 /// The fixed area of the boundary of `mesh` over that of `surface` [-]; none where both are much alike.
 fn missed_anchor(surface: &Surface, mesh: &TetrahedronMesh, anchor: &Anchor<'_>) -> Option<f64> {
-    let is_fixed = |place: &Vec3| anchor.fixes(place);
+    let is_fixed = |place: &Vec3| anchor.is_fixed(place);
     let wanted = surface.mesh();
     let wanted = fixed_area(
         wanted.vertices(),

@@ -35,7 +35,7 @@ impl Moved {
     }
 
     /// Begins a touch around `rest` [m], by a tip at `tip` [m] that is at `met` [m] when carried back to rest.
-    pub(super) fn meet(&mut self, rest: &Vec3, tip: &Vec3, met: &Vec3) {
+    pub(super) fn begin_contact(&mut self, rest: &Vec3, tip: &Vec3, met: &Vec3) {
         let further = tip - (rest + self.turn * (met - rest) + self.by);
         self.by += further;
         self.beyond += self.turn.inverse() * further;

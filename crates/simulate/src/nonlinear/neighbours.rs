@@ -8,7 +8,7 @@
 
 use palpate_geometry::{AabbTree, Surface, TriangleId, Vec3};
 use palpate_mechanics::nonlinear::{
-    Against, MOST_CONTACTS, NonlinearModel, NonlinearState, TouchingSearch, UnilateralContact,
+    Against, MAX_CONTACTS, NonlinearModel, NonlinearState, TouchingSearch, UnilateralContact,
 };
 use palpate_mechanics::{Limit, Reached};
 
@@ -22,7 +22,7 @@ use crate::state::ToolState;
 const NEAR: f64 = 0.3e-3;
 
 /// Upper bound of the motion of a step [m]: hardly any part of an organ moves farther.
-const MOST_MOTION: f64 = 2e-3;
+const MAX_MOTION: f64 = 2e-3;
 
 /// The sides of cuts lie on each other at rest: a point is a candidate from this depth in the other side on [m], and then as
 /// long as it bears.
@@ -127,7 +127,7 @@ impl Candidates {
         Self {
             last_distances: vec![initial; count],
             found: Vec::with_capacity(count + beside + on_shafts),
-            contacts: Vec::with_capacity(MOST_CONTACTS),
+            contacts: Vec::with_capacity(MAX_CONTACTS),
             left_out: 0,
             touching,
             lost: 0.0,
@@ -142,7 +142,7 @@ impl Candidates {
         motion: StepMotion<'_>,
         state: &NonlinearState,
     ) {
-        let near = NEAR + (motion.travel + state.last_way()).min(MOST_MOTION);
+        let near = NEAR + (motion.travel + state.last_motion()).min(MAX_MOTION);
         let (points, skin) = (organ.model.boundary_points(), &organ.skin);
         self.found.clear();
         if let (Some(search), Some(boundary)) = (&mut self.touching, &organ.touching) {
@@ -181,7 +181,7 @@ impl Candidates {
                         normal,
                         offset: gap - normal.dot(&moved),
                         friction: neighbour.friction,
-                        against: Against::Still,
+                        against: Against::Fixed,
                     };
                     self.found.push((gap, contact));
                 }
@@ -193,11 +193,11 @@ impl Candidates {
                 found.push((gap, contact));
             });
         }
-        self.left_out = self.found.len().saturating_sub(MOST_CONTACTS);
+        self.left_out = self.found.len().saturating_sub(MAX_CONTACTS);
         if self.left_out > 0 {
             self.found
-                .select_nth_unstable_by(MOST_CONTACTS, |a, b| a.0.total_cmp(&b.0));
-            self.found.truncate(MOST_CONTACTS);
+                .select_nth_unstable_by(MAX_CONTACTS, |a, b| a.0.total_cmp(&b.0));
+            self.found.truncate(MAX_CONTACTS);
         }
         self.contacts.clear();
         self.contacts
@@ -205,7 +205,7 @@ impl Candidates {
     }
 
     /// Whether parts of the body may touch one another in the step.
-    pub(super) fn touches_itself(&self) -> bool {
+    pub(super) fn has_self_contact(&self) -> bool {
         self.contacts
             .iter()
             .any(|own| matches!(own.against, Against::Boundary(_)))
@@ -221,14 +221,14 @@ impl Candidates {
     pub(super) fn report(&self, tool: &mut ToolState) {
         if self.left_out > 0 {
             let reached = Reached {
-                asked: (MOST_CONTACTS + self.left_out) as f64,
-                used: MOST_CONTACTS as f64,
+                unbounded: (MAX_CONTACTS + self.left_out) as f64,
+                used: MAX_CONTACTS as f64,
             };
             tool.limited.add(Limit::NeighbourContacts, reached);
         }
         if self.lost > 0.0 {
             let reached = Reached {
-                asked: self.lost,
+                unbounded: self.lost,
                 used: 0.0,
             };
             tool.limited.add(Limit::LostContact, reached);

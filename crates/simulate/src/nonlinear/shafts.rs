@@ -89,9 +89,9 @@ impl ShaftMotion {
             *before = None;
             return None;
         };
-        let turned = own.grip.hold.as_ref().map(|hold| hold.turned());
+        let turned = own.grip.grasp.as_ref().map(|hold| hold.turned());
         let now = Shaft::of(tool, pose).unwrap_or_else(|| Shaft::of_jaws(tool, pose, turned));
-        let held = own.grip.hold.as_ref().map(|hold| hold.displayed.place);
+        let held = own.grip.grasp.as_ref().map(|hold| hold.displayed.place);
         let place = held.or(own.contact.map(|contact| contact.point()));
         let load = &body.loads[number];
         Some(Self {
@@ -336,10 +336,10 @@ impl NonlinearOrgan {
             candidates.report(own);
             let lag = (motion.now.tip - shaft.tip).norm();
             if own.is_pushed() && lag > REPORTED_LAG {
-                let asked = (motion.now.tip - motion.before.tip).norm();
+                let unbounded = (motion.now.tip - motion.before.tip).norm();
                 let reached = Reached {
-                    asked,
-                    used: asked - lag,
+                    unbounded,
+                    used: unbounded - lag,
                 };
                 own.limited.add(Limit::Pace, reached);
             }

@@ -53,7 +53,7 @@ impl NonlinearOrgan {
         state.shown_deformed = largest >= AT_REST.powi(2);
         let rest = simulation.surface.mesh();
         for (number, (tool, own)) in simulation.tools.iter().zip(&state.tools).enumerate() {
-            let (triangle, place) = match (&own.grip.hold, &own.contact) {
+            let (triangle, place) = match (&own.grip.grasp, &own.contact) {
                 (Some(hold), _) => (hold.displayed.triangle, hold.place()),
                 (None, Some(_))
                     if self.composition.pieces[body.on[number]].bends_around[number] =>
@@ -63,7 +63,7 @@ impl NonlinearOrgan {
                 (None, Some(contact)) => (contact.place.triangle, contact.point()),
                 (None, None) => continue,
             };
-            let radius = match own.holds() {
+            let radius = match own.is_grasping() {
                 true => jaws_radius(tool).unwrap_or(tool.typical_radius),
                 false => tool.typical_radius,
             };
@@ -75,7 +75,7 @@ impl NonlinearOrgan {
                 .map(|(node, weight)| shown[node.index()] * weight)
                 .sum();
             let mut lacks = own.displaced - there;
-            if let (Some(contact), Friction::Frictionless) = (&own.contact, tool.bond) {
+            if let (Some(contact), Friction::Frictionless) = (&own.contact, tool.tip_friction) {
                 // A slipping surface does not follow the tip.
                 let normal = contact.normal();
                 lacks = normal * normal.dot(&lacks);

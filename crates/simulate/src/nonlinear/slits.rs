@@ -20,17 +20,17 @@ use crate::cutting::{CutPart, Cuts, CuttingModel};
 const SPACING: f64 = 2e-3;
 
 /// A path reaches another one, or itself, within this distance of its end, and goes so far beyond another [m].
-const REACHES: f64 = 1.5e-3;
-const BEYOND: f64 = 1e-3;
+const JOIN_DISTANCE: f64 = 1.5e-3;
+const OVERSHOOT: f64 = 1e-3;
 
 /// A path returns to itself after this length, or later [m].
-const LEAST_LOOP: f64 = 6e-3;
+const MIN_LOOP: f64 = 6e-3;
 
 /// A path that parts less than this part of its area changes no force [-].
 const PARTED: f64 = 0.4;
 
 /// Points closer to a cut than this count as this far from it [m]: the sides of a slit are not exactly below it.
-pub(super) const ASIDE: f64 = 1.5e-3;
+pub(super) const CLEARANCE: f64 = 1.5e-3;
 
 /// The cuts of an organ as paths of slits.
 #[derive(Debug, Clone, Default)]
@@ -121,9 +121,9 @@ impl CutPaths {
         });
         let nearest = nearest.min_by(|one, other| one.0.total_cmp(&other.0));
         match nearest {
-            Some((distance, off, across)) if distance < ASIDE => {
+            Some((distance, off, across)) if distance < CLEARANCE => {
                 let side = off.dot(&across);
-                place + across * (side.signum() * (ASIDE - side.abs()))
+                place + across * (side.signum() * (CLEARANCE - side.abs()))
             }
             _ => *place,
         }
@@ -173,9 +173,9 @@ fn joined(paths: &CutPaths) -> Vec<Vec<SlitPoint>> {
     let extended = |number: usize, end: &SlitPoint, before: &SlitPoint| {
         let outward = (end.place - before.place).try_normalize(0.0)?;
         let others = all.iter().enumerate().filter(|(other, _)| *other != number);
-        let reached = others.filter_map(|(_, path)| nearest_within(path, &end.place));
+        let reached = others.filter_map(|(_, path)| nearest_joined(path, &end.place));
         let near = reached.min_by(|one, other| one.apart.total_cmp(&other.apart))?;
-        let place = near.place + BEYOND * outward;
+        let place = near.place + OVERSHOOT * outward;
         Some(SlitPoint { place, ..*end })
     };
     let each = all.iter().enumerate().flat_map(|(number, path)| {
@@ -206,16 +206,16 @@ fn looped(path: &[SlitPoint]) -> Vec<Vec<SlitPoint>> {
         return vec![path.to_vec()];
     };
     let whole = length(path);
-    if whole < LEAST_LOOP {
+    if whole < MIN_LOOP {
         return vec![path.to_vec()];
     }
     // What of it is so near to an end along the path does not count.
-    let far = |from: usize, to: usize| length(&path[from..=to]) < whole - LEAST_LOOP;
+    let far = |from: usize, to: usize| length(&path[from..=to]) < whole - MIN_LOOP;
     let early = (2..=path.len()).take_while(|end| far(0, end - 1)).last();
     let late = (0..path.len() - 1).find(|begin| far(*begin, path.len() - 1));
-    let returns = early.and_then(|end| nearest_within(&path[..end], &last.place));
+    let returns = early.and_then(|end| nearest_joined(&path[..end], &last.place));
     let passed = late.and_then(|begin| {
-        let near = nearest_within(&path[begin..], &first.place)?;
+        let near = nearest_joined(&path[begin..], &first.place)?;
         Some((begin + near.number, near))
     });
     let at = |near: &Near, end: &SlitPoint| SlitPoint {
@@ -235,7 +235,7 @@ fn looped(path: &[SlitPoint]) -> Vec<Vec<SlitPoint>> {
         }
         (None, None) => return vec![path.to_vec()],
     };
-    match length(&rest) > REACHES {
+    match length(&rest) > JOIN_DISTANCE {
         true => vec![around, rest],
         false => vec![around],
     }
@@ -250,7 +250,7 @@ struct Near {
 }
 
 /// The point of `path` that is nearest to `place` [m], if a cut there reaches it.
-fn nearest_within(path: &[SlitPoint], place: &Vec3) -> Option<Near> {
+fn nearest_joined(path: &[SlitPoint], place: &Vec3) -> Option<Near> {
     let pairs = path.windows(2).enumerate();
     let each = pairs.map(|(number, pair)| {
         let on = nearest_on(&pair[0].place, &pair[1].place, place);
@@ -260,7 +260,7 @@ fn nearest_within(path: &[SlitPoint], place: &Vec3) -> Option<Near> {
             apart: (on - place).norm(),
         }
     });
-    let near = each.filter(|near| near.apart < REACHES);
+    let near = each.filter(|near| near.apart < JOIN_DISTANCE);
     near.min_by(|one, other| one.apart.total_cmp(&other.apart))
 }
 

@@ -70,7 +70,7 @@ impl SoftBody {
                 laws: Vec::new(),
             };
             let mut vertices = body.surface.mesh().vertices().iter();
-            if !vertices.any(|vertex| body.holds(vertex)) {
+            if !vertices.any(|vertex| body.is_fixed(vertex)) {
                 return Err(Error::LooseNeighbour { number: number + 1 });
             }
             all.push(body);
@@ -79,7 +79,7 @@ impl SoftBody {
     }
 
     /// Computes the force of its tissue on the tips of the `tools` of `scene`, and warnings.
-    pub(crate) fn meet(
+    pub(crate) fn compute_forces(
         &mut self,
         scene: &Scene,
         tools: &[Tool],
@@ -90,7 +90,7 @@ impl SoftBody {
         let touched = touched.collect::<Result<Vec<_>, _>>()?;
         let mut own = tools.to_vec();
         for (tool, (_, material)) in own.iter_mut().zip(&touched) {
-            tool.law = TipLaw::linear(tool.tip, tool.bond, material.at_rest);
+            tool.law = TipLaw::linear(tool.tip, tool.tip_friction, material.at_rest);
         }
         let warnings = stiffen(&mut own, &touched, on_progress)?;
         own.iter_mut()
@@ -100,12 +100,12 @@ impl SoftBody {
     }
 
     /// Whether a `place` of it [m] is fixed.
-    pub(super) fn holds(&self, place: &Vec3) -> bool {
+    pub(super) fn is_fixed(&self, place: &Vec3) -> bool {
         let place = match &self.location {
             Some(location) => back(location, place),
             None => *place,
         };
-        self.anchor.holds(place.into())
+        self.anchor.contains(place.into())
     }
 }
 

@@ -42,7 +42,7 @@ pub(super) struct Now {
     /// ū [m], Fₑ [N] and Z [m/N].
     pub(super) mean: Vec3,
     pub(super) force: Vec3,
-    pub(super) yields: Matrix3<f64>,
+    pub(super) compliance: Matrix3<f64>,
     /// The part of Z by which a detached piece goes on, and does not come back [m/N].
     pub(super) drag: Matrix3<f64>,
     pub(super) turn: Rotation3<f64>,
@@ -61,7 +61,7 @@ impl Now {
         Self {
             mean: state.mean_displacement(&load.nodes),
             force: body.histories[number].elastic(),
-            yields: organ.model.compliance(state, &load.nodes),
+            compliance: organ.model.compliance(state, &load.nodes),
             drag: organ.model.drag_compliance(state, &load.nodes),
             turn: state.mean_rotation(&load.nodes),
             own,
@@ -70,12 +70,12 @@ impl Now {
 
     /// Displacement of the load without its force [m].
     pub(super) fn free(&self) -> Vec3 {
-        self.mean - (self.yields - self.drag) * self.force
+        self.mean - (self.compliance - self.drag) * self.force
     }
 
     /// Expected displacement in a step to the force `goal` [m].
     pub(super) fn travel(&self, goal: &Vec3) -> Vec3 {
-        self.yields * goal - (self.yields - self.drag) * self.force
+        self.compliance * goal - (self.compliance - self.drag) * self.force
     }
 }
 
@@ -91,12 +91,12 @@ impl Target {
     ) -> Self {
         let compliance = match along {
             Some(normal) => {
-                let own = normal.dot(&((both - now.yields) * normal)).max(0.0);
+                let own = normal.dot(&((both - now.compliance) * normal)).max(0.0);
                 Matrix3::from_diagonal_element(own)
             }
-            None => positive(&(both - now.yields)),
+            None => positive(&(both - now.compliance)),
         };
-        let offset = displacement - now.free() - (now.yields + compliance) * goal;
+        let offset = displacement - now.free() - (now.compliance + compliance) * goal;
         let travel = now.travel(goal);
         Self {
             along,
@@ -121,7 +121,7 @@ impl Target {
         let travel = self.travel.norm();
         if lag > REPORTED_LAG.1.max(REPORTED_LAG.0 * travel) {
             let reached = Reached {
-                asked: travel.max(lag),
+                unbounded: travel.max(lag),
                 used: (travel.max(lag) - lag).max(0.0),
             };
             tool.limited.add(Limit::Pace, reached);

@@ -23,7 +23,7 @@ use nalgebra::Matrix3;
 use palpate_files::session::Event;
 use palpate_geometry::{TriangleId, Vec3};
 use palpate_mechanics::contact::{Friction, half_space_stiffness, half_space_tangential_stiffness};
-use palpate_mechanics::nonlinear::{Conditions, NonlinearModel, Pace, advance};
+use palpate_mechanics::nonlinear::{Conditions, NonlinearModel, StepSettings, advance};
 use palpate_mechanics::{ForceHistory, Limits, PronySeries};
 
 use super::moved::carry_back_anew;
@@ -33,13 +33,13 @@ use super::soft::Piece;
 use super::target::{Now, Target, farthest, positive, slippery};
 use super::{Body, ITERATIONS_TOUCHING, NonlinearOrgan, NonlinearWorkspace};
 use crate::contact::Contact;
-use crate::grip::Held;
+use crate::grip::Grasped;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, ToolState};
 use crate::tool::Tool;
 
 /// A motion longer than a step allows is divided into several steps, at most this many [-].
-const MOST_PARTS: usize = 8;
+const MAX_PARTS: usize = 8;
 
 /// Displacements below this [m] count as zero: they can be neither seen nor felt.
 const AT_REST: f64 = 1e-6;
@@ -48,17 +48,17 @@ const AT_REST: f64 = 1e-6;
 const SLOWEST_RETURN: f64 = 0.9;
 
 /// After this many such steps in succession it is set to rest: an inverted element may block it elsewhere.
-const MOST_STALLED: u32 = 100;
+const MAX_STALLED: u32 = 100;
 
 /// Largest number of steps for which a released tool is still followed: a fifth of a second, in which tissue recovers
 /// by 4 cm.
-const MOST_RELEASE_STEPS: u32 = 40;
+const MAX_RELEASE_STEPS: u32 = 40;
 
 /// Scenes have no more tools.
-const MOST_TOOLS: usize = 2;
+const MAX_TOOLS: usize = 2;
 
 /// A contact softer than this part of the organ around it does not count yet [-].
-const LEAST_STIFFNESS: f64 = 1e-6;
+const MIN_STIFFNESS: f64 = 1e-6;
 
 /// The result of the steps of a period.
 #[derive(Debug, Clone, Copy, Default)]
@@ -152,7 +152,7 @@ impl NonlinearOrgan {
         let ended = self.go(simulation, elapsed, body, workspace);
         if ended.has_no_answer
             || body.state.largest(&self.model) > self.composition.size
-            || self.is_unsound(&simulation.tools, body, workspace)
+            || self.is_invalid(&simulation.tools, body, workspace)
         {
             body.state.reset(&self.model);
             body.histories.fill(ForceHistory::default());
@@ -163,10 +163,10 @@ impl NonlinearOrgan {
         let left = body.state.largest(&self.model);
         let is_slow = left > SLOWEST_RETURN * before && left > AT_REST;
         let state = &body.state;
-        let is_held = state.has_friction() || state.touches_itself() || state.touches_tools();
+        let is_held = state.has_friction() || state.has_self_contact() || state.touches_tools();
         let lags = is_free && is_slow && !is_held && (ended.is_inverted || !self.model.relaxes());
         body.stalled = if lags { body.stalled + 1 } else { 0 };
-        if body.stalled > MOST_STALLED {
+        if body.stalled > MAX_STALLED {
             body.state.reset(&self.model);
         } else if lags {
             body.state.shrink(&self.model, SLOWEST_RETURN);
@@ -179,7 +179,7 @@ impl NonlinearOrgan {
                 workspace.own.candidates.report(own);
             }
             own.solved = own.elastic;
-            if let Some(hold) = &own.grip.hold {
+            if let Some(hold) = &own.grip.grasp {
                 own.displaced = hold.displaced();
             }
         }
@@ -196,7 +196,7 @@ impl NonlinearOrgan {
         body: &mut Body,
     ) -> Option<Target> {
         self.turn_history(tool, number, own, body);
-        let mut target = match own.holds() {
+        let mut target = match own.is_grasping() {
             true => self.hold(tool, number, own, body),
             // A tip that touches again during the recovery starts from the present state.
             false if body.release_steps[number] > 0 && own.contact.is_none() => None,
@@ -205,7 +205,7 @@ impl NonlinearOrgan {
         let steps = &mut body.release_steps[number];
         *steps = match (&target, *steps) {
             (Some(_), _) => 0,
-            (None, 0) if body.is_loaded[number] => MOST_RELEASE_STEPS,
+            (None, 0) if body.is_loaded[number] => MAX_RELEASE_STEPS,
             (None, steps) => steps.saturating_sub(1),
         };
         if *steps > 0 {
@@ -230,7 +230,7 @@ impl NonlinearOrgan {
         body.histories[number].turn(by.matrix());
         if own.history == ForceHistory::default() {
             body.histories[number] = ForceHistory::default();
-        } else if own.holds() || tool.friction.is_none() {
+        } else if own.is_grasping() || tool.friction.is_none() {
             // The history of a tip with friction turns with its contact.
             own.history.turn(by.matrix());
         }
@@ -253,14 +253,14 @@ impl NonlinearOrgan {
         let travels = travels.map(|(target, load)| own(target) / farthest(load));
         let asked = travels.chain(shafts().map(ShaftMotion::parts));
         let asked = asked.fold(0.0, f64::max);
-        let parts = (asked.ceil() as usize).clamp(1, MOST_PARTS);
-        let reach = (MOST_PARTS as f64 / asked).min(1.0) / parts as f64;
+        let parts = (asked.ceil() as usize).clamp(1, MAX_PARTS);
+        let reach = (MAX_PARTS as f64 / asked).min(1.0) / parts as f64;
         let travel = targets
             .iter()
             .map(own)
             .chain(shafts().map(ShaftMotion::travel));
         let travel = reach * travel.fold(0.0, f64::max);
-        let mut pace = Pace {
+        let mut pace = StepSettings {
             iterations: self.composition.iterations,
             elapsed: elapsed / parts as f64,
         };
@@ -276,31 +276,31 @@ impl NonlinearOrgan {
                     travel,
                 };
                 candidates.find(self, &simulation.neighbours, motion, &body.state);
-                let is_hard = candidates.touches_itself() || candidates.touches_shafts();
+                let is_hard = candidates.has_self_contact() || candidates.touches_shafts();
                 pace.iterations = match is_hard {
                     true => ITERATIONS_TOUCHING,
                     false => self.composition.iterations,
                 };
             }
             let left = 1.0 - reach * part as f64;
-            let relaxes: [_; MOST_TOOLS] = std::array::from_fn(|number| {
+            let relaxes: [_; MAX_TOOLS] = std::array::from_fn(|number| {
                 let history = body.histories.get(number);
                 history.map_or((1.0, Vec3::zeros()), |own| {
-                    own.foresee(series, pace.elapsed)
+                    own.predict(series, pace.elapsed)
                 })
             });
-            let couplings: [_; MOST_TOOLS] = std::array::from_fn(|number| {
+            let couplings: [_; MAX_TOOLS] = std::array::from_fn(|number| {
                 let target = targets.get(number)?.as_ref()?;
                 let nodes = &body.loads[number].nodes;
                 Some(target.coupling(nodes, left, reach, relaxes[number]))
             });
             let conditions = Conditions {
-                couplings: &couplings[..targets.len().min(MOST_TOOLS)],
+                couplings: &couplings[..targets.len().min(MAX_TOOLS)],
                 contacts: &workspace.own.candidates.contacts,
             };
             let (state, solver) = (&mut body.state, &mut workspace.own.solver);
             let advance = advance(&self.model, conditions, pace, state, solver);
-            ended.has_no_answer |= advance.has_no_answer();
+            ended.has_no_answer |= advance.has_no_equilibrium();
             ended.is_inverted = advance.is_inverted;
             for (number, own) in body.histories.iter_mut().enumerate() {
                 let (follows, history) = relaxes[number];
@@ -317,7 +317,7 @@ impl NonlinearOrgan {
     /// The forces after tissue has slid in the jaws, by linearization: the next step solves for them.
     pub(crate) fn press_again(&self, tools: &mut [ToolState]) {
         for own in tools {
-            own.elastic = match &own.grip.hold {
+            own.elastic = match &own.grip.grasp {
                 Some(hold) => own.solved - own.stiffness * (hold.displaced() - own.displaced),
                 None if own.contact.is_some() => own.solved,
                 None => Vec3::zeros(),
@@ -355,8 +355,8 @@ impl NonlinearOrgan {
         }
         let tip = Vec3::from(pose.position_m);
         own.moved.go(&now.free(), &now.turn);
-        if let Some(met) = own.met.take() {
-            own.moved.meet(&place.point, &tip, &met);
+        if let Some(met) = own.free_position.take() {
+            own.moved.begin_contact(&place.point, &tip, &met);
         }
         contact.turn = now.turn;
         let frame = contact.frame();
@@ -370,7 +370,7 @@ impl NonlinearOrgan {
         let (of_wall, exchange) = self.local_compliance(number, tool, body);
         let local = self.rim(body, number, radius) + of_wall;
         let local = place.frame.tr_mul(&local) * place.frame;
-        let further = frame.tr_mul(&now.yields) * frame - self.of_load(&now) + local;
+        let further = frame.tr_mul(&now.compliance) * frame - self.of_load(&now) + local;
         let law = piece
             .tip_law(number, tool)
             .on_curved_surface(place.mean_curvature());
@@ -379,19 +379,19 @@ impl NonlinearOrgan {
         own.stiffness = frame * answer.stiffness * frame.transpose();
         own.limited = answer.limits;
         let goal = -(frame * answer.force);
-        let (follows, history) = body.histories[number].foresee(series, elapsed);
+        let (follows, history) = body.histories[number].predict(series, elapsed);
         // Tissue that has not yet recovered does not hold the tip.
         if self.model.relaxes() && (follows * goal - history).dot(&contact.normal()) >= 0.0 {
             own.elastic = -goal;
             return None;
         }
-        let (along, stiffness) = match tool.bond {
+        let (along, stiffness) = match tool.tip_friction {
             Friction::Frictionless => (Some(contact.normal()), slippery(&answer.stiffness)),
             Friction::Bonded => (None, answer.stiffness),
         };
         let tip_and_organ = frame * stiffness.try_inverse()? * frame.transpose();
         // A tip with little contact.
-        if now.yields.trace() < LEAST_STIFFNESS * tip_and_organ.trace() {
+        if now.compliance.trace() < MIN_STIFFNESS * tip_and_organ.trace() {
             return None;
         }
         Some(Target::new(
@@ -405,13 +405,13 @@ impl NonlinearOrgan {
 
     /// The target of jaws that hold.
     fn hold(&self, tool: &Tool, number: usize, own: &mut ToolState, body: &Body) -> Option<Target> {
-        let hold = own.grip.hold.as_ref()?;
-        let Held::Area(area) = &hold.held else {
+        let hold = own.grip.grasp.as_ref()?;
+        let Grasped::Area(area) = &hold.grasped else {
             return None;
         };
         let now = Now::of(self, body, number);
         let compliance = self.of_jaws(tool, number, &area.frame, body, &now)?;
-        own.stiffness = (compliance + now.yields).try_inverse()?;
+        own.stiffness = (compliance + now.compliance).try_inverse()?;
         let displacement = hold.displaced();
         let offset = hold.in_scene(&area.offset);
         let jump = displacement - offset - compliance * now.force - now.mean;
@@ -431,7 +431,7 @@ impl NonlinearOrgan {
     /// None once the remaining displacement is small.
     fn release_target(&self, number: usize, body: &Body) -> Option<Target> {
         let now = Now::of(self, body, number);
-        let back = (now.drag - now.yields) * body.state.force(number);
+        let back = (now.drag - now.compliance) * body.state.force(number);
         let travel = back.norm();
         let farthest = farthest(&body.loads[number]);
         (travel > farthest).then(|| {
@@ -485,7 +485,7 @@ impl ToolState {
             self.row.events.insert(Event::NoEquilibrium);
             self.row.events.insert(Event::Release);
         }
-        if self.grip.hold.take().is_some() {
+        if self.grip.grasp.take().is_some() {
             self.row.events.insert(Event::GripRelease);
         }
         self.contact = None;

@@ -112,7 +112,7 @@ impl CutTracker {
 
     pub(super) fn add(&mut self, row: &SessionRow) {
         let happened = |event| row.events.contains(event);
-        if happened(Event::BeginAnew) {
+        if happened(Event::Restart) {
             self.cut_paths.clear();
             self.by = None;
         }
@@ -148,7 +148,7 @@ impl CutTracker {
                 tip,
                 along: near.map_or(0.0, |near| near.along),
                 deviation: Deviation {
-                    distance: near.map_or(0.0, |near| aside(&near.aside, row.depth_m)),
+                    distance: near.map_or(0.0, |near| surface_part(&near.offset, row.depth_m)),
                     is_inside: near.and_then(|near| near.is_inside),
                 },
                 layer: row.events.deepest_opened(),
@@ -178,7 +178,7 @@ impl CutTracker {
     }
 
     /// Whether the whole line is cut down to the required layer.
-    pub(super) fn is_whole(&self) -> bool {
+    pub(super) fn is_complete(&self) -> bool {
         self.covered()
             .is_some_and(|[wanted, covered]| wanted - covered <= JOINED.min(LEFT * wanted))
     }
@@ -283,6 +283,6 @@ impl CutTracker {
 }
 
 /// The part of a path [m] at the surface, when `depth` [m] of it is below.
-pub(super) fn aside(path: &Vec3, depth: f64) -> f64 {
+pub(super) fn surface_part(path: &Vec3, depth: f64) -> f64 {
     (path.norm_squared() - depth * depth).max(0.0).sqrt()
 }

@@ -81,7 +81,10 @@ pub fn feedback(task: &Task, score: &Score, late: bool) -> Feedback {
 fn why_not(task: &Task, score: &Score) -> Phrase {
     let perforated = score.errors.perforations > 0;
     match &score.outcome {
-        Outcome::Find { beside: None, .. } => Phrase::plain("why-unmarked"),
+        Outcome::Find {
+            target_distance: None,
+            ..
+        } => Phrase::plain("why-unmarked"),
         Outcome::Find {
             found: true,
             size: Some(size),
@@ -94,7 +97,8 @@ fn why_not(task: &Task, score: &Score) -> Phrase {
             }
         },
         Outcome::Find {
-            beside: Some(off), ..
+            target_distance: Some(off),
+            ..
         } => Phrase::filled("why-far", [("mm", 1e3 * off)]),
         Outcome::Traction {
             torn: Some(force), ..
@@ -107,12 +111,16 @@ fn why_not(task: &Task, score: &Score) -> Phrase {
             injured: Some(force),
             ..
         } => Phrase::filled("why-injured", [("mn", 1e3 * force)]),
-        Outcome::Touch { beside: None, .. } => Phrase::plain("why-covered"),
+        Outcome::Touch {
+            target_distance: None,
+            ..
+        } => Phrase::plain("why-covered"),
         Outcome::Touch { within, .. } if *within > 0.0 => {
             Phrase::filled("why-touched-short", [("s", *within)])
         }
         Outcome::Touch {
-            beside: Some(off), ..
+            target_distance: Some(off),
+            ..
         } => Phrase::filled("why-beside", [("mm", 1e3 * off)]),
         Outcome::Cut { .. } if perforated => Phrase::plain("why-perforated"),
         Outcome::Cut { part, .. } => match off_line(task, score) {
@@ -142,7 +150,7 @@ fn good(task: &Task, score: &Score) -> Phrase {
     let gentle = task.force_limit_n.filter(|limit| peak(score) <= *limit);
     match &score.outcome {
         Outcome::Find {
-            beside: Some(off),
+            target_distance: Some(off),
             found: true,
             size,
         } => match size.and_then(|size| Some((size, size.stated?))) {
@@ -168,7 +176,7 @@ fn good(task: &Task, score: &Score) -> Phrase {
             ..
         } => Phrase::filled("good-touched", [("s", *within)]),
         Outcome::Touch {
-            beside: Some(_),
+            target_distance: Some(_),
             torn: None,
             ..
         } if gentle.is_none() => Phrase::plain("good-clear"),
@@ -192,7 +200,10 @@ fn good(task: &Task, score: &Score) -> Phrase {
 fn change(task: &Task, score: &Score) -> Phrase {
     let perforated = score.errors.perforations > 0;
     Phrase::plain(match &score.outcome {
-        Outcome::Find { beside: None, .. } => "change-mark",
+        Outcome::Find {
+            target_distance: None,
+            ..
+        } => "change-mark",
         Outcome::Find { found: false, .. } => "change-rows",
         Outcome::Find {
             size: Some(size), ..
@@ -209,7 +220,10 @@ fn change(task: &Task, score: &Score) -> Phrase {
         Outcome::Touch {
             injured: Some(_), ..
         } => "change-come-slowly",
-        Outcome::Touch { beside: None, .. } => "change-lift",
+        Outcome::Touch {
+            target_distance: None,
+            ..
+        } => "change-lift",
         Outcome::Touch { reached: false, .. } => "change-stay",
         Outcome::Cut { .. } if perforated => "change-shallower",
         Outcome::Cut { clean: false, .. } => match off_line(task, score) {
@@ -317,8 +331,8 @@ mod tests {
         assert_eq!(held.verdict.key, "verdict-passed");
         let short = feedback_on(pull(), Events::NONE, 0.2, 2);
         assert_eq!(short.verdict, why("why-short", number("s", 2.0)));
-        let cut = |beside: f64| Goal::Cut {
-            line: CutLine::straight([beside, 0.0, 0.0], [beside, 0.03, 0.0]),
+        let cut = |x: f64| Goal::Cut {
+            line: CutLine::straight([x, 0.0, 0.0], [x, 0.03, 0.0]),
             tolerance_m: 0.002,
             layers: None,
         };

@@ -1,11 +1,11 @@
 //! Progress and outcome of a task.
 
-use palpate_files::scene::{Goal, SoughtSize};
+use palpate_files::scene::{Goal, SizeGoal};
 use palpate_files::{Event, SessionRow};
 use palpate_geometry::Vec3;
 
 use super::Errors;
-use super::cut::{CutTracker, aside};
+use super::cut::{CutTracker, surface_part};
 use super::touch::TouchTracker;
 
 /// A pull below this part of the required force does not count yet [-].
@@ -18,7 +18,7 @@ pub(super) struct GoalTracker {
     tool: Option<usize>,
     done: bool,
     /// Distance of the mark from the target [m].
-    beside: Option<f64>,
+    target_distance: Option<f64>,
     /// The stated diameter [m].
     stated: Option<f64>,
     /// Previous time [s] and force [N] of each tool.
@@ -66,14 +66,14 @@ pub enum Cue {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Status {
     /// It continues; the completed part [-], if defined.
-    GoesOn {
+    InProgress {
         /// From 0 to 1 [-].
         part: Option<f64>,
         /// What to change, if a force is required.
         advice: Option<Advice>,
     },
     /// It is over.
-    Over {
+    Ended {
         /// Because its time limit was reached.
         late: bool,
     },
@@ -85,7 +85,7 @@ pub struct SizeOutcome {
     /// The stated diameter [m]; none if none was stated.
     pub stated: Option<f64>,
     /// The true diameter.
-    pub truth: SoughtSize,
+    pub truth: SizeGoal,
 }
 
 impl SizeOutcome {
@@ -103,7 +103,7 @@ pub enum Outcome {
     /// Finding a target.
     Find {
         /// Distance of the mark from it [m]; none without a mark.
-        beside: Option<f64>,
+        target_distance: Option<f64>,
         /// Whether that is close enough.
         found: bool,
         /// Its size, if the task asked for it.
@@ -125,7 +125,7 @@ pub enum Outcome {
         /// Time of correct touch [s].
         within: f64,
         /// The least distance of the tool from it, with the organ out of its way [m]; none if it never was.
-        beside: Option<f64>,
+        target_distance: Option<f64>,
         /// Whether it was touched long enough.
         reached: bool,
         /// The force that injured it [N]; none if none did.
@@ -154,7 +154,7 @@ impl GoalTracker {
             goal: goal.clone(),
             tool,
             done: false,
-            beside: None,
+            target_distance: None,
             stated: None,
             last: vec![None; tools.len()],
             pull: None,
@@ -172,9 +172,11 @@ impl GoalTracker {
         if row.events.contains(Event::Mark) {
             match self.goal {
                 // The first mark counts; if a size is required, it is still missing.
-                Goal::Find { target_m, size, .. } if row.contact && self.beside.is_none() => {
+                Goal::Find { target_m, size, .. }
+                    if row.contact && self.target_distance.is_none() =>
+                {
                     let offset = Vec3::from(row.position_m) - Vec3::from(target_m);
-                    self.beside = Some(aside(&offset, row.depth_m));
+                    self.target_distance = Some(surface_part(&offset, row.depth_m));
                     self.done = size.is_none();
                 }
                 // A mark in the air does not count.
@@ -233,7 +235,7 @@ impl GoalTracker {
     /// Whether a place is marked and its size is still missing.
     pub(super) fn awaits_diameter(&self) -> bool {
         let is_asked = matches!(self.goal, Goal::Find { size: Some(_), .. });
-        is_asked && self.beside.is_some() && self.stated.is_none()
+        is_asked && self.target_distance.is_some() && self.stated.is_none()
     }
 
     pub(super) fn status(&self, cut: &CutTracker, late: bool) -> Status {
@@ -243,12 +245,12 @@ impl GoalTracker {
             Goal::Cut { .. } => cut.part(),
             Goal::Touch(_) => self.touch.as_ref().map(TouchTracker::part),
         };
-        let is_cut = cut.is_whole();
+        let is_cut = cut.is_complete();
         match self.done || is_cut || late {
-            true => Status::Over {
+            true => Status::Ended {
                 late: late && !self.done && !is_cut,
             },
-            false => Status::GoesOn {
+            false => Status::InProgress {
                 part,
                 advice: match &self.touch {
                     Some(touch) => Some(touch.advice()),
@@ -264,8 +266,10 @@ impl GoalTracker {
             Goal::Find {
                 tolerance_m, size, ..
             } => Outcome::Find {
-                beside: self.beside,
-                found: self.beside.is_some_and(|beside| beside <= *tolerance_m),
+                target_distance: self.target_distance,
+                found: self
+                    .target_distance
+                    .is_some_and(|distance| distance <= *tolerance_m),
                 size: size.map(|truth| SizeOutcome {
                     stated: self.stated,
                     truth,
@@ -286,7 +290,7 @@ impl GoalTracker {
                 let on_line = line.is_some_and(|line| line.largest_deviation <= *tolerance_m);
                 Outcome::Cut {
                     part: cut.part().unwrap_or(0.0),
-                    clean: cut.is_whole() && on_line && errors.perforations == 0,
+                    clean: cut.is_complete() && on_line && errors.perforations == 0,
                 }
             }
         }

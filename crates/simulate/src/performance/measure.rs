@@ -86,11 +86,11 @@ impl Score {
         match self.outcome {
             Outcome::Free | Outcome::Cut { .. } => {}
             Outcome::Find {
-                beside,
+                target_distance,
                 found,
                 size,
             } => {
-                add(own("beside_m"), beside, Less);
+                add(own("beside_m"), target_distance, Less);
                 // Without a found target there is no estimate of its size: a guess earns nothing.
                 let error = size.filter(|_| found).and_then(|own| {
                     let stated = own.stated?;
@@ -98,9 +98,13 @@ impl Score {
                 });
                 add(own("diameter_error_m"), error, Less);
             }
-            Outcome::Touch { within, beside, .. } => {
+            Outcome::Touch {
+                within,
+                target_distance,
+                ..
+            } => {
                 add(own("held_s"), Some(within), More);
-                add(own("beside_m"), beside, Less);
+                add(own("beside_m"), target_distance, Less);
             }
             Outcome::Traction { within, error, .. } => {
                 add(own("held_s"), Some(within), More);

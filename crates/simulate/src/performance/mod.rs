@@ -125,7 +125,7 @@ impl Performance {
         self.errors.drops += u64::from(lost && !lifted);
         self.cut.add(row);
         self.goal.add(row);
-        self.is_over = matches!(self.status(), Status::Over { .. });
+        self.is_over = matches!(self.status(), Status::Ended { .. });
     }
 
     /// The progress of the task.

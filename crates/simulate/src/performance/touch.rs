@@ -24,7 +24,7 @@ pub(super) struct TouchTracker {
     last: Option<(f64, Cue)>,
     within: f64,
     /// [m]
-    beside: Option<f64>,
+    target_distance: Option<f64>,
     /// [N]
     injured: Option<f64>,
     torn: Option<f64>,
@@ -53,7 +53,7 @@ impl TouchTracker {
             tip: None,
             last: None,
             within: 0.0,
-            beside: None,
+            target_distance: None,
             injured: None,
             torn: None,
         }
@@ -75,7 +75,7 @@ impl TouchTracker {
             Event::GripRelease,
             Event::Lifted,
             Event::Jump,
-            Event::BeginAnew,
+            Event::Restart,
         ];
         self.holds |= happened(Event::Grip);
         self.holds &= !releases.into_iter().any(happened);
@@ -88,7 +88,7 @@ impl TouchTracker {
     fn follow_tool(&mut self, row: &SessionRow, force: f64) {
         let happened = |event| row.events.contains(event);
         self.shaft_touches |= happened(Event::ShaftContact);
-        self.shaft_touches &= !happened(Event::ShaftRelease) && !happened(Event::BeginAnew);
+        self.shaft_touches &= !happened(Event::ShaftRelease) && !happened(Event::Restart);
         let offset = Vec3::from(row.position_m) - Vec3::from(self.goal.target_m);
         self.tip = (!happened(Event::Lifted)).then_some(Tip {
             distance: offset.norm(),
@@ -102,8 +102,8 @@ impl TouchTracker {
             self.within += row.time_s - time;
         }
         if !matches!(cue, Cue::Grasp | Cue::Lift) {
-            let nearer = |beside: f64| beside.min(offset.norm());
-            self.beside = Some(self.beside.map_or(offset.norm(), nearer));
+            let nearer = |distance: f64| distance.min(offset.norm());
+            self.target_distance = Some(self.target_distance.map_or(offset.norm(), nearer));
         }
         // A force of the organ is no force on the target.
         let injures = |most: f64| !row.contact && force > most;
@@ -155,7 +155,7 @@ impl TouchTracker {
         let harmed = self.injured.is_some() || self.torn.is_some();
         Outcome::Touch {
             within: self.within,
-            beside: self.beside,
+            target_distance: self.target_distance,
             reached: self.within >= self.goal.hold_s && !harmed,
             injured: self.injured,
             torn: self.torn,

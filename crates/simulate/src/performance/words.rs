@@ -4,15 +4,18 @@ use super::{Outcome, SizeOutcome};
 pub fn outcome_words(outcome: &Outcome) -> String {
     match *outcome {
         Outcome::Free => "Nothing had to be done.".to_owned(),
-        Outcome::Find { beside: None, .. } => "No place was marked.".to_owned(),
         Outcome::Find {
-            beside: Some(beside),
+            target_distance: None,
+            ..
+        } => "No place was marked.".to_owned(),
+        Outcome::Find {
+            target_distance: Some(target_distance),
             found,
             size,
         } => format!(
             "{}, {:.1} mm from its middle.{}",
             if found { "Found" } else { "Missed" },
-            1e3 * beside,
+            1e3 * target_distance,
             size.map_or(String::new(), |size| format!(" {}", size_words(&size)))
         ),
         Outcome::Traction {
@@ -47,18 +50,18 @@ pub fn outcome_words(outcome: &Outcome) -> String {
         ),
         Outcome::Touch {
             within,
-            beside,
+            target_distance,
             reached,
             injured: None,
             torn: None,
-        } => match (reached, beside) {
+        } => match (reached, target_distance) {
             (true, _) => format!("The target was touched for {within:.1} s."),
             (false, None) => {
                 "The target was not touched: the organ was not held out of the way.".to_owned()
             }
-            (false, Some(beside)) => format!(
+            (false, Some(target_distance)) => format!(
                 "The target was touched for only {within:.1} s; the tip came within {:.1} mm of it.",
-                1e3 * beside
+                1e3 * target_distance
             ),
         },
         Outcome::Cut { part, clean } => match clean {

@@ -12,7 +12,7 @@ const TIPS: usize = 9;
 const TIP_FACTOR: f64 = std::f64::consts::SQRT_2;
 const LOADS: usize = 8;
 const LOAD_FACTOR: f64 = 2.0;
-const LEAST_LOAD: f64 = 1.7;
+const MIN_LOAD: f64 = 1.7;
 
 /// Radius of the flat punch that spreads a force as far as Hertz's pressure does, relative to the radius of that: ⟨r²⟩
 /// is ⅔ a² of the one and ⅖ a² of the other [-].
@@ -56,7 +56,7 @@ impl InclusionTable {
         let radii = radii(tip);
         let least = radii[0];
         let loads: [Load; LOADS] =
-            std::array::from_fn(|n| Load::bump(LEAST_LOAD * least * LOAD_FACTOR.powi(n as i32)));
+            std::array::from_fn(|n| Load::bump(MIN_LOAD * least * LOAD_FACTOR.powi(n as i32)));
         let (mut reductions, mut at) = (Vec::new(), Vec::new());
         for (surface, field) in bodies {
             let first = reductions.len();
@@ -68,15 +68,17 @@ impl InclusionTable {
                     tips: match tip {
                         Tip::Flat { .. } => {
                             let load = Load::punch(radius);
-                            [field.less(&[load], radius, place, normal)[0]; TIPS]
+                            [field.compliance_decrease(&[load], radius, place, normal)[0]; TIPS]
                         }
                         Tip::Sphere { .. } => {
                             let loads = radii.map(Load::hertz);
-                            field
-                                .less_under_sphere(radii, field.less(&loads, radius, place, normal))
+                            field.sphere_displacement_decrease(
+                                radii,
+                                field.compliance_decrease(&loads, radius, place, normal),
+                            )
                         }
                     },
-                    loads: field.less(&loads, radius, place, normal),
+                    loads: field.compliance_decrease(&loads, radius, place, normal),
                 }
             }));
         }
@@ -108,7 +110,7 @@ impl InclusionTable {
             4.0 * b * c,
             4.0 * c * a,
         ];
-        let (below, within) = position::<LOADS>(load / (LEAST_LOAD * self.least), LOAD_FACTOR);
+        let (below, within) = position::<LOADS>(load / (MIN_LOAD * self.least), LOAD_FACTOR);
         let mut sums = [0.0; TIPS];
         for (own, shape) in at.iter().zip(shape) {
             let Reductions { tips, loads } = &self.reductions[*own as usize];
@@ -140,11 +142,14 @@ impl TipExchange {
         let radii = radii(tip);
         let less = match tip {
             Tip::Flat { radius } => {
-                [field.less(&[Load::punch(radius)], radius, place, normal)[0]; TIPS]
+                [field.compliance_decrease(&[Load::punch(radius)], radius, place, normal)[0]; TIPS]
             }
             Tip::Sphere { radius } => {
                 let loads = radii.map(|touching| Load::punch(PUNCH_OF_HERTZ * touching));
-                field.less_under_sphere(radii, field.less(&loads, radius, place, normal))
+                field.sphere_displacement_decrease(
+                    radii,
+                    field.compliance_decrease(&loads, radius, place, normal),
+                )
             }
         };
         Self {

@@ -30,13 +30,13 @@ use crate::tool::Tool;
 const LARGEST_RATIO: f64 = 0.49;
 
 /// Radii [m] for which the layers are solved: the first one, and the ratio of successive ones.
-const LEAST_RADIUS: f64 = 1e-4;
+const MIN_RADIUS: f64 = 1e-4;
 const FACTOR: f64 = 1.2;
 const RADII: usize = 45;
 
 /// Contact areas of a sphere for which the layers are solved: the least relative to its radius, and the ratio of
 /// successive ones [-].
-const LEAST_AREA: f64 = 3e-3;
+const MIN_AREA: f64 = 3e-3;
 const AREA_FACTOR: f64 = 1.12;
 const AREAS: i32 = 62;
 
@@ -140,7 +140,7 @@ impl Regions {
         let yields = |shape| -> Vec<[f64; 2]> {
             let radii = (0..RADII).filter(|_| !layers.is_empty());
             radii
-                .map(|n| layered.yields(shape, LEAST_RADIUS * FACTOR.powi(n as i32)))
+                .map(|n| layered.compliance_ratios(shape, MIN_RADIUS * FACTOR.powi(n as i32)))
                 .collect()
         };
         let names = layers.iter().map(|layer| &layer.name);
@@ -248,7 +248,7 @@ impl Regions {
         }
         let touched = self.yields_to_tip(tool.typical_radius)[1];
         tool.law = tool.law.on_layers((0..AREAS).map(|n| {
-            let area = radius * LEAST_AREA * AREA_FACTOR.powi(n);
+            let area = radius * MIN_AREA * AREA_FACTOR.powi(n);
             let [deeper, stronger] = self.layered.under_sphere(area);
             (area, [deeper, touched * stronger])
         }));
@@ -309,7 +309,7 @@ fn interpolate(table: &[[f64; 2]], radius: f64) -> [f64; 2] {
     let Some(last) = table.len().checked_sub(1) else {
         return [1.0; 2];
     };
-    let at = (radius / LEAST_RADIUS).ln() / FACTOR.ln();
+    let at = (radius / MIN_RADIUS).ln() / FACTOR.ln();
     let at = at.clamp(0.0, last as f64);
     let low = (at as usize).min(last.saturating_sub(1));
     let part = at - low as f64;

@@ -155,7 +155,7 @@ fn the_source_s_mode_keeps_triangles_area_and_force() {
     again.cut_along(way);
     assert!(hand.shape() == again.shape());
     let cuts = hand.state.cuts.as_ref().unwrap();
-    assert!(cuts.are_there() && cuts.largest_lag() >= 1 && cuts.largest_lag() <= 3);
+    assert!(cuts.has_openings() && cuts.largest_lag() >= 1 && cuts.largest_lag() <= 3);
     let (before, after) = (simulation.surface().mesh(), cuts.mesh());
     assert_eq!(before.triangles().len(), after.triangles().len());
     assert!((after.area() / before.area() - 1.0).abs() < 0.01);
@@ -206,7 +206,7 @@ fn what_is_undone_was_never_there() {
     assert!(hand.shape() == uncut);
     hand.cut_along([top(-0.02, 0.0), top(0.02, 0.0)]);
     hand.state.reset(&simulation);
-    assert!(hand.shape() == uncut && !hand.state.cuts.as_ref().unwrap().are_there());
+    assert!(hand.shape() == uncut && !hand.state.cuts.as_ref().unwrap().has_openings());
 }
 
 const LAYERS: &str = "[[organ.layer]]\nname = \"muscle\"\nthickness_m = 0.0015\n\
@@ -222,7 +222,7 @@ fn layers_give_way_one_by_one() {
     let tough = format!("{LAYERS}[cutting]\ntoughness_j_per_m2 = 20.0");
     let simulation = Simulation::new(&scene(&tool, &tough)).unwrap();
     let mut hand = Hand::new(&simulation);
-    let cuts = |hand: &Hand<'_>| hand.state.cuts.as_ref().unwrap().are_there();
+    let cuts = |hand: &Hand<'_>| hand.state.cuts.as_ref().unwrap().has_openings();
     // Down until just below the outer layer's force: nothing gives way.
     let mut depth = 0.0;
     while hand.at(Vec3::new(0.0, 0.0, 0.05 - depth), false).z < 0.055 {

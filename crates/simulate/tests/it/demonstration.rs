@@ -70,7 +70,7 @@ fn shown(scene: &Scene, simulation: &Simulation) -> (Status, Score, f64) {
             row.stated_diameter_m = script.states().filter(|_| number == 0);
             performance.add(&row);
         }
-        if matches!(performance.status(), Status::Over { .. }) {
+        if matches!(performance.status(), Status::Ended { .. }) {
             break;
         }
     }
@@ -89,7 +89,7 @@ fn passes_at_a_human_pace(text: &str, seeds: std::ops::Range<u64>) {
             score.errors,
             score.forces.iter().map(|f| f.peak).collect::<Vec<_>>()
         );
-        assert_eq!(status, Status::Over { late: false }, "{seed}");
+        assert_eq!(status, Status::Ended { late: false }, "{seed}");
         assert_eq!(score.outcome.passed(), Some(true), "{seed}");
         assert_eq!(
             score.errors.force_limit + score.errors.perforations + score.errors.drops,
@@ -127,7 +127,7 @@ fn is_shown_by_the_model_of_its_task(text: &str, seed: u64) {
         score.outcome,
         peaks.collect::<Vec<_>>()
     );
-    assert_eq!(status, Status::Over { late: false });
+    assert_eq!(status, Status::Ended { late: false });
     assert_eq!(score.outcome.passed(), Some(true));
     assert_eq!(
         score.errors.force_limit + score.errors.perforations + score.errors.drops,

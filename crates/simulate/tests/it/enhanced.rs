@@ -52,7 +52,7 @@ fn a_slide_is_seen_without_cracks() {
         let (mut patches, mut touching) = (0, 0);
         for tip in track(&simulation).iter().step_by(5) {
             hand.at(tip);
-            let anew = seen.follow(hand.state.whole.as_ref().unwrap());
+            let anew = seen.follow(hand.state.organ_field.as_ref().unwrap());
             let own = hand.state.deformed.vertices();
             assert_eq!(
                 simulation.surface().mesh().vertices(),
@@ -74,7 +74,7 @@ fn a_slide_is_seen_without_cracks() {
         assert!(patches > 5 && touching > 100);
         // And nothing is left of it.
         hand.at(&Vec3::new(0.0, 0.0, 1.0));
-        seen.follow(hand.state.whole.as_ref().unwrap());
+        seen.follow(hand.state.organ_field.as_ref().unwrap());
         assert_eq!(seen.places(), simulation.surface().mesh().vertices());
     }
 }
@@ -98,7 +98,7 @@ fn the_drawn_dimple_is_as_deep_as_the_tip() {
             };
             coarse = coarse.max(gap(&hand.state.deformed));
             let mut seen = enhanced(&simulation, 3);
-            seen.follow(hand.state.whole.as_ref().unwrap());
+            seen.follow(hand.state.organ_field.as_ref().unwrap());
             finer = finer.max(gap(drawn(&seen).mesh()));
         }
         println!("{coarse:.3} of the depth is not reached, {finer:.3} with finer triangles");

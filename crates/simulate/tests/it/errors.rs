@@ -106,7 +106,7 @@ fn refused_motion(rows: &[(f64, [f64; 3])], name: &str) -> String {
     let motion = palpate_files::Motion::parse(&text, "motion.csv").unwrap();
     let simulation = Setting::default().simulation();
     let result = play(&simulation, &motion, |_| -> Result<Flow, Error> {
-        Ok(Flow::GoOn)
+        Ok(Flow::Continue)
     });
     result.unwrap_err().to_string()
 }

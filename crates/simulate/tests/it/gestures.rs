@@ -17,7 +17,7 @@ const STEPS: usize = 24;
 const MANY: usize = 25;
 
 /// Triangles that splitting may come to, per triangle of the organ, and what one step may add to that.
-const MOST_GROWTH: usize = 8;
+const MAX_GROWTH: usize = 8;
 
 /// A grasper in the left hand, and in the right what `blade` says.
 fn scene(organ: &str, model: &str, blade: &str) -> Scene {
@@ -156,7 +156,7 @@ impl<'a> Hands<'a> {
             sound(cuts.mesh());
         }
         self.seen.triangles = self.seen.triangles.max(cuts.mesh().triangles().len());
-        let most = (MOST_GROWTH + 1) * self.simulation.surface().mesh().triangles().len();
+        let most = (MAX_GROWTH + 1) * self.simulation.surface().mesh().triangles().len();
         assert!(
             self.seen.triangles < most,
             "{} triangles",

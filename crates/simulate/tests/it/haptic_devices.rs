@@ -121,12 +121,12 @@ fn an_organ_feels_the_same_through_a_service() {
     let (service, places) = service(Box::new(palpating(&placement)));
     let (found, rows) = palpated(&simulation, open(&scene, &simulation, &places));
     assert_eq!(found.len(), expected.len());
-    let largest = expected.iter().map(|sample| sample.sent.norm());
+    let largest = expected.iter().map(|sample| sample.output.norm());
     let largest = largest.fold(0.0, f64::max);
     assert!(largest > 0.05, "{largest}");
     let mut apart: f64 = 0.0;
     for (found, expected) in found.iter().zip(&expected) {
-        apart = apart.max((found.sent - expected.sent).norm());
+        apart = apart.max((found.output - expected.output).norm());
     }
     println!("{apart} N apart of {largest} N");
     assert!(apart < 1e-6 * largest, "{apart}");
@@ -163,10 +163,10 @@ fn an_organ_feels_the_same_through_a_library() {
         placement,
     };
     let (expected, _) = palpated(&simulation, direct);
-    let largest = expected.iter().map(|sample| sample.sent.norm());
+    let largest = expected.iter().map(|sample| sample.output.norm());
     let largest = largest.fold(0.0, f64::max);
     let apart = found.iter().zip(&expected);
-    let apart = apart.map(|(found, expected)| (found.sent - expected.sent).norm());
+    let apart = apart.map(|(found, expected)| (found.output - expected.output).norm());
     let apart = apart.fold(0.0, f64::max);
     println!("{apart} N apart of {largest} N");
     assert!(
@@ -230,15 +230,15 @@ fn a_fault_of_the_device_ends_the_touch() {
     advance(&mut interaction, 1875);
     let last = interaction.samples(0).last().unwrap();
     assert!(
-        last.stage == Stage::Live && last.sent.norm() > 0.01,
+        last.stage == Stage::Live && last.output.norm() > 0.01,
         "{last:?}"
     );
     service.misbehave(Some(Misbehaviour::NoPower));
     advance(&mut interaction, 1);
     let last = interaction.samples(0).last().unwrap();
-    assert_eq!(last.sent, Vec3::zeros());
+    assert_eq!(last.output, Vec3::zeros());
     assert_eq!(last.stage, Stage::Faulted(Fault::Unpowered));
-    service.misbehave(Some(Misbehaviour::Drops));
+    service.misbehave(Some(Misbehaviour::Disconnects));
     assert_eq!(interaction.advance(), Err(Fault::Disconnected));
 }
 

@@ -108,7 +108,7 @@ fn stiffness_changes_nothing_that_was_prepared() {
     stiffer.organ.tissue = palpate_files::scene::TissueChoice::File(tissue);
     let (stiff, works) = prepare(&stiffer, &resources).unwrap();
     assert_eq!(works, [Work::Reading]);
-    assert!(stiff.response().unwrap().was_kept);
+    assert!(stiff.response().unwrap().was_cached);
     let tree = AabbTree::new(soft.surface().mesh());
     let (point, normal) = nearest(&soft, &tree, &Vec3::new(0.0, 0.0, 1.0));
     let tip = point - normal * 2e-3;

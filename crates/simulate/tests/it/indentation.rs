@@ -33,7 +33,7 @@ fn an_indentation_is_as_deep_as_was_asked() {
             let mut felt = Vec::new();
             play(&simulation, &motion, |frame| -> Result<Flow, Error> {
                 felt.extend(frame.rows().map(|row| (row.time_s, row.depth_m)));
-                Ok(Flow::GoOn)
+                Ok(Flow::Continue)
             })
             .unwrap();
             for (time, depth) in felt {

@@ -15,7 +15,7 @@ use palpate_geometry::Vec3;
 use palpate_servo::{Fault, Pointer, Sample, ServoSettings, Trajectory, VirtualDevice, Waypoint};
 use palpate_simulate::interactive::{
     CUTS, DevicePlacement, ExtrapolationError, Interaction, PlacedDevice, SceneDevices,
-    VirtualInteraction, judge_samples,
+    VirtualInteraction, measure_extrapolation_error,
 };
 use palpate_simulate::{
     EnhancedSurface, Error, Simulation, SimulationState, SimulationWorkspace, step,
@@ -46,7 +46,7 @@ pub(crate) fn playing(motion: &ToolMotion) -> PlacedDevice {
         buttons: if row.pose.cut { CUTS } else { 0 },
         ..Waypoint::new(row.time_s - first, Vec3::from(row.pose.position_m))
     });
-    let path = Trajectory::way(places.collect()).unwrap();
+    let path = Trajectory::waypoints(places.collect()).unwrap();
     PlacedDevice::new(VirtualDevice::new(path))
 }
 
@@ -135,7 +135,7 @@ fn felt_error(simulation: &Arc<Simulation>, frequency: f64) -> ExtrapolationErro
     let mut interaction = virtual_interaction(simulation, frequency);
     advance(&mut interaction, 3000);
     let samples: Vec<Sample> = interaction.samples(0).collect();
-    judge_samples(simulation, 0, &DevicePlacement::default(), &samples)
+    measure_extrapolation_error(simulation, 0, &DevicePlacement::default(), &samples)
 }
 
 /// Judge: the same model at every tick. The flat tip's organ is a spring while it touches, so that only
@@ -220,8 +220,8 @@ fn neither_tick_nor_step_allocates() {
         let snapshot = interaction.snapshot();
         let wanted = simulation.enhancement().copied().unwrap_or_default();
         let seen = EnhancedSurface::new(&simulation, wanted).unwrap();
-        assert_eq!(seen.is_some(), snapshot.whole.is_some());
-        if let (Some(mut seen), Some(whole)) = (seen, &snapshot.whole) {
+        assert_eq!(seen.is_some(), snapshot.organ_field.is_some());
+        if let (Some(mut seen), Some(whole)) = (seen, &snapshot.organ_field) {
             assert!(seen.follow(whole) && seen.new_vertices().count() > 100);
         }
     }
@@ -242,7 +242,7 @@ fn a_snapshot_shows_what_the_model_has_done() {
     assert!((contact.depth - 7e-3).abs() < 3e-5, "{contact:?}");
     assert!((contact.normal - Vec3::z()).norm() < 0.01);
     // At rest there, so the hand-over is exact to the travel of 5 ms: (ω t)²/2 of 4 mm.
-    let ratio = tool.felt.z / tool.force.z;
+    let ratio = tool.rendered_force.z / tool.force.z;
     assert!((ratio - 2.0).abs() < 1e-3, "{ratio}");
     let rest = simulation.surface().mesh().vertices();
     let moved = rest.iter().zip(&snapshot.vertices).filter(|(rest, seen)| {
@@ -273,7 +273,7 @@ fn a_snapshot_shows_what_the_model_has_done() {
 fn threads_give_the_same_forces_as_steps() {
     let simulation = simulation("", "stick", "[{ g = 0.3, tau_s = 1.5 }]");
     let device = palpating(4.0);
-    let stops = device.stops();
+    let stops = device.disable_count();
     let devices = vec![Some(PlacedDevice::new(device))];
     let mut interaction =
         Interaction::start(simulation.clone(), devices, ServoSettings::default()).unwrap();
@@ -304,15 +304,18 @@ fn a_hand_may_leave_in_contact() {
     assert_eq!(interaction.rows().count(), 0);
     hand.move_to(POLE - Vec3::z() * 2e-3);
     advance(&mut interaction, 1000);
-    assert!(interaction.snapshot().tools[0].felt.z > 0.01);
+    assert!(interaction.snapshot().tools[0].rendered_force.z > 0.01);
     hand.leave();
     advance(&mut interaction, 20);
     let tool = interaction.snapshot().tools[0];
     assert!(tool.pose.is_none() && tool.contact.is_none());
-    assert_eq!((tool.force, tool.felt), (Vec3::zeros(), Vec3::zeros()));
+    assert_eq!(
+        (tool.force, tool.rendered_force),
+        (Vec3::zeros(), Vec3::zeros())
+    );
     hand.move_to(POLE - Vec3::z() * 2e-3);
     advance(&mut interaction, 1000);
-    assert!(interaction.snapshot().tools[0].felt.z > 0.01);
+    assert!(interaction.snapshot().tools[0].rendered_force.z > 0.01);
     let (pointer, mut hand) = Pointer::new();
     hand.move_to(POLE - Vec3::z() * 2e-3);
     let devices = vec![Some(PlacedDevice::new(pointer))];
@@ -351,8 +354,8 @@ fn a_dragged_mouse_meets_only_numbers() {
                         sample.commanded.iter().all(|c| c.is_finite()),
                         "{organ} {drag}"
                     );
-                    assert!(sample.sent.norm() <= 3.0);
-                    felt += u32::from(sample.sent != Vec3::zeros());
+                    assert!(sample.output.norm() <= 3.0);
+                    felt += u32::from(sample.output != Vec3::zeros());
                 }
                 assert_eq!(
                     interaction

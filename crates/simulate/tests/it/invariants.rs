@@ -26,7 +26,7 @@ fn session(simulation: &Simulation) -> Vec<u8> {
         for row in frame.rows() {
             writer.write(row)?;
         }
-        Ok(Flow::GoOn)
+        Ok(Flow::Continue)
     })
     .unwrap();
     writer.finish().unwrap();

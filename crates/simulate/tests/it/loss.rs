@@ -42,7 +42,7 @@ impl Device for Unplugged {
 fn a_device_that_fails_ends_its_loop_and_says_why() {
     let simulation = simulation("", "slip", "[]");
     let device = palpating(2.0);
-    let stops = device.stops();
+    let stops = device.disable_count();
     let devices = vec![Some(PlacedDevice::new(Unplugged(device, 0.1)))];
     let mut interaction =
         Interaction::start(simulation, devices, ServoSettings::default()).unwrap();
@@ -59,7 +59,7 @@ fn a_device_that_fails_ends_its_loop_and_says_why() {
 fn a_device_lost_in_contact_leaves_no_force() {
     let simulation = simulation("", "slip", "[]");
     let device = palpating(2.0);
-    let stops = device.stops();
+    let stops = device.disable_count();
     // Deep: a quarter of half a second into the third cycle.
     let devices = vec![Some(PlacedDevice::new(Unplugged(device, 1.1255)))];
     let settings = ServoSettings::default();
@@ -71,8 +71,8 @@ fn a_device_lost_in_contact_leaves_no_force() {
     let [.., before, last] = samples[..] else {
         panic!("{samples:?}");
     };
-    assert!(before.sent.z > 0.01, "{before:?}");
-    assert_eq!((last.tick, last.sent), (1126, Vec3::zeros()));
+    assert!(before.output.z > 0.01, "{before:?}");
+    assert_eq!((last.tick, last.output), (1126, Vec3::zeros()));
     assert_eq!(last.stage, Stage::Faulted(Fault::Silent));
     assert!(!last.state.present);
     let report = interaction.quality().loops[0].unwrap();
@@ -104,11 +104,14 @@ fn a_model_lost_in_contact_is_a_fault_within_25_ms() {
         tick < 1500
     });
     let samples: Vec<Sample> = reader.log.drain().collect();
-    assert!((samples[lost as usize - 1].sent.z - 0.5).abs() < 1e-6);
+    assert!((samples[lost as usize - 1].output.z - 0.5).abs() < 1e-6);
     let faulted = |s: &&Sample| matches!(s.stage, Stage::Faulted(Fault::StaleModel { .. }));
     let first = samples.iter().find(faulted).unwrap().tick;
     println!("{} ms", first - lost);
     assert!(first - lost <= 25, "{first}");
     let tail = &samples[first as usize..];
-    assert!(tail.iter().all(|s| s.sent == Vec3::zeros() && faulted(&s)));
+    assert!(
+        tail.iter()
+            .all(|s| s.output == Vec3::zeros() && faulted(&s))
+    );
 }

@@ -165,7 +165,7 @@ fn a_step_with_two_grips_allocates_nothing() {
         let held = assert_no_alloc(|| {
             let steps = (1..400).map(|number| {
                 hands.go(&poses(number));
-                hands.state.tools.iter().all(|tool| tool.holds())
+                hands.state.tools.iter().all(|tool| tool.is_grasping())
             });
             steps.filter(|both| *both).count()
         });

@@ -120,7 +120,7 @@ pub(crate) fn all_holding<'a>(simulation: &'a Simulation, at: &[Vec3]) -> (Hands
     for step in 0..=10 {
         go(0.0, 0.1 * f64::from(step));
     }
-    assert!(hands.state.tools.iter().all(|tool| tool.holds()));
+    assert!(hands.state.tools.iter().all(|tool| tool.is_grasping()));
     let tips = places.into_iter().map(|(point, _, turned)| (point, turned));
     (hands, tips.collect())
 }

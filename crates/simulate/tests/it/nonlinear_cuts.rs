@@ -102,7 +102,7 @@ impl<'a> Hands<'a> {
         for k in 0..=60 {
             self.at(None, Some((place + by * (f64::from(k) / 60.0), true)));
         }
-        assert!(self.state.tools[1].holds());
+        assert!(self.state.tools[1].is_grasping());
         self.wait(60, Some((place + by, true)))
     }
 }

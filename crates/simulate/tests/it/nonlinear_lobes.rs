@@ -74,7 +74,7 @@ impl Lobe {
         let areas = surface.mesh().triangle_ids().map(|id| {
             let centroid = surface.mesh().positions(id).iter().sum::<Vec3>() / 3.0;
             let area = surface.mesh().area_vector(id).norm();
-            if ball.holds(centroid.into()) {
+            if ball.contains(centroid.into()) {
                 area
             } else {
                 0.0

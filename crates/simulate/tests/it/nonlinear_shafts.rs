@@ -364,7 +364,7 @@ fn jaws_that_hold_push_another_body_aside() {
         let grip = (0.1 * f64::from(step) - 1.0).max(0.0);
         hands.go(&[pose(&(point - Vec3::y() * beside), &upright, grip)]);
     }
-    assert!(tool(&hands).holds());
+    assert!(tool(&hands).is_grasping());
     let first = simulation.surface().mesh().vertices().len() - ball.mesh().vertices().len();
     let (mut deepest, mut moved) = (0.0_f64, 0.0_f64);
     for step in 0..=80 {

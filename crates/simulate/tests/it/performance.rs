@@ -299,15 +299,20 @@ fn goals_are_reached() {
     let mut performance = Performance::new(&find, &tools);
     performance.add(&marked);
     // In the air nothing is meant.
-    assert!(matches!(performance.status(), Status::GoesOn { .. }));
+    assert!(matches!(performance.status(), Status::InProgress { .. }));
     marked.contact = true;
     marked.depth_m = 0.005;
     performance.add(&marked);
-    assert_eq!(performance.status(), Status::Over { late: false });
-    let Outcome::Find { beside, found, .. } = performance.score().outcome else {
+    assert_eq!(performance.status(), Status::Ended { late: false });
+    let Outcome::Find {
+        target_distance,
+        found,
+        ..
+    } = performance.score().outcome
+    else {
         panic!("{:?}", performance.score().outcome)
     };
-    assert!(found && (beside.unwrap() - 0.003).abs() < 1e-12);
+    assert!(found && (target_distance.unwrap() - 0.003).abs() < 1e-12);
 
     let pull = Task {
         time_limit_s: Some(60.0),
@@ -332,12 +337,12 @@ fn goals_are_reached() {
         rows.iter().for_each(|row| performance.add(row));
         performance
     };
-    assert_eq!(pulled(0.45, 2.5).status(), Status::Over { late: false });
+    assert_eq!(pulled(0.45, 2.5).status(), Status::Ended { late: false });
     let Outcome::Traction { error, held, .. } = pulled(0.45, 2.5).score().outcome else {
         panic!("no traction")
     };
     assert!(held && (error.unwrap() - 0.05).abs() < 1e-9);
-    let Status::GoesOn { part, advice: now } = pulled(0.45, 1.0).status() else {
+    let Status::InProgress { part, advice: now } = pulled(0.45, 1.0).status() else {
         panic!("over")
     };
     let hold = Advice {
@@ -345,11 +350,11 @@ fn goals_are_reached() {
         cue: Cue::Hold,
     };
     assert!((part.unwrap() - 0.5).abs() < 1e-9 && now == Some(hold));
-    assert_eq!(pulled(0.7, 70.0).status(), Status::Over { late: true });
+    assert_eq!(pulled(0.7, 70.0).status(), Status::Ended { late: true });
     assert_eq!(pulled(0.7, 70.0).score().outcome.passed(), Some(false));
     assert!(matches!(
         pulled(0.7, 3.0).status(),
-        Status::GoesOn {
+        Status::InProgress {
             part: Some(0.0),
             ..
         }
@@ -395,7 +400,7 @@ fn a_pull_has_one_cue_and_direction_counts() {
         // Without a pull there is no direction to change.
         (0.01, 180.0, Cue::More),
     ] {
-        let Status::GoesOn { part, advice: pull } = pulled(force, turned).status() else {
+        let Status::InProgress { part, advice: pull } = pulled(force, turned).status() else {
             panic!("over at {force} N")
         };
         let cue = pull.unwrap().cue;
@@ -407,7 +412,7 @@ fn a_pull_has_one_cue_and_direction_counts() {
         );
     }
     let torn = pulled(0.95, 0.0);
-    assert_eq!(torn.status(), Status::Over { late: false });
+    assert_eq!(torn.status(), Status::Ended { late: false });
     assert_eq!(torn.score().outcome.passed(), Some(false));
 }
 

@@ -68,7 +68,7 @@ fn played(
             assert!(tool.force.norm() < 2.0, "{time} s: {} N", tool.force);
             performance.add(&tool.row);
         }
-        if matches!(performance.status(), Status::Over { .. }) {
+        if matches!(performance.status(), Status::Ended { .. }) {
             break;
         }
     }
@@ -109,7 +109,7 @@ fn demonstrated(scene: &Scene, simulation: &Simulation) -> Result<(), String> {
     let errors = score.errors;
     let is_clean =
         errors.force_limit + errors.perforations + errors.drops + errors.shaft_contacts == 0;
-    let passes = score.outcome.passed() == Some(true) && status == Status::Over { late: false };
+    let passes = score.outcome.passed() == Some(true) && status == Status::Ended { late: false };
     // A blade that opens the whole circle opens neither much less nor more than its length.
     match passes && is_clean && score.duration > 10.0 && (0.95..1.05).contains(&opened) {
         true => Ok(()),
@@ -264,7 +264,7 @@ fn a_circle_is_measured_around() {
     let tools = ["right".to_owned()];
     let new = || Performance::new(&task, &tools);
     let part = |performance: &Performance| match performance.status() {
-        Status::GoesOn { part, .. } => part.unwrap(),
+        Status::InProgress { part, .. } => part.unwrap(),
         other => panic!("{other:?}"),
     };
     let mut across = new();
@@ -284,7 +284,7 @@ fn a_circle_is_measured_around() {
     let area = 0.5 * TAU * (radius - 0.001) * 0.001;
     assert!((ring.deviation_area / area - 1.0).abs() < 0.01, "{ring:?}");
     cut(&mut across, [0.3, 0.799], 0.0015);
-    assert_eq!(across.status(), Status::Over { late: false });
+    assert_eq!(across.status(), Status::Ended { late: false });
     assert_eq!(across.score().outcome.passed(), Some(true));
     let mut wide = new();
     let said = cut(&mut wide, [0.0, 1.0], 0.0025).unwrap();

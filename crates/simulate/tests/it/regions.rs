@@ -125,7 +125,7 @@ impl Press {
 }
 
 /// Longest of graded edges, in the first [-]: a ball is of whole elements.
-const MOST_GRADED: f64 = 4.0;
+const MAX_GRADED: f64 = 4.0;
 
 /// Distances from a fine edge at `from`, ever wider away from it, up to `to` [m].
 fn graded(from: f64, to: f64, first: f64) -> Vec<f64> {
@@ -133,7 +133,7 @@ fn graded(from: f64, to: f64, first: f64) -> Vec<f64> {
     while places[places.len() - 1] + 1.5 * step < to {
         let last = places[places.len() - 1];
         places.push(last + step);
-        step = (1.15 * step).min(MOST_GRADED * first);
+        step = (1.15 * step).min(MAX_GRADED * first);
     }
     places.push(to);
     places
@@ -175,11 +175,11 @@ fn finite_elements(
     let model =
         FiniteElementModel::with_regions(mesh, &laws, &regions, Formulation::Displacement).unwrap();
     let mut supports = Supports::none(&model)
-        .hold(&model, axis, 0, 0.0)
-        .hold(&model, base.iter().copied(), 0, 0.0)
-        .hold(&model, base, 1, 0.0);
+        .fix(&model, axis, 0, 0.0)
+        .fix(&model, base.iter().copied(), 0, 0.0)
+        .fix(&model, base, 1, 0.0);
     for (&node, down) in tip.iter().zip(down) {
-        supports = supports.hold(&model, [node], 1, down);
+        supports = supports.fix(&model, [node], 1, down);
     }
     let mut state = FiniteElementState::at_rest(&model);
     let mut workspace = FiniteElementWorkspace::new(&model).unwrap();

@@ -107,7 +107,7 @@ impl Played {
 
 /// Events that a step finds, not a hand or an order.
 fn found(events: Events) -> Events {
-    let told = [Event::Mark, Event::Lifted, Event::UndoCut, Event::BeginAnew];
+    let told = [Event::Mark, Event::Lifted, Event::UndoCut, Event::Restart];
     // A free tool's shaft was not known.
     let shafts = [Event::ShaftContact, Event::ShaftRelease];
     let all = events
@@ -175,7 +175,7 @@ fn what_was_felt_is_felt_again() {
             Event::Grip,
             Event::Lifted,
             Event::UndoCut,
-            Event::BeginAnew,
+            Event::Restart,
             Event::Mark,
         ] {
             assert!(happened(event) > 0, "{event} {model}");

@@ -96,7 +96,7 @@ fn played(
         );
         let present = state.tools.iter().filter(|tool| tool.pose.is_some());
         present.for_each(|tool| performance.add(&tool.row));
-        if matches!(performance.status(), Status::Over { .. }) {
+        if matches!(performance.status(), Status::Ended { .. }) {
             break;
         }
     }
@@ -125,7 +125,7 @@ fn demonstrated(seed: u64, nodes: usize) -> Result<(), String> {
         score.duration, score.outcome
     );
     let is_clean = errors.force_limit + errors.drops == 0;
-    let passes = score.outcome.passed() == Some(true) && status == Status::Over { late: false };
+    let passes = score.outcome.passed() == Some(true) && status == Status::Ended { late: false };
     match passes && is_clean && score.duration > 10.0 {
         true => Ok(()),
         false => Err(format!("{seed}: {status:?} {:?} {errors:?}", score.outcome)),
@@ -197,7 +197,7 @@ fn without_lifting_nothing_is_touched() {
             vec![left, Some(right)]
         });
         println!("{seed}: {status:?} {:?} {:?}", score.outcome, score.errors);
-        assert_eq!(status, Status::Over { late: true }, "{seed}");
+        assert_eq!(status, Status::Ended { late: true }, "{seed}");
         assert_eq!(score.outcome.passed(), Some(false), "{seed}");
         let measures = score.measures();
         let held = measures.iter().find(|own| own.key == "held_s").unwrap();
@@ -289,7 +289,7 @@ fn a_touch_counts_while_the_organ_is_out_of_the_way() {
         ..row(0.0, Vec3::x() * x)
     };
     let part = |status: Status| match status {
-        Status::GoesOn {
+        Status::InProgress {
             part: Some(part),
             advice: Some(advice),
         } => (part, advice.cue),
@@ -301,12 +301,18 @@ fn a_touch_counts_while_the_organ_is_out_of_the_way() {
     let grasps = [Some(Event::Grip), Some(Event::ShaftContact)];
     let (status, outcome) = second(grasps, touches, 0.3);
     assert_eq!(part(status), (0.0, Cue::Lift));
-    assert!(matches!(outcome, Outcome::Touch { beside: None, .. }));
+    assert!(matches!(
+        outcome,
+        Outcome::Touch {
+            target_distance: None,
+            ..
+        }
+    ));
     let lifted = [None, Some(Event::ShaftRelease)];
     let far = second(lifted, right(0.006, 0.15, false), 0.3);
     assert_eq!(part(far.0), (0.0, Cue::Reach));
     assert!(
-        matches!(far.1, Outcome::Touch { beside: Some(beside), .. } if (beside - 0.006).abs() < 1e-12)
+        matches!(far.1, Outcome::Touch { target_distance: Some(beside), .. } if (beside - 0.006).abs() < 1e-12)
     );
     assert_eq!(
         part(second(none, right(0.004, 0.04, false), 0.3).0).1,
@@ -329,7 +335,7 @@ fn a_touch_counts_while_the_organ_is_out_of_the_way() {
     let slips = [Some(Event::GripRelease), None];
     assert_eq!(part(second(slips, touches, 0.3).0).1, Cue::Grasp);
     let (status, outcome) = second([Some(Event::Grip), None], touches, 0.3);
-    assert_eq!(status, Status::Over { late: false });
+    assert_eq!(status, Status::Ended { late: false });
     assert_eq!(outcome.passed(), Some(true));
     for (right, pull) in [(right(0.004, 0.6, false), 0.3), (touches, 1.1)] {
         let mut harmed = Performance::new(&task, &tools);
@@ -339,7 +345,7 @@ fn a_touch_counts_while_the_organ_is_out_of_the_way() {
             ..row(0.0, Vec3::zeros())
         });
         harmed.add(&SessionRow { tool: 1, ..right });
-        assert_eq!(harmed.status(), Status::Over { late: false });
+        assert_eq!(harmed.status(), Status::Ended { late: false });
         assert_eq!(harmed.score().outcome.passed(), Some(false));
     }
 }

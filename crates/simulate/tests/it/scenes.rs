@@ -121,7 +121,7 @@ pub(crate) fn played(simulation: &Simulation, motion: &Motion) -> (Vec<SessionRo
     let mut rows = Vec::new();
     let summary = play(simulation, motion, |frame| -> Result<Flow, Error> {
         rows.extend(frame.rows().copied());
-        Ok(Flow::GoOn)
+        Ok(Flow::Continue)
     });
     (rows, summary.unwrap())
 }

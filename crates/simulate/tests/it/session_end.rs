@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use palpate_files::{Claim, Overwrite, Scene, Session};
-use palpate_servo::supervisor::SILENCE;
+use palpate_servo::supervisor::REPORT_TIMEOUT;
 use palpate_servo::{
     Capabilities, Command, Device, DeviceState, Disabled, Fault, Sample, ServoSettings, Stage,
     StopReason, Supervisor, Trajectory, Vec3, VirtualDevice, Waypoint,
@@ -35,7 +35,7 @@ fn pressing(pressed: f64, released: f64) -> VirtualDevice {
         at(pressed, -2e-3, STOPS),
         at(released, -2e-3, 0),
     ];
-    VirtualDevice::new(Trajectory::way(way).unwrap())
+    VirtualDevice::new(Trajectory::waypoints(way).unwrap())
 }
 
 fn pressed_touch() -> VirtualInteraction {
@@ -58,13 +58,13 @@ fn pressed_until(button: f64) -> VirtualInteraction {
     let mut hands = VirtualInteraction::new(simulation, vec![Some(device)], settings).unwrap();
     advance(&mut hands, 1400);
     let last = hands.samples(0).last().unwrap();
-    assert!(last.sent.norm() > 0.01, "{last:?}");
+    assert!(last.output.norm() > 0.01, "{last:?}");
     hands
 }
 
 /// Ticks after which nothing is held or sent any more; later there must be nothing either.
 fn ticks_to_zero(samples: &[Sample]) -> usize {
-    let is_zero = |sample: &Sample| sample.held.norm() == 0.0 && sample.sent.norm() == 0.0;
+    let is_zero = |sample: &Sample| sample.applied.norm() == 0.0 && sample.output.norm() == 0.0;
     let last = samples.iter().rposition(|sample| !is_zero(sample));
     last.map_or(0, |last| last + 1)
 }
@@ -80,17 +80,17 @@ fn every_order_to_stop_is_zero_force_within_5_ms_until_somebody_arms() {
         ),
         (
             "Ctrl-C or SIGTERM",
-            |hands| hands.supervisor().trip_because(StopReason::Signal),
+            |hands| hands.supervisor().trip_with_reason(StopReason::Signal),
             Some(Fault::Interrupted),
         ),
         (
             "device that hangs",
-            |hands| hands.supervisor().trip_because(StopReason::HungDevice),
+            |hands| hands.supervisor().trip_with_reason(StopReason::HungDevice),
             Some(Fault::Hung { limit: 0.1 }),
         ),
         (
             "disk that is full",
-            |hands| hands.supervisor().trip_because(StopReason::Unrecorded),
+            |hands| hands.supervisor().trip_with_reason(StopReason::Unrecorded),
             Some(Fault::Unrecorded),
         ),
         ("pause", |hands| hands.send(ModelCommand::Pause), None),
@@ -137,11 +137,13 @@ fn a_lost_window_is_zero_force_within_its_silence() {
     let mut hands = pressed_until(9.0);
     let time = hands.time();
     hands.supervisor().report(time);
-    let ticks = (SILENCE * 1e3) as usize;
+    let ticks = (REPORT_TIMEOUT * 1e3) as usize;
     advance(&mut hands, ticks + 10);
     let samples: Vec<Sample> = hands.samples(0).collect();
     assert!(ticks_to_zero(&samples) <= ticks + 5);
-    let silent = Fault::ProgramSilent { limit: SILENCE };
+    let silent = Fault::ProgramSilent {
+        limit: REPORT_TIMEOUT,
+    };
     assert_eq!(samples.last().unwrap().stage, Stage::Faulted(silent));
 }
 
@@ -294,15 +296,15 @@ fn a_full_disk_is_zero_force_and_the_recording_is_whole() {
     is_full.store(true, Ordering::Relaxed);
     reader.join().unwrap();
     let begun = Instant::now();
-    while touch.unwritten().is_none() || seen.force() > 0.0 {
+    while touch.recording_failure().is_none() || seen.force() > 0.0 {
         assert!(
             begun.elapsed() < Duration::from_secs(5),
             "{:?}",
-            touch.unwritten()
+            touch.recording_failure()
         );
         std::thread::sleep(Duration::from_millis(1));
     }
-    assert!(touch.unwritten().unwrap().is_whole);
+    assert!(touch.recording_failure().unwrap().is_complete);
     touch.record_elsewhere(writer(&at("other"))).unwrap();
     touch.end_recording().unwrap();
     let session = Session::read(at("other/session.csv")).unwrap();

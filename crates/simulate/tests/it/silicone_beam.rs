@@ -94,7 +94,7 @@ fn loaded(simulation: &Simulation, tree: &AabbTree) -> [f64; 3] {
     for step in 0..=10 {
         hands.go(&[pose(&tip, &turned, 0.1 * f64::from(step))]);
     }
-    assert!(hands.state.tools[0].holds());
+    assert!(hands.state.tools[0].is_grasping());
     for _ in 0..300 {
         let force = -hands.state.tools[0].force;
         let lacks = Vec3::new(-LOAD - force.x, 0.0, -force.z);

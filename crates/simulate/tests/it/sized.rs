@@ -1,6 +1,6 @@
 //! A lump that is found and sized.
 
-use palpate_files::scene::{Goal, SoughtSize, Task};
+use palpate_files::scene::{Goal, SizeGoal, Task};
 use palpate_files::{Event, SessionRow};
 use palpate_geometry::Vec3;
 use palpate_simulate::performance::{Performance, Status};
@@ -11,7 +11,7 @@ use crate::performance::row;
 #[test]
 fn a_lump_is_found_and_then_sized() {
     let tools = ["right".to_owned()];
-    let size = SoughtSize {
+    let size = SizeGoal {
         radius_m: 0.008,
         diameter_tolerance_m: 0.002,
     };
@@ -39,7 +39,7 @@ fn a_lump_is_found_and_then_sized() {
         let measures = score.measures().into_iter();
         let error = measures.filter(|own| own.key == "diameter_error_m");
         let error = error.map(|own| own.value).next();
-        let is_over = matches!(performance.status(), Status::Over { .. });
+        let is_over = matches!(performance.status(), Status::Ended { .. });
         (is_over, score.outcome.passed(), error)
     };
     assert_eq!(after(&[states(0.016)]), (false, Some(false), None));

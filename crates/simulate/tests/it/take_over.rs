@@ -46,7 +46,7 @@ fn touch(
     simulation: &Arc<Simulation>,
     device: VirtualDevice,
 ) -> (VirtualInteraction, Arc<AtomicU32>) {
-    let stops = device.stops();
+    let stops = device.disable_count();
     let settings = ServoSettings {
         log: 10_000,
         ..ServoSettings::default()
@@ -75,7 +75,7 @@ fn a_new_beginning_allocates_nothing() {
         assert_eq!(violation_count(), 0, "{kind}");
         let began = hands
             .rows()
-            .filter(|row| row.events.contains(Event::BeginAnew));
+            .filter(|row| row.events.contains(Event::Restart));
         assert_eq!(began.count(), 10, "{kind}");
     }
 }
@@ -104,12 +104,12 @@ fn another_model_takes_over_while_the_device_stays_open() {
     assert!(
         samples[2000..]
             .iter()
-            .any(|sample| sample.sent.norm() > 0.0)
+            .any(|sample| sample.output.norm() > 0.0)
     );
     let rows: Vec<SessionRow> = hands.rows().collect();
     let began = rows
         .iter()
-        .position(|row| row.events.contains(Event::BeginAnew))
+        .position(|row| row.events.contains(Event::Restart))
         .unwrap();
     // Two steps until the loop has seen it.
     assert!(began <= 3, "{began}");
@@ -162,6 +162,6 @@ fn a_hand_deep_in_another_model_has_no_force_until_it_comes_out() {
         .map(|sample| sample.commanded.norm())
         .fold(f64::INFINITY, f64::min);
     assert!(smallest > 0.3, "{smallest}");
-    assert!(samples.iter().all(|sample| sample.sent.norm() == 0.0));
+    assert!(samples.iter().all(|sample| sample.output.norm() == 0.0));
     assert_eq!(hands.supervisor().state(), ForceState::Armed);
 }

@@ -70,13 +70,18 @@ fn a_response_is_kept_with_its_method() {
     };
     let solved = prepared(&CUBE, &resources);
     let read = prepared(&CUBE, &resources);
-    assert!(!solved.response().unwrap().was_kept && read.response().unwrap().was_kept);
+    assert!(!solved.response().unwrap().was_cached && read.response().unwrap().was_cached);
     assert_eq!(
         force_on_top(&solved).to_bits(),
         force_on_top(&read).to_bits()
     );
     let boundary = Setting { model: "", ..CUBE };
-    assert!(!prepared(&boundary, &resources).response().unwrap().was_kept);
+    assert!(
+        !prepared(&boundary, &resources)
+            .response()
+            .unwrap()
+            .was_cached
+    );
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
 }
 

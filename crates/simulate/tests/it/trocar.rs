@@ -8,7 +8,8 @@ use palpate_files::scene::DeviceKind;
 use palpate_geometry::Vec3;
 use palpate_servo::{Fault, Sample, ServoSettings, Stage, Trajectory, VirtualDevice};
 use palpate_simulate::interactive::{
-    DevicePlacement, ModelCommand, PlacedDevice, SceneDevices, VirtualInteraction, judge_samples,
+    DevicePlacement, ModelCommand, PlacedDevice, SceneDevices, VirtualInteraction,
+    measure_extrapolation_error,
 };
 use palpate_simulate::{ShaftFriction, Simulation, Trocar};
 
@@ -366,7 +367,7 @@ fn a_hand_feels_through_its_trocar() {
         assert!((back - sample.commanded).norm() < 1e-9);
         pressed += usize::from(of_tip.norm() > 0.01);
     }
-    let error = judge_samples(&simulation, 0, &placement, &samples);
+    let error = measure_extrapolation_error(&simulation, 0, &placement, &samples);
     println!("{error:?}, {pressed} ticks pressed");
     assert!(pressed > 1000 && error.peak > 0.05);
     // As without a trocar: of a hand-over by the local stiffness, mostly where contact begins.
@@ -399,7 +400,9 @@ fn a_pause_and_an_emergency_stop_leave_nothing_of_the_wall() {
         let samples: Vec<Sample> = hands.samples(0).collect();
         assert_eq!(samples.len(), ticks);
         let last = samples[ticks - 1];
-        let forces = samples.iter().flat_map(|sample| [sample.held, sample.sent]);
+        let forces = samples
+            .iter()
+            .flat_map(|sample| [sample.applied, sample.output]);
         (
             forces.map(|force| force.norm()).fold(0.0, f64::max),
             last.stage,

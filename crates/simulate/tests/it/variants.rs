@@ -116,7 +116,7 @@ fn area(surface: &Surface, scene: &Scene) -> f64 {
         let [a, b, c] = nodes.map(|node| mesh.vertices()[node.0 as usize]);
         let span = (b - a).cross(&(c - a));
         let middle = (a + b + c) / 3.0;
-        match on.holds(middle.into(), span.normalize().into()) {
+        match on.contains(middle.into(), span.normalize().into()) {
             true => 0.5 * span.norm(),
             false => 0.0,
         }

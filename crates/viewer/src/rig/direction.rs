@@ -55,7 +55,7 @@ pub(super) fn axes(window: &RigWindow, ui: &mut Ui) {
         ui.label(small(fault.to_string()).color(FAULT));
         return;
     }
-    let Some(axes) = window.watch.calm_axes() else {
+    let Some(axes) = window.watch.steady_axes() else {
         ui.label(small("one axis: no forces sideways and no torques".to_owned()).color(QUIET));
         return;
     };

@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use palpate_files::recording::{RecordingHeader, RecordingRow};
 use palpate_files::{Claim, Error, Overwrite, unfinished};
-use palpate_measure::live::{Commission, Unwritten};
+use palpate_measure::live::{RecordingRequest, WriteFailed};
 use palpate_measure::{DepthTrajectory, Recorded, RigSettings, recording_name, stimulus_name};
 
 use super::curves::{force_over_depth, relaxation};
@@ -23,12 +23,12 @@ pub(super) struct Journal {
 /// A recording that could not be written.
 #[derive(Debug)]
 pub(super) struct Unsaved {
-    pub(super) unwritten: Unwritten,
-    what: What,
+    pub(super) failed: WriteFailed,
+    what: RecordingSubject,
     /// The folder where it shall be written instead, as it is typed.
     pub(super) elsewhere: String,
     /// Why it cannot be written there either.
-    pub(super) trouble: Option<String>,
+    pub(super) error: Option<String>,
 }
 
 /// A recording that was asked for.
@@ -36,12 +36,12 @@ pub(super) struct Unsaved {
 struct PendingRecording {
     number: u64,
     file: PathBuf,
-    entry: What,
+    entry: RecordingSubject,
 }
 
 /// The subject of a recording.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct What {
+pub(super) struct RecordingSubject {
     /// The number of the specimen.
     place: usize,
     trajectory: DepthTrajectory,
@@ -52,7 +52,7 @@ pub(super) struct What {
 /// A recording that was made.
 #[derive(Debug)]
 pub(super) struct Entry {
-    pub(super) what: What,
+    pub(super) what: RecordingSubject,
     pub(super) recorded: Recorded,
     /// [mN] over [mm]
     pub(super) force_over_depth: Vec<[f64; 2]>,
@@ -76,7 +76,7 @@ impl Journal {
         settings: &RigSettings,
         specimen: &RecordingHeader,
         place: usize,
-    ) -> Commission {
+    ) -> RecordingRequest {
         let stimulus = stimulus_name(&trajectory.stimulus());
         let mut repeat = 0;
         let file = loop {
@@ -92,14 +92,14 @@ impl Journal {
         self.asked.push(PendingRecording {
             number: self.last,
             file: file.clone(),
-            entry: What {
+            entry: RecordingSubject {
                 place,
                 trajectory: *trajectory,
                 stimulus,
                 repeat,
             },
         });
-        Commission {
+        RecordingRequest {
             number: self.last,
             file,
             header: settings.describe(specimen, trajectory, repeat),
@@ -122,17 +122,17 @@ impl Journal {
     }
 
     /// Takes a recording that could not be written; its samples stay in memory.
-    pub(super) fn keep_unsaved(&mut self, unwritten: Unwritten) {
-        let number = unwritten.commission.number;
+    pub(super) fn keep_unsaved(&mut self, unwritten: WriteFailed) {
+        let number = unwritten.request.number;
         let Some(place) = self.asked.iter().position(|asked| asked.number == number) else {
             return;
         };
         let here = std::env::current_dir().unwrap_or_default();
         self.unsaved = Some(Unsaved {
-            unwritten,
+            failed: unwritten,
             what: self.asked.swap_remove(place).entry,
             elsewhere: here.display().to_string(),
-            trouble: None,
+            error: None,
         });
     }
 
@@ -142,9 +142,9 @@ impl Journal {
             return;
         };
         let folder = PathBuf::from(unsaved.elsewhere.trim());
-        match written(&unsaved.unwritten, &folder) {
+        match written(&unsaved.failed, &folder) {
             Ok(recorded) => {
-                let rows = &unsaved.unwritten.rows;
+                let rows = &unsaved.failed.rows;
                 self.folder = folder;
                 self.chosen = None;
                 self.entries.push(Entry {
@@ -155,7 +155,7 @@ impl Journal {
                 });
             }
             Err(error) => {
-                unsaved.trouble = Some(error.to_string());
+                unsaved.error = Some(error.to_string());
                 self.unsaved = Some(unsaved);
             }
         }
@@ -185,7 +185,7 @@ impl Journal {
     pub(super) fn compared(&self) -> Option<(&Entry, impl Iterator<Item = &Entry>)> {
         let shown = self.shown()?;
         let entry = &self.entries[shown];
-        let same = |other: &What| {
+        let same = |other: &RecordingSubject| {
             (other.place, other.trajectory) == (entry.what.place, entry.what.trajectory)
         };
         let others = self.entries.iter().enumerate();
@@ -195,9 +195,9 @@ impl Journal {
 }
 
 /// Writes a recording into another folder, over nothing that is there.
-fn written(unwritten: &Unwritten, folder: &Path) -> Result<Recorded, Error> {
+fn written(unwritten: &WriteFailed, folder: &Path) -> Result<Recorded, Error> {
     let claim = Claim::of_folder(folder, Overwrite::Refused)?;
-    let name = unwritten.commission.file.file_name().unwrap_or_default();
+    let name = unwritten.request.file.file_name().unwrap_or_default();
     claim.check([Path::new(name)])?;
     unwritten.write_to(&folder.join(name))
 }
@@ -233,8 +233,8 @@ mod tests {
         let commission = journal.ask(&trajectory, &settings, &header, 0);
         let number = commission.number;
         let name = commission.file.file_name().unwrap().to_owned();
-        journal.keep_unsaved(Unwritten {
-            commission,
+        journal.keep_unsaved(WriteFailed {
+            request: commission,
             rows: [[0.0, 0.0, 0.1], [0.001, 1e-4, 0.2]]
                 .map(RecordingRow::from)
                 .into(),
@@ -251,8 +251,8 @@ mod tests {
             journal.save_elsewhere();
         };
         put(&mut journal, &other);
-        let trouble = journal.unsaved.as_ref().unwrap().trouble.clone();
-        assert!(trouble.unwrap().contains("is there already"));
+        let error = journal.unsaved.as_ref().unwrap().error.clone();
+        assert!(error.unwrap().contains("is there already"));
         std::fs::remove_file(other.join(&name)).unwrap();
         put(&mut journal, &other);
         assert!(journal.unsaved.is_none());

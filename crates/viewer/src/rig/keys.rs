@@ -2,7 +2,7 @@ use eframe::egui::{Context, Key, Modifiers};
 use palpate_measure::live::RigCommand;
 
 use super::RigWindow;
-use super::by_hand::JogStep;
+use super::manual::JogStep;
 
 /// Handles the keyboard. Space is the emergency stop, even while a field has the keyboard.
 pub(super) fn take(window: &mut RigWindow, context: &Context) {

@@ -9,19 +9,19 @@
 //!
 //! *Limits*: one specimen at a time.
 
-mod above;
-mod by_hand;
 mod curves;
 mod direction;
 mod journal;
 mod keys;
+mod manual;
 mod online;
 mod plots;
 mod preparation;
 mod prepared;
+mod rig_state;
+mod status_bar;
 mod stimuli;
 mod table;
-mod watch;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -37,7 +37,7 @@ use crate::{Error, native, style};
 use journal::Journal;
 use preparation::Preparation;
 use prepared::Prepared;
-use watch::Watch;
+use rig_state::RigState;
 
 /// Settings of a rig's window.
 pub struct Bench {
@@ -77,10 +77,10 @@ pub struct Begin {
 }
 
 /// Makes a rig, on a real clock, and reports the part that is done [-].
-pub type Make = dyn Fn(&mut dyn FnMut(f64)) -> Result<MadeRig, String> + Send + Sync;
+pub type Make = dyn Fn(&mut dyn FnMut(f64)) -> Result<PreparedRig, String> + Send + Sync;
 
 /// A rig over a specimen.
-pub struct MadeRig {
+pub struct PreparedRig {
     /// The rig.
     pub rig: Rig,
     /// Warnings about it.
@@ -108,7 +108,7 @@ struct RigWindow {
     place: usize,
     behind: Behind,
     header: RecordingHeader,
-    watch: Watch,
+    watch: RigState,
     journal: Journal,
     /// How far a click moves the indenter [m].
     step: f64,
@@ -145,7 +145,7 @@ impl RigWindow {
             places: bench.places,
             place: 0,
             header: RecordingHeader::default(),
-            watch: Watch::new(bench.stops_at),
+            watch: RigState::new(bench.stops_at),
             journal: Journal::new(bench.folder),
             step: 1e-3,
             tilt: [0.0; 2],
@@ -157,7 +157,7 @@ impl RigWindow {
     /// Puts a rig over another specimen; the one before is withdrawn first.
     fn move_to(&mut self, place: usize, context: &egui::Context) {
         self.place = place;
-        self.watch = Watch::new(self.watch.online.stops_at);
+        self.watch = RigState::new(self.watch.online.stops_at);
         // It has let go of its device when the next rig asks for one.
         self.behind = Behind::Failed(String::new());
         let make = &self.places[place].make;
@@ -214,7 +214,7 @@ impl RigWindow {
     }
 
     /// Moves the indenter by a step.
-    fn jog(&mut self, way: by_hand::JogStep) {
+    fn jog(&mut self, way: manual::JogStep) {
         let way = way.in_rig(self.step, &self.watch.normal());
         self.send(RigCommand::Jog(way));
     }
@@ -323,7 +323,7 @@ impl eframe::App for RigWindow {
         }
         keys::take(self, &context);
         self.read();
-        egui::Panel::top("above").show(ui, |ui| above::show(self, ui));
+        egui::Panel::top("above").show(ui, |ui| status_bar::show(self, ui));
         egui::Panel::bottom("recordings")
             .resizable(true)
             .default_size(168.0)
@@ -336,7 +336,7 @@ impl eframe::App for RigWindow {
                 egui::ScrollArea::vertical()
                     .auto_shrink([false, false])
                     .show(ui, |ui| {
-                        by_hand::show(self, ui);
+                        manual::show(self, ui);
                         direction::show(self, ui);
                         direction::axes(self, ui);
                         ui.separator();

@@ -4,7 +4,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 
 use eframe::egui::{Align, Layout, RichText, Ui};
 use palpate_characterize::online::{
-    OnlineContact, OnlineEstimate, OnlineEstimator, OnlineSample, OnlineSettings, USUAL_TARGET,
+    DEFAULT_TARGET, OnlineContact, OnlineEstimate, OnlineEstimator, OnlineSample, OnlineSettings,
 };
 use palpate_files::quantity::plain_quantity;
 use palpate_files::recording::RecordingHeader;
@@ -33,7 +33,7 @@ impl Online {
         self.estimates = None;
         let settings = OnlineSettings {
             header: header.clone(),
-            contact: OnlineContact::Sought,
+            contact: OnlineContact::Detected,
             deepest_m: Some(deepest),
         };
         if !settings.is_tabulated() {
@@ -77,7 +77,7 @@ impl Online {
 
     /// A line with each parameter and its interval, and whether that is enough.
     pub(super) fn show(&self, ui: &mut Ui) {
-        let target = self.stops_at.unwrap_or(USUAL_TARGET);
+        let target = self.stops_at.unwrap_or(DEFAULT_TARGET);
         ui.horizontal(|ui| {
             ui.label(RichText::new("tissue").strong());
             let Some(last) = &self.last else {

@@ -4,11 +4,11 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use eframe::egui;
 
-use super::{MadeRig, Make};
+use super::{Make, PreparedRig};
 
 /// A rig that is being made on its own thread.
 pub(super) struct Preparation {
-    outcome: Receiver<Result<MadeRig, String>>,
+    outcome: Receiver<Result<PreparedRig, String>>,
     /// The part that is done [-], as bits.
     part: Arc<AtomicU64>,
 }
@@ -35,7 +35,7 @@ impl Preparation {
     }
 
     /// The outcome; none until it is finished.
-    pub(super) fn outcome(&self) -> Option<Result<MadeRig, String>> {
+    pub(super) fn outcome(&self) -> Option<Result<PreparedRig, String>> {
         match self.outcome.try_recv() {
             Ok(outcome) => Some(outcome),
             Err(TryRecvError::Empty) => None,

@@ -50,7 +50,7 @@ impl SimulatorWindow {
             if let Some(play) = &mut self.play {
                 play.send(request);
                 if request == ModelRequest::Reset {
-                    self.picture.put_tools_away();
+                    self.picture.release_tools();
                     self.history.clear();
                 }
             }

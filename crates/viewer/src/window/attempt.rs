@@ -36,7 +36,7 @@ pub(super) struct Attempt {
     /// The diameter that is to be stated [mm], as it is set so far.
     pub(super) diameter: Option<u32>,
     /// An error outside the touch.
-    pub(super) trouble: Option<String>,
+    pub(super) error: Option<String>,
     /// The recording, where it cannot be written.
     pub(super) unsaved: Option<Unsaved>,
 }
@@ -48,7 +48,7 @@ pub(super) struct Unsaved {
     /// The folder where it shall be written instead, as it is typed.
     pub(super) elsewhere: String,
     /// Why it cannot be written there either.
-    pub(super) trouble: Option<String>,
+    pub(super) error: Option<String>,
 }
 
 impl Unsaved {
@@ -59,7 +59,7 @@ impl Unsaved {
         Self {
             cause,
             elsewhere: here.join(name.unwrap_or_default()).display().to_string(),
-            trouble: None,
+            error: None,
         }
     }
 }
@@ -67,11 +67,11 @@ impl Unsaved {
 /// Phase of an attempt.
 pub(super) enum Phase {
     /// The trainee reads.
-    Reads,
+    Briefing,
     /// It goes on, and is recorded in a folder, if anywhere.
-    GoesOn(Option<PathBuf>),
+    Running(Option<PathBuf>),
     /// It is over.
-    Over(Box<Done>),
+    Ended(Box<Done>),
 }
 
 /// Result of an attempt.
@@ -97,11 +97,11 @@ impl Attempt {
     pub(super) fn new(play: &Play) -> Self {
         let task = play.scene.task.clone();
         let names = names(play);
-        let mut trouble = None;
+        let mut no_expert = None;
         let experts = match task.expert.as_deref().map(read_experts) {
             Some(Ok(experts)) => experts,
             Some(Err(error)) => {
-                trouble = Some(text!("attempt-no-expert", error = error.to_string()));
+                no_expert = Some(text!("attempt-no-expert", error = error.to_string()));
                 Vec::new()
             }
             None => Vec::new(),
@@ -124,16 +124,16 @@ impl Attempt {
             forces: Vec::new(),
             marked: None,
             diameter: None,
-            phase: Phase::Reads,
+            phase: Phase::Briefing,
             has_begun: false,
             task,
-            trouble,
+            error: no_expert,
             unsaved: None,
         }
     }
 
     /// Whether a scene has something to do, or says what can be done.
-    pub(super) fn is_wanted(task: &Task) -> bool {
+    pub(super) fn has_goal(task: &Task) -> bool {
         task.goal != Goal::Free || task.title.is_some()
     }
 
@@ -152,9 +152,9 @@ impl Attempt {
         }
         let mut folder = session;
         if play.scene.written.is_none() && folder.take().is_some() {
-            self.trouble = Some(text!("attempt-scene-changed"));
+            self.error = Some(text!("attempt-scene-changed"));
         }
-        self.phase = Phase::GoesOn(match folder {
+        self.phase = Phase::Running(match folder {
             None => {
                 play.reset();
                 None
@@ -170,7 +170,7 @@ impl Attempt {
                 }
                 Err(error) => {
                     let error = error.to_string();
-                    self.trouble = Some(text!("attempt-unrecorded", error = error));
+                    self.error = Some(text!("attempt-unrecorded", error = error));
                     play.reset();
                     None
                 }
@@ -180,10 +180,10 @@ impl Attempt {
 
     /// Takes over what a tool did; the attempt begins with the new beginning that it asked for.
     pub(super) fn add(&mut self, row: &SessionRow) {
-        if !matches!(self.phase, Phase::GoesOn(_)) {
+        if !matches!(self.phase, Phase::Running(_)) {
             return;
         }
-        self.has_begun |= row.events.contains(Event::BeginAnew);
+        self.has_begun |= row.events.contains(Event::Restart);
         if !self.has_begun {
             return;
         }
@@ -233,7 +233,7 @@ impl Attempt {
 
     /// Whether the place is marked and the diameter is still to be stated.
     pub(super) fn awaits_diameter(&self) -> bool {
-        matches!(self.phase, Phase::GoesOn(_)) && self.performance.awaits_diameter()
+        matches!(self.phase, Phase::Running(_)) && self.performance.awaits_diameter()
     }
 
     /// Sets the diameter by so many millimetres more or less.
@@ -246,11 +246,11 @@ impl Attempt {
     /// The stated diameter, once the attempt is over [m].
     pub(super) fn stated_diameter(&self) -> Option<f64> {
         match &self.phase {
-            Phase::Over(done) => match done.score.outcome {
+            Phase::Ended(done) => match done.score.outcome {
                 Outcome::Find { size, .. } => size?.stated,
                 _ => None,
             },
-            Phase::Reads | Phase::GoesOn(_) => None,
+            Phase::Briefing | Phase::Running(_) => None,
         }
     }
 
@@ -269,7 +269,7 @@ impl Attempt {
 
     /// Looks whether it is over, and what the expert says. Whether it has just ended.
     pub(super) fn look(&mut self, play: &mut Play) -> bool {
-        if !matches!(self.phase, Phase::GoesOn(_)) || !self.has_begun {
+        if !matches!(self.phase, Phase::Running(_)) || !self.has_begun {
             return false;
         }
         self.check_recording(play);
@@ -279,18 +279,18 @@ impl Attempt {
             self.ghosts = tutor.follow(&tips);
         }
         match self.status() {
-            Status::Over { late } => {
+            Status::Ended { late } => {
                 self.end(play, late);
                 true
             }
-            Status::GoesOn { .. } => false,
+            Status::InProgress { .. } => false,
         }
     }
 
     /// Takes over whether the recording can still be written.
     fn check_recording(&mut self, play: &Play) {
-        if let (Phase::GoesOn(folder), None) = (&mut self.phase, &self.unsaved)
-            && let Some(unwritten) = play.source.unwritten()
+        if let (Phase::Running(folder), None) = (&mut self.phase, &self.unsaved)
+            && let Some(unwritten) = play.source.recording_failure()
         {
             self.unsaved = Some(Unsaved::new(folder.take(), unwritten.cause));
         }
@@ -307,33 +307,33 @@ impl Attempt {
             .and_then(|claim| SessionFolder::create(claim, &play.scene, &play.simulation))
             .and_then(|writer| play.source.record_elsewhere(writer));
         if let Err(error) = written {
-            unsaved.trouble = Some(error.to_string());
+            unsaved.error = Some(error.to_string());
             return;
         }
         self.unsaved = None;
         match &mut self.phase {
-            Phase::GoesOn(own) => *own = Some(folder),
-            Phase::Over(done) => done.folder = Some(folder),
-            Phase::Reads => {}
+            Phase::Running(own) => *own = Some(folder),
+            Phase::Ended(done) => done.folder = Some(folder),
+            Phase::Briefing => {}
         }
     }
 
     /// Where it was recorded, once it is over.
     pub(super) fn folder(&self) -> Option<PathBuf> {
         match &self.phase {
-            Phase::Over(done) => done.folder.clone(),
-            Phase::Reads | Phase::GoesOn(_) => None,
+            Phase::Ended(done) => done.folder.clone(),
+            Phase::Briefing | Phase::Running(_) => None,
         }
     }
 
     /// Whether its card is read, before or after it, and no tool is moved for it.
     pub(super) fn is_card(&self) -> bool {
-        matches!(self.phase, Phase::Reads | Phase::Over(_))
+        matches!(self.phase, Phase::Briefing | Phase::Ended(_))
     }
 
     /// Whether it was done, one way or the other.
     pub(super) fn is_over(&self) -> bool {
-        matches!(self.phase, Phase::Over(_))
+        matches!(self.phase, Phase::Ended(_))
     }
 
     /// How far it is.
@@ -353,7 +353,7 @@ impl Attempt {
 
     /// Earlier attempts of the trainee, as far as known.
     pub(super) fn compare_with(&mut self, earlier: Vec<PastResult>) {
-        if let Phase::Over(done) = &mut self.phase {
+        if let Phase::Ended(done) = &mut self.phase {
             done.earlier = earlier;
         }
     }
@@ -367,13 +367,13 @@ impl Attempt {
     pub(super) fn end(&mut self, play: &mut Play, late: bool) {
         if self.demonstration.take().is_some() {
             self.ghosts.clear();
-            self.phase = Phase::Reads;
+            self.phase = Phase::Briefing;
             return;
         }
         let score = self.performance.score();
         let mut folder = match &mut self.phase {
-            Phase::GoesOn(folder) => folder.take(),
-            Phase::Reads | Phase::Over(_) => None,
+            Phase::Running(folder) => folder.take(),
+            Phase::Briefing | Phase::Ended(_) => None,
         };
         if let Err(error) = play.source.end_recording() {
             let lost = folder.take();
@@ -381,7 +381,7 @@ impl Attempt {
             self.unsaved.get_or_insert_with(unsaved);
         }
         self.ghosts.clear();
-        self.phase = Phase::Over(Box::new(Done {
+        self.phase = Phase::Ended(Box::new(Done {
             compared: compare(&score, &self.standards),
             score,
             late,

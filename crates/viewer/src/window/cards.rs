@@ -24,7 +24,7 @@ pub(super) enum AttemptAction {
     /// To see how it may be done.
     Show,
     /// To look at it again.
-    Again,
+    Replay,
     /// To compare it with the demonstration.
     Compare,
     /// To record it in another folder.
@@ -51,10 +51,10 @@ pub(super) fn show(ui: &Ui, attempt: &mut Attempt, around: &CardContext) -> Opti
     let mut unsaved = attempt.unsaved.take();
     let mut states = attempt.diameter;
     match &attempt.phase {
-        Phase::Reads => card(ui, "task", Align2::CENTER_CENTER, 430.0, |ui| {
+        Phase::Briefing => card(ui, "task", Align2::CENTER_CENTER, 430.0, |ui| {
             reads(ui, attempt, around, &mut asked);
         }),
-        Phase::GoesOn(folder) => card(ui, "in progress", Align2::CENTER_TOP, 420.0, |ui| {
+        Phase::Running(folder) => card(ui, "in progress", Align2::CENTER_TOP, 420.0, |ui| {
             let badge = match (folder, &unsaved) {
                 (_, Some(_)) => Some(
                     RichText::new(text!("attempt-not-recorded"))
@@ -74,7 +74,7 @@ pub(super) fn show(ui: &Ui, attempt: &mut Attempt, around: &CardContext) -> Opti
             }
             not_recorded(ui, unsaved.as_mut(), &mut asked);
         }),
-        Phase::Over(done) => card(ui, "over", Align2::RIGHT_CENTER, 400.0, |ui| {
+        Phase::Ended(done) => card(ui, "over", Align2::RIGHT_CENTER, 400.0, |ui| {
             over(ui, attempt, done, around, &mut asked);
             not_recorded(ui, unsaved.as_mut(), &mut asked);
         }),
@@ -122,7 +122,7 @@ fn reads(ui: &mut Ui, attempt: &Attempt, around: &CardContext, asked: &mut Optio
     }
     ui.add_space(6.0);
     ui.label(quiet(facts(attempt).join(" ")));
-    trouble(ui, attempt);
+    show_error(ui, attempt);
     ui.add_space(10.0);
     ui.horizontal_wrapped(|ui| {
         match around.preparing {
@@ -243,7 +243,7 @@ fn goes_on(
         });
     });
     gauge(ui, attempt);
-    if let Status::GoesOn {
+    if let Status::InProgress {
         part: Some(part), ..
     } = attempt.status()
     {
@@ -258,7 +258,7 @@ fn goes_on(
         let words = text!("attempt-perforated", count = perforations);
         ui.label(RichText::new(words).size(16.0).strong().color(FAULT));
     }
-    trouble(ui, attempt);
+    show_error(ui, attempt);
 }
 
 /// Why it is not recorded, and where it can be.
@@ -275,8 +275,8 @@ fn not_recorded(ui: &mut Ui, unsaved: Option<&mut Unsaved>, asked: &mut Option<A
         let field = ui.add(field.desired_width(f32::INFINITY));
         field.labelled_by(label.id);
     });
-    if let Some(trouble) = &unsaved.trouble {
-        ui.label(RichText::new(trouble).small().color(FAULT));
+    if let Some(error) = &unsaved.error {
+        ui.label(RichText::new(error).small().color(FAULT));
     }
 }
 
@@ -290,7 +290,7 @@ fn gauge(ui: &mut Ui, attempt: &Attempt) {
                 tolerance_n,
                 ..
             },
-            Status::GoesOn { advice, .. },
+            Status::InProgress { advice, .. },
         ) => {
             let (force, cue) = advice.map_or((0.0, Cue::More), |own| (own.force, own.cue));
             let band = [force_n - tolerance_n, force_n + tolerance_n, 2.0 * force_n];
@@ -298,7 +298,7 @@ fn gauge(ui: &mut Ui, attempt: &Attempt) {
         }
         (
             Goal::Touch(touch),
-            Status::GoesOn {
+            Status::InProgress {
                 advice: Some(own), ..
             },
         ) => {
@@ -406,8 +406,8 @@ fn deviation_words(attempt: &Attempt) -> (String, Color32) {
     (text!(key, mm = decimal(1e3 * deviation.distance, 1)), color)
 }
 
-pub(super) fn trouble(ui: &mut Ui, attempt: &Attempt) {
-    if let Some(trouble) = &attempt.trouble {
-        ui.label(RichText::new(trouble).small().color(FAULT));
+pub(super) fn show_error(ui: &mut Ui, attempt: &Attempt) {
+    if let Some(error) = &attempt.error {
+        ui.label(RichText::new(error).small().color(FAULT));
     }
 }

@@ -61,10 +61,10 @@ impl ClassPage {
     pub(super) fn show(&mut self, ui: &mut Ui) -> Option<ClassPageAction> {
         let mut wanted = None;
         let title = text!("class-title");
-        let is_left = page::leavable(ui, &title, |ui| {
+        let is_left = page::closable_page(ui, &title, |ui| {
             let class = match &self.class {
-                Err(trouble) => {
-                    ui.colored_label(FAULT, trouble);
+                Err(error) => {
+                    ui.colored_label(FAULT, error);
                     return;
                 }
                 Ok(class) => class,
@@ -87,7 +87,7 @@ impl ClassPage {
             }
             match &self.said {
                 Some(Ok(said)) => drop(ui.colored_label(DEPTH, said)),
-                Some(Err(trouble)) => drop(ui.colored_label(FAULT, trouble)),
+                Some(Err(error)) => drop(ui.colored_label(FAULT, error)),
                 None => {}
             }
             heading(ui, &text!("class-learning"));
@@ -240,7 +240,7 @@ mod tests {
 
     use super::super::training::{TraineeProgress, TraineeStanding};
     use super::*;
-    use crate::window::seen::Seen;
+    use crate::window::test_page::TestPage;
 
     /// Judge: the accessibility tree.
     #[test]
@@ -273,8 +273,8 @@ mod tests {
             }],
         };
         let mut page = ClassPage::new(Ok(class.clone()), vec!["Palpation".to_owned()]);
-        let mut seen = Seen::default();
-        let look = |seen: &mut Seen, page: &mut ClassPage| {
+        let mut seen = TestPage::default();
+        let look = |seen: &mut TestPage, page: &mut ClassPage| {
             let mut wanted = None;
             for _ in 0..3 {
                 seen.show(|ui| wanted = wanted.take().or(page.show(ui)));

@@ -137,8 +137,13 @@ impl SimulatorWindow {
             return;
         };
         let shown = play
-            .again(text!("replay-own"), &own.folder.session)
-            .and_then(|left| Ok((left, play.again(text!("common-demonstration"), &session)?)))
+            .played_session(text!("replay-own"), &own.folder.session)
+            .and_then(|left| {
+                Ok((
+                    left,
+                    play.played_session(text!("common-demonstration"), &session)?,
+                ))
+            })
             .and_then(|(left, right)| Ok((Play::of_session(left, &self.gpu)?, right)))
             .and_then(|(left, right)| {
                 self.compare(text!("replay-own"), right)?;
@@ -167,9 +172,9 @@ impl SimulatorWindow {
             });
         };
         half(left, &mut self.picture, play, own);
-        compared.picture.look_as(&self.picture);
+        compared.picture.copy_view(&self.picture);
         half(right, &mut compared.picture, &mut compared.play, other);
-        self.picture.look_as(&compared.picture);
+        self.picture.copy_view(&compared.picture);
     }
 
     /// The line below sessions that are played again.

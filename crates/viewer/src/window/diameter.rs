@@ -45,13 +45,13 @@ mod tests {
     use eframe::egui::accesskit::Role;
 
     use super::*;
-    use crate::window::seen::Seen;
+    use crate::window::test_page::TestPage;
 
     /// Judge: the accessibility tree that the window gives, and what a person clicks in it.
     #[test]
     fn a_diameter_is_set_before_it_can_be_stated() {
         let (mut diameter, mut asked) = (None, None);
-        let mut seen = Seen::default();
+        let mut seen = TestPage::default();
         seen.show(|ui| show(ui, &mut diameter, &mut asked));
         assert!(
             seen.has(Role::Label, &text!("diameter-title"))

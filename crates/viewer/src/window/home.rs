@@ -28,7 +28,7 @@ pub(super) enum Chosen {
 #[derive(Default)]
 pub(super) struct Home {
     /// Error of the last choice.
-    pub(super) trouble: Option<String>,
+    pub(super) error: Option<String>,
     /// Whose results are shown, and what they are.
     results: Option<(String, Result<Vec<PastResult>, String>)>,
     /// Their assignments.
@@ -58,8 +58,8 @@ impl Home {
                 });
             });
             ui.label(quiet(text!("home-subtitle")));
-            if let Some(trouble) = &self.trouble {
-                ui.colored_label(FAULT, trouble);
+            if let Some(error) = &self.error {
+                ui.colored_label(FAULT, error);
             }
             ui.add_space(14.0);
             let wide = ui.available_width() > 760.0;
@@ -130,8 +130,8 @@ impl Home {
             assigned(ui, own);
         }
         match self.results(training) {
-            Err(trouble) => {
-                ui.colored_label(FAULT, trouble);
+            Err(error) => {
+                ui.colored_label(FAULT, error);
             }
             Ok(results) if results.is_empty() => {
                 ui.label(quiet(text!("home-no-results")));

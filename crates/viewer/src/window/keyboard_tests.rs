@@ -11,8 +11,8 @@ use eframe::{App, CreationContext, Frame};
 use palpate_files::scene::Task;
 use palpate_files::{Language, Scene, Settings};
 
-use super::seen::Seen;
-use super::settings::{CacheUse, NamedFolder, SettingsKeeper, WindowSettings};
+use super::settings::{CacheUse, NamedFolder, SettingsStore, WindowSettings};
+use super::test_page::TestPage;
 use super::texts::text;
 use super::training::{
     Assigned, Class, NewAssignment, OfferedTask, PastResult, TaskPicture, TaskProgress,
@@ -100,7 +100,7 @@ impl TrainingRecord for Kept {
 
 struct Forgetful;
 
-impl SettingsKeeper for Forgetful {
+impl SettingsStore for Forgetful {
     fn save(&mut self, _settings: &Settings) -> Result<(), String> {
         Ok(())
     }
@@ -126,7 +126,7 @@ impl SettingsKeeper for Forgetful {
 struct Used {
     window: SimulatorWindow,
     frame: Frame,
-    seen: Seen,
+    seen: TestPage,
     /// Kept as long as the window.
     _folder: tempfile::TempDir,
 }
@@ -142,7 +142,7 @@ fn render_state() -> Option<RenderState> {
 impl Used {
     fn new(language: Language) -> Option<Self> {
         let folder = tempfile::tempdir().unwrap();
-        let seen = Seen::default();
+        let seen = TestPage::default();
         let mut context = CreationContext::_new_kittest(seen.context().clone());
         let mut frame = Frame::_new_kittest();
         context.wgpu_render_state = render_state();
@@ -152,7 +152,7 @@ impl Used {
         let without_task = SCENE.split("[task]").next().unwrap();
         let free = Scene::parse(without_task, "free.toml").unwrap();
         let options = WindowOptions {
-            way_out: free.clone(),
+            fallback: free.clone(),
             resources: palpate_simulate::Resources::default(),
             training: Some(Training {
                 tasks: vec![OfferedTask {
@@ -174,8 +174,8 @@ impl Used {
                 settings: Settings::default(),
                 environment: language,
                 asked_language: None,
-                trouble: None,
-                keeper: Box::new(Forgetful),
+                error: None,
+                store: Box::new(Forgetful),
             },
             is_ended: || false,
         };
@@ -297,5 +297,5 @@ fn other_pages_are_read_and_left_by_keys() {
         let labels = used.seen.labels();
         assert!(used.seen.has(role, label), "{label}: {labels:?}");
     }
-    super::texts::speak(Language::English);
+    super::texts::set_language(Language::English);
 }

@@ -10,7 +10,6 @@
 //!
 //! [`Interaction`]: palpate_simulate::interactive::Interaction
 
-mod absence;
 mod actions;
 mod attempt;
 mod cards;
@@ -32,20 +31,21 @@ mod overlay;
 mod page;
 mod panel;
 mod picture;
+mod placeholder;
 mod play;
 mod preparation;
 mod rates;
 mod render_quality;
 mod results;
-#[cfg(test)]
-mod seen;
 pub mod settings;
 mod settings_page;
 mod shown_picture;
 mod source;
+#[cfg(test)]
+mod test_page;
 mod texts;
 mod timeline;
-mod trained;
+mod trainer;
 pub mod training;
 
 use std::path::PathBuf;
@@ -89,7 +89,7 @@ struct SimulatorWindow {
     radius: f64,
     resources: Resources,
     /// The scene that is shown when the choice fails.
-    way_out: Scene,
+    fallback: Scene,
     picture: OrganView,
     play: Option<Play>,
     preparation: Option<Preparation>,
@@ -137,7 +137,7 @@ pub enum Start {
     /// A scene.
     Scene(Box<Scene>),
     /// A replayed session, and another one for comparison.
-    Again(Box<PlayedSession>, Option<Box<PlayedSession>>),
+    Replay(Box<PlayedSession>, Option<Box<PlayedSession>>),
 }
 
 /// A session of a scene that is played again.
@@ -155,7 +155,7 @@ pub struct PlayedSession {
 /// Resources of a window.
 pub struct WindowOptions {
     /// A scene that works, which is offered when another does not.
-    pub way_out: Scene,
+    pub fallback: Scene,
     /// Resources to prepare whole organs during the touch.
     pub resources: Resources,
     /// If given, tasks can be chosen, and sessions and results are stored.
@@ -184,7 +184,7 @@ impl SimulatorWindow {
         options: WindowOptions,
     ) -> Result<Self, Error> {
         let WindowOptions {
-            way_out,
+            fallback,
             resources,
             training,
             settings,
@@ -197,12 +197,12 @@ impl SimulatorWindow {
         };
         let gpu = Gpu::of(&state.adapter, state.device.clone(), state.queue.clone());
         let scene = match &start {
-            Start::Home => way_out.clone(),
+            Start::Home => fallback.clone(),
             Start::Scene(scene) => (**scene).clone(),
-            Start::Again(session, _) => session.scene.clone(),
+            Start::Replay(session, _) => session.scene.clone(),
         };
         let choice = Choice::new(scene).with_mouse(settings.settings.mouse_hand);
-        texts::speak(settings.language());
+        texts::set_language(settings.language());
         context
             .egui_ctx
             .set_zoom_factor(settings.settings.scale as f32);
@@ -211,7 +211,7 @@ impl SimulatorWindow {
             radius: 1e3 * choice.tip.radius_m,
             choice,
             resources,
-            way_out,
+            fallback,
             play: None,
             preparation: None,
             fault: None,
@@ -240,11 +240,11 @@ impl SimulatorWindow {
         match start {
             Start::Home => {
                 let mut home = Home::default();
-                home.trouble.clone_from(&window.settings.trouble);
+                home.error.clone_from(&window.settings.error);
                 window.home = Some(home);
             }
             Start::Scene(_) => window.reset(&context.egui_ctx),
-            Start::Again(session, other) => {
+            Start::Replay(session, other) => {
                 let name = session.name.clone();
                 window.play = Some(Play::of_session(*session, &window.gpu)?);
                 if let Some(other) = other {
@@ -315,7 +315,7 @@ impl SimulatorWindow {
             }
         };
         if before.is_none_or(|shape| shape != play.scene.organ.shape) {
-            self.picture.frame_anew();
+            self.picture.reset_framing();
             let makes_more = |tool: &Tool| tool.kind != ToolKind::Probe;
             self.picture.lists_keys = play.scene.tools.iter().any(makes_more);
         }
@@ -328,7 +328,7 @@ impl SimulatorWindow {
             self.begin_attempt();
         }
         if is_last && let Some(session) = self.awaited.take() {
-            self.look_again(&session);
+            self.replay_session(&session);
         }
     }
 
@@ -465,7 +465,7 @@ impl eframe::App for SimulatorWindow {
     fn raw_input_hook(&mut self, _context: &egui::Context, raw: &mut egui::RawInput) {
         let is_page = self.home.is_some() || self.settings_page.is_some();
         let reads_card = self.attempt.as_ref().is_some_and(Attempt::is_card);
-        if is_page || reads_card || self.looks_again() {
+        if is_page || reads_card || self.is_replaying() {
             return;
         }
         // Else it would walk through the buttons while tools are moved, which Shift and Tab still do.

@@ -19,7 +19,7 @@ pub(super) fn frame(ui: &mut Ui, show: impl FnOnce(&mut Ui)) {
 }
 
 /// A page with a title that can be left; whether somebody leaves it.
-pub(super) fn leavable(ui: &mut Ui, title: &str, show: impl FnOnce(&mut Ui)) -> bool {
+pub(super) fn closable_page(ui: &mut Ui, title: &str, show: impl FnOnce(&mut Ui)) -> bool {
     let mut is_left = ui.input(|input| input.key_pressed(Key::Escape));
     frame(ui, |ui| {
         ui.horizontal(|ui| {

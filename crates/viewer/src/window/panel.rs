@@ -31,7 +31,7 @@ pub(super) fn side(window: &mut SimulatorWindow, ui: &mut Ui) {
                 enhancement::show(window, ui);
                 ui.separator();
                 force_and_depth(window, ui);
-                if !window.looks_again() {
+                if !window.is_replaying() {
                     ui.separator();
                     rates(window, ui);
                 }
@@ -186,7 +186,7 @@ fn look(window: &mut SimulatorWindow, ui: &mut Ui) {
             .on_hover_text(text!("look-whole"))
             .clicked()
         {
-            picture.frame_anew();
+            picture.reset_framing();
         }
         ui.checkbox(&mut picture.looks.relief, text!("look-relief"));
     });

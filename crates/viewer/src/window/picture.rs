@@ -94,19 +94,19 @@ impl OrganView {
     }
 
     /// Frames the organ anew with the next picture.
-    pub(super) fn frame_anew(&mut self) {
+    pub(super) fn reset_framing(&mut self) {
         self.orbit = None;
         self.drawn = None;
-        self.put_tools_away();
+        self.release_tools();
     }
 
     /// Looks from where another picture looks.
-    pub(super) fn look_as(&mut self, other: &Self) {
+    pub(super) fn copy_view(&mut self, other: &Self) {
         (self.orbit, self.endoscope) = (other.orbit, other.endoscope);
     }
 
     /// All hands let go of their tools.
-    pub(super) fn put_tools_away(&mut self) {
+    pub(super) fn release_tools(&mut self) {
         self.gesture = Gesture::default();
         self.hands.clear();
     }
@@ -405,7 +405,7 @@ impl OrganView {
             .filter_map(|((tool, seen), model)| {
                 let pose = seen.pose?;
                 let picture = ToolPicture::new(tool, pose.position_m, seen.orientation)
-                    .looking_like(model.look.as_ref())
+                    .looking_like(model.display_mesh.as_ref())
                     .gripping(pose.grip);
                 Some(match seen.contact {
                     Some(contact) => picture.touching(contact.point),
@@ -432,7 +432,7 @@ impl OrganView {
             }
             None => play
                 .organ
-                .deform(gpu, &snapshot.vertices, snapshot.whole.as_ref()),
+                .deform(gpu, &snapshot.vertices, snapshot.organ_field.as_ref()),
         }
         let bodies: Vec<&Body> = play.organ.bodies().chain(&play.neighbours).collect();
         if let Some((target, _)) = &self.target {

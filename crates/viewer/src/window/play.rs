@@ -13,8 +13,8 @@ use super::PlayedSession;
 use super::covered::is_covered;
 use super::hands::Hand;
 use super::source::{Playback, Source};
+use crate::displayed_organ::DisplayedOrgan;
 use crate::render::{Body, Tint};
-use crate::seen_organ::SeenOrgan;
 use crate::{Error, Gpu};
 
 /// Request of a key to the model.
@@ -37,7 +37,7 @@ pub(super) struct Prepared {
     scene: Scene,
     simulation: Arc<Simulation>,
     tree: AabbTree,
-    organ: SeenOrgan,
+    organ: DisplayedOrgan,
     neighbours: Vec<Body>,
     warnings: Vec<String>,
     resources: Resources,
@@ -52,7 +52,7 @@ pub(super) struct Play {
     /// Around the organ at rest.
     pub(super) tree: AabbTree,
     pub(super) source: Source,
-    pub(super) organ: SeenOrgan,
+    pub(super) organ: DisplayedOrgan,
     pub(super) neighbours: Vec<Body>,
     /// Warnings.
     pub(super) warnings: Vec<String>,
@@ -99,7 +99,7 @@ impl Prepared {
         }
         Ok(Self {
             tree: AabbTree::new(simulation.surface().mesh()),
-            organ: SeenOrgan::new(gpu, &simulation, Tint::of(&scene.organ.shape))?,
+            organ: DisplayedOrgan::new(gpu, &simulation, Tint::of(&scene.organ.shape))?,
             neighbours,
             warnings,
             simulation,
@@ -139,15 +139,14 @@ impl Play {
             devices.devices,
             ServoSettings::default(),
         )?;
-        let source = Source::Touched(Box::new(interaction));
+        let source = Source::Live(Box::new(interaction));
         Ok(Self::of(prepared, source, devices.pointers))
     }
 
     /// Goes on with what was prepared, while the devices stay open and their loops run. Whether the touch could: else it
     /// is as before.
     pub(super) fn take_over(&mut self, prepared: &mut Prepared, is_ended: fn() -> bool) -> bool {
-        let (Source::Touched(touch), Some(model)) = (&mut self.source, prepared.model.take())
-        else {
+        let (Source::Live(touch), Some(model)) = (&mut self.source, prepared.model.take()) else {
             return false;
         };
         let environment = environment(&prepared.resources, is_ended);
@@ -168,7 +167,7 @@ impl Play {
         let nobody = session.scene.tools.iter().map(|_| None).collect();
         let prepared =
             Prepared::around(session.scene, session.simulation, Resources::default(), gpu)?;
-        let source = Source::Again(Box::new(playback));
+        let source = Source::Replay(Box::new(playback));
         Ok(Self::of(prepared, source, nobody))
     }
 
@@ -176,7 +175,11 @@ impl Play {
     ///
     /// # Errors
     /// When the session is of another scene.
-    pub(super) fn again(&self, name: String, session: &Session) -> Result<PlayedSession, Error> {
+    pub(super) fn played_session(
+        &self,
+        name: String,
+        session: &Session,
+    ) -> Result<PlayedSession, Error> {
         Ok(PlayedSession {
             name,
             scene: self.scene.clone(),

@@ -7,10 +7,10 @@ use palpate_files::scene::Goal;
 use palpate_simulate::performance::{Measure, feedback};
 
 use super::attempt::{Attempt, Done};
-use super::cards::{AttemptAction, CardContext, tasks_button, title, trouble};
+use super::cards::{AttemptAction, CardContext, show_error, tasks_button, title};
 use super::home::{passed_words, time_and_errors};
 use super::page::{self, main_button, or_key, quiet};
-use super::texts::{decimal, phrase, say_if_there, text, tool_name};
+use super::texts::{decimal, phrase, text, tool_name, translate_if_known};
 use crate::style::{DEPTH, FORCE, QUIET, WARNING, WHITE};
 
 /// Shows the result.
@@ -51,7 +51,7 @@ pub(super) fn over(
         let words = text!("result-recorded-in", folder = folder.display().to_string());
         ui.label(quiet(words).small());
     }
-    trouble(ui, attempt);
+    show_error(ui, attempt);
     ui.add_space(8.0);
     ui.horizontal_wrapped(|ui| {
         let retry = main_button(ui, &text!("result-retry"));
@@ -59,7 +59,7 @@ pub(super) fn over(
             *asked = Some(AttemptAction::Begin);
         }
         if done.folder.is_some() && ui.button(text!("common-replay")).clicked() {
-            *asked = Some(AttemptAction::Again);
+            *asked = Some(AttemptAction::Replay);
         }
         tasks_button(ui, around, asked);
     });
@@ -241,7 +241,7 @@ fn words(key: &str, value: f64) -> (String, String) {
     let unit = units.iter().find(|(ending, ..)| plain.ends_with(ending));
     let (ending, factor, unit) = unit.copied().unwrap_or(("", 1.0, ""));
     let of_measure = format!("measure-{}", plain.replace('_', "-"));
-    let name = say_if_there(&of_measure).unwrap_or_else(|| {
+    let name = translate_if_known(&of_measure).unwrap_or_else(|| {
         let name = plain.strip_suffix(ending).unwrap_or(plain);
         name.replace('_', " ")
     });

@@ -13,9 +13,9 @@ pub struct WindowSettings {
     /// The language that was asked for at this start, if any; until another one is set.
     pub asked_language: Option<Language>,
     /// Why the settings differ from the stored ones, or cannot be stored; in a sentence.
-    pub trouble: Option<String>,
+    pub error: Option<String>,
     /// The store of the settings.
-    pub keeper: Box<dyn SettingsKeeper>,
+    pub store: Box<dyn SettingsStore>,
 }
 
 /// Use of a folder or file of the program.
@@ -48,7 +48,7 @@ pub struct CacheUse {
 }
 
 /// The store of settings, and the setup of this machine.
-pub trait SettingsKeeper {
+pub trait SettingsStore {
     /// Keeps the settings.
     ///
     /// # Errors
@@ -90,7 +90,7 @@ impl WindowSettings {
             if self.settings.language != settings.language {
                 self.asked_language = None;
             }
-            self.trouble = self.keeper.save(&settings).err();
+            self.error = self.store.save(&settings).err();
             self.settings = settings;
         }
     }

@@ -31,8 +31,8 @@ impl SettingsPage {
         Self {
             training_folder: folder.map_or(String::new(), |path| path.display().to_string()),
             scale: own.settings.scale,
-            folders: own.keeper.folders(),
-            cache: own.keeper.cache(),
+            folders: own.store.folders(),
+            cache: own.store.cache(),
             devices: None,
             is_folder_changed: false,
         }
@@ -40,9 +40,9 @@ impl SettingsPage {
 
     /// Shows it; whether somebody leaves it.
     pub(super) fn show(&mut self, ui: &mut Ui, own: &mut WindowSettings) -> bool {
-        page::leavable(ui, &text!("settings-title"), |ui| {
-            if let Some(trouble) = &own.trouble {
-                ui.colored_label(FAULT, trouble);
+        page::closable_page(ui, &text!("settings-title"), |ui| {
+            if let Some(error) = &own.error {
+                ui.colored_label(FAULT, error);
             }
             hands(ui, own);
             language(ui, own);
@@ -105,7 +105,7 @@ impl SettingsPage {
                 });
             }
         });
-        if self.is_folder_changed && own.trouble.is_none() {
+        if self.is_folder_changed && own.error.is_none() {
             ui.label(RichText::new(text!("settings-next-start")).color(DEPTH));
         }
     }
@@ -117,13 +117,13 @@ impl SettingsPage {
                 let size = decimal(1e-6 * cache.bytes as f64, 1);
                 ui.label(text!("settings-cache-use", files = cache.files, mb = size));
             }
-            Err(trouble) => {
-                ui.colored_label(FAULT, trouble);
+            Err(error) => {
+                ui.colored_label(FAULT, error);
             }
         }
         let clear = ui.button(text!("settings-clear-cache"));
         if clear.on_hover_text(text!("settings-clear-hint")).clicked() {
-            self.cache = own.keeper.clear_cache();
+            self.cache = own.store.clear_cache();
         }
     }
 
@@ -134,7 +134,7 @@ impl SettingsPage {
         }
         if ui.button(text!("settings-find-devices")).clicked() {
             let pads = gamepads();
-            let mut devices = own.keeper.devices();
+            let mut devices = own.store.devices();
             match pads.as_slice() {
                 [] => devices.push(text!("settings-no-gamepad")),
                 pads => devices.extend(
@@ -182,7 +182,7 @@ fn language(ui: &mut Ui, own: &mut WindowSettings) {
             language,
             ..own.settings.clone()
         });
-        texts::speak(own.language());
+        texts::set_language(own.language());
     }
     let [translated, all] = texts::translated();
     let words = text!("settings-translated", translated = translated, all = all);
@@ -197,9 +197,9 @@ mod tests {
     use eframe::egui::Key;
     use eframe::egui::accesskit::Role;
 
-    use super::super::settings::SettingsKeeper;
+    use super::super::settings::SettingsStore;
     use super::*;
-    use crate::window::seen::Seen;
+    use crate::window::test_page::TestPage;
 
     /// Keeps settings in memory, until the disk is full.
     struct Memory {
@@ -208,7 +208,7 @@ mod tests {
         cached: usize,
     }
 
-    impl SettingsKeeper for Memory {
+    impl SettingsStore for Memory {
         fn save(&mut self, settings: &Settings) -> Result<(), String> {
             if self.is_full {
                 return Err("the disk is full".to_owned());
@@ -249,14 +249,14 @@ mod tests {
             settings: Settings::default(),
             environment: Language::English,
             asked_language: None,
-            trouble: None,
-            keeper: Box::new(keeper),
+            error: None,
+            store: Box::new(keeper),
         };
         (saved, own)
     }
 
     /// Shows the page with the press, with the release, and with what came of it.
-    fn look(seen: &mut Seen, page: &mut SettingsPage, own: &mut WindowSettings) -> bool {
+    fn look(seen: &mut TestPage, page: &mut SettingsPage, own: &mut WindowSettings) -> bool {
         let mut is_left = false;
         for _ in 0..3 {
             seen.show(|ui| is_left |= page.show(ui, own));
@@ -269,7 +269,7 @@ mod tests {
     fn settings_are_changed_by_what_a_screen_reader_reads() {
         let (saved, mut own) = shown(false);
         let mut page = SettingsPage::new(&own);
-        let mut seen = Seen::default();
+        let mut seen = TestPage::default();
         look(&mut seen, &mut page, &mut own);
         assert!(saved.borrow().is_empty(), "nothing is changed yet");
         for (role, label) in [
@@ -304,7 +304,7 @@ mod tests {
     fn settings_are_changed_by_keys() {
         let (saved, mut own) = shown(false);
         let mut page = SettingsPage::new(&own);
-        let mut seen = Seen::default();
+        let mut seen = TestPage::default();
         look(&mut seen, &mut page, &mut own);
         for key in [Key::Tab, Key::Tab, Key::Tab, Key::Space] {
             seen.press(key);
@@ -321,7 +321,7 @@ mod tests {
     fn what_is_not_kept_is_told() {
         let (_, mut own) = shown(true);
         let mut page = SettingsPage::new(&own);
-        let mut seen = Seen::default();
+        let mut seen = TestPage::default();
         look(&mut seen, &mut page, &mut own);
         seen.click(Role::RadioButton, &text!("settings-mouse-right"));
         look(&mut seen, &mut page, &mut own);

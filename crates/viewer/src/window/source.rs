@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use palpate_files::SessionRow;
 use palpate_simulate::interactive::{
-    Interaction, ModelCommand, ModelReport, Quality, Snapshot, Unwritten,
+    Interaction, ModelCommand, ModelReport, Quality, RecordingFailure, Snapshot,
 };
 use palpate_simulate::{Replay, SessionFolderWriter, Simulation};
 
@@ -13,14 +13,14 @@ const BUDGET: Duration = Duration::from_millis(12);
 
 /// How far the pictures may lag behind the pace before the pace waits for them [s of the session]: a stored state
 /// is never farther away once the session was played ahead.
-const MOST_BEHIND: f64 = 2.0;
+const MAX_BEHIND: f64 = 2.0;
 
 /// Source of the displayed state.
 pub(super) enum Source {
     /// Hands that touch now.
-    Touched(Box<Interaction>),
+    Live(Box<Interaction>),
     /// A session that is played again.
-    Again(Box<Playback>),
+    Replay(Box<Playback>),
 }
 
 /// A session that is replayed forwards and backwards, at a chosen pace.
@@ -41,24 +41,24 @@ impl Source {
     /// The latest that there is to see.
     pub(super) fn snapshot(&mut self) -> &Snapshot {
         match self {
-            Self::Touched(interaction) => interaction.snapshot(),
-            Self::Again(playback) => &playback.snapshot,
+            Self::Live(interaction) => interaction.snapshot(),
+            Self::Replay(playback) => &playback.snapshot,
         }
     }
 
     /// The rows that nobody has read yet.
     pub(super) fn rows(&mut self) -> Vec<SessionRow> {
         match self {
-            Self::Touched(interaction) => interaction.rows().collect(),
-            Self::Again(playback) => std::mem::take(&mut playback.rows),
+            Self::Live(interaction) => interaction.rows().collect(),
+            Self::Replay(playback) => std::mem::take(&mut playback.rows),
         }
     }
 
     /// How good the touch was; a session that is played again has none.
     pub(super) fn quality(&mut self) -> Quality {
         match self {
-            Self::Touched(interaction) => interaction.quality(),
-            Self::Again(_) => Quality {
+            Self::Live(interaction) => interaction.quality(),
+            Self::Replay(_) => Quality {
                 model: ModelReport::default(),
                 loops: Vec::new(),
             },
@@ -67,15 +67,15 @@ impl Source {
 
     pub(super) fn is_running(&self) -> bool {
         match self {
-            Self::Touched(interaction) => interaction.is_running(),
-            Self::Again(_) => true,
+            Self::Live(interaction) => interaction.is_running(),
+            Self::Replay(_) => true,
         }
     }
 
     pub(super) fn send(&mut self, command: ModelCommand) {
         match self {
-            Self::Touched(interaction) => interaction.send(command),
-            Self::Again(playback) => match command {
+            Self::Live(interaction) => interaction.send(command),
+            Self::Replay(playback) => match command {
                 ModelCommand::Pause => playback.plays = false,
                 ModelCommand::Resume => playback.plays = true,
                 ModelCommand::Reset => playback.go_to(0),
@@ -87,44 +87,44 @@ impl Source {
     /// Warning about a device that does not answer any more.
     pub(super) fn hung_device(&self) -> Option<String> {
         match self {
-            Self::Touched(interaction) => interaction.hung_device(),
-            Self::Again(_) => None,
+            Self::Live(interaction) => interaction.hung_device(),
+            Self::Replay(_) => None,
         }
     }
 
     /// Arms the forces of all devices again after a fault or an emergency stop.
     pub(super) fn arm(&self) {
-        if let Self::Touched(interaction) = self {
+        if let Self::Live(interaction) = self {
             interaction.arm();
         }
     }
 
     /// Takes the forces of all devices off until somebody arms them.
     pub(super) fn emergency_stop(&self) {
-        if let Self::Touched(interaction) = self {
+        if let Self::Live(interaction) = self {
             interaction.emergency_stop();
         }
     }
 
     /// Reports that the window is alive; without reports, forces are taken off.
     pub(super) fn report_alive(&self) {
-        if let Self::Touched(interaction) = self {
+        if let Self::Live(interaction) = self {
             interaction.report_alive();
         }
     }
 
     /// Records what is touched from a new beginning on.
     pub(super) fn record(&mut self, writer: SessionFolderWriter) {
-        if let Self::Touched(interaction) = self {
+        if let Self::Live(interaction) = self {
             interaction.record(writer);
         }
     }
 
     /// Why the rows of the recording can no longer be written, if they cannot.
-    pub(super) fn unwritten(&self) -> Option<Unwritten> {
+    pub(super) fn recording_failure(&self) -> Option<RecordingFailure> {
         match self {
-            Self::Touched(interaction) => interaction.unwritten(),
-            Self::Again(_) => None,
+            Self::Live(interaction) => interaction.recording_failure(),
+            Self::Replay(_) => None,
         }
     }
 
@@ -134,24 +134,24 @@ impl Source {
         writer: SessionFolderWriter,
     ) -> Result<(), palpate_simulate::Error> {
         match self {
-            Self::Touched(interaction) => interaction.record_elsewhere(writer),
-            Self::Again(_) => Ok(()),
+            Self::Live(interaction) => interaction.record_elsewhere(writer),
+            Self::Replay(_) => Ok(()),
         }
     }
 
     /// Ends the recording.
     pub(super) fn end_recording(&mut self) -> Result<(), palpate_simulate::Error> {
         match self {
-            Self::Touched(interaction) => interaction.end_recording(),
-            Self::Again(_) => Ok(()),
+            Self::Live(interaction) => interaction.end_recording(),
+            Self::Replay(_) => Ok(()),
         }
     }
 
     /// The session that is played again, if one is.
     pub(super) fn playback(&mut self) -> Option<&mut Playback> {
         match self {
-            Self::Touched(_) => None,
-            Self::Again(playback) => Some(playback),
+            Self::Live(_) => None,
+            Self::Replay(playback) => Some(playback),
         }
     }
 }
@@ -221,7 +221,7 @@ impl Playback {
     /// Plays on by so many seconds of the clock, as far as there is time.
     pub(super) fn go_on(&mut self, elapsed: f64) {
         let behind = self.replay.time(self.goal) - self.replay.time(self.replay.played());
-        if self.plays && behind < MOST_BEHIND {
+        if self.plays && behind < MAX_BEHIND {
             self.at += elapsed.min(0.1) * self.pace;
             while self.goal < self.replay.steps() && self.replay.time(self.goal) <= self.at {
                 self.goal += 1;

@@ -15,7 +15,7 @@ use palpate_simulate::performance::{Phrase, PhraseValue};
 /// The text of a key, with its placeholders filled: `text!("home-tried", count = 3)`.
 macro_rules! text {
     ($key:expr $(, $name:ident = $value:expr)* $(,)?) => {
-        $crate::window::texts::say($key, &[$((stringify!($name), $value.into())),*])
+        $crate::window::texts::translate($key, &[$((stringify!($name), $value.into())),*])
     };
 }
 pub(super) use text;
@@ -61,7 +61,7 @@ impl Catalogue {
         Self { language, bundle }
     }
 
-    fn say(&self, key: &str, values: &[(&str, FluentValue<'_>)]) -> Option<String> {
+    fn translate(&self, key: &str, values: &[(&str, FluentValue<'_>)]) -> Option<String> {
         let pattern = self.bundle.get_message(key)?.value()?;
         let values: FluentArgs<'_> = values.iter().cloned().collect();
         // What a phrase lacks is seen in its place.
@@ -92,7 +92,7 @@ fn keys(source: &str) -> impl Iterator<Item = &str> {
 }
 
 /// From now on the texts of this thread are in `language`.
-pub(super) fn speak(language: Language) {
+pub(super) fn set_language(language: Language) {
     SPOKEN.with_borrow_mut(|[spoken, _]| {
         if spoken.language != language {
             *spoken = Catalogue::new(language);
@@ -117,17 +117,17 @@ pub(super) fn translated() -> [usize; 2] {
 }
 
 /// The text of a key, in the chosen language or else in English, with its placeholders filled.
-pub(super) fn say(key: &str, values: &[(&str, FluentValue<'_>)]) -> String {
+pub(super) fn translate(key: &str, values: &[(&str, FluentValue<'_>)]) -> String {
     find(key, values).unwrap_or_else(|| key.to_owned())
 }
 
 /// The text of a key that is made of a name; none where the catalogue does not know the name.
-pub(super) fn say_if_there(key: &str) -> Option<String> {
+pub(super) fn translate_if_known(key: &str) -> Option<String> {
     find(key, &[])
 }
 
 fn find(key: &str, values: &[(&str, FluentValue<'_>)]) -> Option<String> {
-    SPOKEN.with_borrow(|catalogues| catalogues.iter().find_map(|own| own.say(key, values)))
+    SPOKEN.with_borrow(|catalogues| catalogues.iter().find_map(|own| own.translate(key, values)))
 }
 
 /// The name of a tool of a scene: `left` and `right` are hands.
@@ -142,7 +142,7 @@ pub(super) fn tool_name(name: &str) -> String {
 /// Label of a key of the keyboard.
 pub(super) fn key_name(key: &str) -> String {
     let named = format!("key-{}", key.to_lowercase());
-    say_if_there(&named).unwrap_or_else(|| key.to_owned())
+    translate_if_known(&named).unwrap_or_else(|| key.to_owned())
 }
 
 /// A phrase of the simulation in the chosen language.
@@ -154,7 +154,7 @@ pub(super) fn phrase(own: &Phrase) -> String {
         }
     };
     let values = own.values.iter().map(|(name, own)| (*name, value(own)));
-    say(own.key, &values.collect::<Vec<_>>())
+    translate(own.key, &values.collect::<Vec<_>>())
 }
 
 /// A number with so many decimals, as the chosen language writes it.
@@ -175,9 +175,9 @@ pub(super) fn written(number: &str) -> String {
 pub(super) fn of_task(words: &str) -> String {
     let key = SPOKEN.with_borrow(|[_, english]| {
         let mut own = keys(ENGLISH).filter(|key| key.starts_with(OF_TASKS));
-        own.find(|key| english.say(key, &[]).as_deref() == Some(words))
+        own.find(|key| english.translate(key, &[]).as_deref() == Some(words))
     });
-    key.map_or_else(|| words.to_owned(), |key| say(key, &[]))
+    key.map_or_else(|| words.to_owned(), |key| translate(key, &[]))
 }
 
 #[cfg(test)]

@@ -27,7 +27,7 @@ fn a_line_is_known_as_the_textbooks_say() {
     let deviation = (fit.sum_of_squares() / 38.0).sqrt();
     // Of 38 degrees of freedom, from tables.
     let quantile = 2.024_394;
-    let reach = uncertainty(&fit).reach_of_values(&fit, 0.95);
+    let reach = uncertainty(&fit).prediction_half_widths(&fit, 0.95);
     for (x, reach) in places.iter().zip(reach) {
         let error: f64 = reach / quantile;
         let known = deviation * (1.0 / 40.0 + (x - mean).powi(2) / spread).sqrt();

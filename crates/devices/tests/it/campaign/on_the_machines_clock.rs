@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use palpate_device_stand_ins::StandInClock;
-use palpate_servo::supervisor::SILENCE;
+use palpate_servo::supervisor::REPORT_TIMEOUT;
 use palpate_servo::{
     Clock, Fault, ServoLoop, ServoReader, ServoSettings, ServoThread, Stage, StopReason,
     Supervisor, Vec3,
@@ -64,17 +64,19 @@ const ORDERS: [Order; 6] = [
         name: "killed window",
         // It never reports again.
         give: |session, now| session.report(now),
-        promised: 1e3 * SILENCE + 5.0,
-        fault: Some(Fault::ProgramSilent { limit: SILENCE }),
+        promised: 1e3 * REPORT_TIMEOUT + 5.0,
+        fault: Some(Fault::ProgramSilent {
+            limit: REPORT_TIMEOUT,
+        }),
     },
     Order::new(
         "Ctrl-C or SIGTERM",
-        |session, _| session.trip_because(StopReason::Signal),
+        |session, _| session.trip_with_reason(StopReason::Signal),
         Some(Fault::Interrupted),
     ),
     Order::new(
         "disk full",
-        |session, _| session.trip_because(StopReason::Unrecorded),
+        |session, _| session.trip_with_reason(StopReason::Unrecorded),
         Some(Fault::Unrecorded),
     ),
     Order::new("pause", |session, _| session.pause(), None),

@@ -46,7 +46,7 @@ fn in_contact<'w>(
     }
     let last: Sample = last.unwrap();
     assert!(
-        last.stage == Stage::Live && last.sent.norm() > 0.3,
+        last.stage == Stage::Live && last.output.norm() > 0.3,
         "{last:?}"
     );
     servo

@@ -28,7 +28,7 @@ pub(crate) fn hand() -> VirtualDevice {
         let swing = (std::f64::consts::TAU * 2.0 * since).sin();
         way.push(place(0.76 + since, -4e-3 + 1.5e-3 * swing));
     }
-    VirtualDevice::new(Trajectory::way(way).unwrap())
+    VirtualDevice::new(Trajectory::waypoints(way).unwrap())
 }
 
 /// The wall, until its model or its program fails.
@@ -166,9 +166,9 @@ impl World {
                 Trouble::Late => Misbehaviour::Stalls(Duration::from_millis(40)),
                 Trouble::Doubled => Misbehaviour::Repeats(20),
                 Trouble::NotANumber => Misbehaviour::Coordinate("NaN"),
-                Trouble::Lost => Misbehaviour::Drops,
+                Trouble::Lost => Misbehaviour::Disconnects,
                 Trouble::TakesOff => Misbehaviour::NoPower,
-                _ => Misbehaviour::Swallows,
+                _ => Misbehaviour::NoReply,
             })),
             StandIn::Library(library) => {
                 let (switch, value) = match (trouble, self.driver) {

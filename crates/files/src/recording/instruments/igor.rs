@@ -8,9 +8,9 @@
 use super::igor_pair::position_named;
 use super::igor_wave::{Wave, columns};
 use super::{Curve, InstrumentFile};
+use crate::atomic_write::{MAX_TABLE_BYTES, read_bytes};
 use crate::quantity::plain_quantity;
 use crate::recording::{Recording, RecordingHeader};
-use crate::whole_file::{MOST_OF_TABLE, read_bytes};
 use crate::{Domain, Error};
 
 /// Columns of the base's position, the best first, and of the deflection in metres and in volts.
@@ -100,7 +100,7 @@ fn paired(file: &InstrumentFile<'_>, mut wave: Wave) -> Result<Wave, Error> {
              (Concatenate), label the columns (SetDimLabel), and save that wave",
         )
     })?;
-    let bytes = read_bytes(&position, MOST_OF_TABLE)?;
+    let bytes = read_bytes(&position, MAX_TABLE_BYTES)?;
     let other = InstrumentFile {
         bytes: &bytes,
         path: &position,

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::igor::{DEFLECTIONS, POSITIONS, VOLTS};
 use super::igor_wave::columns;
-use crate::whole_file::{MOST_OF_TABLE, read_bytes};
+use crate::atomic_write::{MAX_TABLE_BYTES, read_bytes};
 
 /// The file with the position of the base that belongs to the file of a deflection; none where there is no such file.
 pub fn position_beside(deflection: &Path) -> Option<PathBuf> {
@@ -24,7 +24,7 @@ pub(super) fn position_named<'n>(
 /// or no deflection is in the same folder.
 pub fn deflection_beside(position: &Path) -> Option<PathBuf> {
     let (_, deflection) = renamed(position, &POSITIONS, &deflection_names())?;
-    let bytes = read_bytes(position, MOST_OF_TABLE).ok()?;
+    let bytes = read_bytes(position, MAX_TABLE_BYTES).ok()?;
     (columns(&bytes)? == 1).then_some(deflection)
 }
 

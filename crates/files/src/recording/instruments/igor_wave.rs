@@ -3,7 +3,7 @@
 //!
 //! *Limits*: real numbers of 32 or 64 bits; units of up to three letters.
 
-use super::{InstrumentFile, MOST_SAMPLES};
+use super::{InstrumentFile, MAX_SAMPLES};
 use crate::Error;
 
 /// Dimensions of a wave, and the length of a label [bytes].
@@ -12,7 +12,7 @@ const LABEL: usize = 32;
 /// A unit [bytes].
 const UNIT: usize = 4;
 /// Columns of a wave at most.
-const MOST_COLUMNS: usize = 64;
+const MAX_COLUMNS: usize = 64;
 
 /// Whether a file is a wave: its version, in either order of bytes.
 pub(super) fn is_wave(bytes: &[u8]) -> bool {
@@ -195,9 +195,9 @@ impl Wave {
         }
         let (rows, columns) = wave
             .shape(&layout)
-            .filter(|(rows, columns)| *rows > 0 && *columns <= MOST_COLUMNS)
+            .filter(|(rows, columns)| *rows > 0 && *columns <= MAX_COLUMNS)
             .ok_or_else(|| damaged("does not have columns of numbers, as a force curve has"))?;
-        if rows.saturating_mul(columns) > MOST_SAMPLES {
+        if rows.saturating_mul(columns) > MAX_SAMPLES {
             return Err(damaged("has more than 33,554,432 numbers"));
         }
         let step = wave.double(layout.step);

@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 use super::jpk_segment::{Linear, Segment};
 use super::properties::Properties;
 use super::zip::Archive;
-use super::{Curve, InstrumentFile, MOST_SAMPLES};
+use super::{Curve, InstrumentFile, MAX_SAMPLES};
 use crate::recording::{Recording, RecordingHeader};
 use crate::{Domain, Error, quantity::plain_quantity};
 
@@ -59,7 +59,7 @@ pub(super) fn read(file: &InstrumentFile<'_>) -> Result<Vec<Recording>, Error> {
     for folder in folders {
         let recording = map.curve(&folder)?;
         samples += recording.time_s().len();
-        if samples > MOST_SAMPLES {
+        if samples > MAX_SAMPLES {
             let cause = "has more than 33,554,432 samples; save fewer curves in a file";
             return Err(file.damaged("the map", cause));
         }
@@ -151,7 +151,7 @@ impl Map<'_> {
             curve.deflection.extend(calibration.deflection.of(&values));
             curve.force.extend(calibration.force.of(&values));
             start += duration;
-            if curve.time.len() > MOST_SAMPLES {
+            if curve.time.len() > MAX_SAMPLES {
                 return Err(part("has more than 33,554,432 samples"));
             }
         }

@@ -10,7 +10,7 @@ use super::zip::Archive;
 use crate::Error;
 
 /// Conversions, each on top of another, at most.
-const MOST_CONVERSIONS: usize = 8;
+const MAX_CONVERSIONS: usize = 8;
 
 /// A segment, such as an approach or a pause.
 pub(super) struct Segment<'f> {
@@ -126,7 +126,7 @@ impl Segment<'_> {
         let base = self.base(name)?;
         let mut all = Linear::SAME;
         let mut next = conversion;
-        for _ in 0..MOST_CONVERSIONS {
+        for _ in 0..MAX_CONVERSIONS {
             if next == base {
                 return Some(all);
             }

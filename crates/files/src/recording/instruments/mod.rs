@@ -23,11 +23,11 @@ use std::path::Path;
 pub use igor_pair::{deflection_beside, position_beside};
 
 use super::{ForeignColumns, Origin, Recording, RecordingHeader, Samples};
-use crate::whole_file::{MOST_OF_TABLE, read_bytes};
+use crate::atomic_write::{MAX_TABLE_BYTES, read_bytes};
 use crate::{Domain, Error};
 
 /// Samples of all curves of one file that are read at most [-].
-const MOST_SAMPLES: usize = 1 << 25;
+const MAX_SAMPLES: usize = 1 << 25;
 
 impl Recording {
     /// Reads all recordings in a file: of this project, of an instrument, or the table of another program. An instrument's
@@ -41,7 +41,7 @@ impl Recording {
         given: &RecordingHeader,
     ) -> Result<Vec<Self>, Error> {
         let path = path.as_ref();
-        Self::parse_all(&read_bytes(path, MOST_OF_TABLE)?, path, columns, given)
+        Self::parse_all(&read_bytes(path, MAX_TABLE_BYTES)?, path, columns, given)
     }
 
     /// Reads all recordings in the `bytes` of a file, whose name in errors is `path`. The spring constant and the
@@ -78,7 +78,7 @@ impl Recording {
         }
         let recording = match columns.names_any() || !Self::states_format(text) {
             true => Self::parse_foreign(text, path, columns)?,
-            false => Self::parse(&crate::whole_file::text(bytes.to_vec(), path)?, path)?,
+            false => Self::parse(&crate::atomic_write::text(bytes.to_vec(), path)?, path)?,
         };
         Ok(vec![recording])
     }

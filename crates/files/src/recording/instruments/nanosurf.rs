@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 
 use super::nanosurf_places::Places;
 use super::properties::number;
-use super::{Curve, InstrumentFile, MOST_SAMPLES};
+use super::{Curve, InstrumentFile, MAX_SAMPLES};
 use crate::quantity::plain_quantity;
 use crate::recording::{Recording, RecordingHeader};
 use crate::{Domain, Error};
@@ -137,7 +137,7 @@ pub(super) fn read(file: &InstrumentFile<'_>) -> Result<Vec<Recording>, Error> {
     for line in 0..lines {
         let recording = curves.curve(line)?;
         samples += recording.time_s().len();
-        if samples > MOST_SAMPLES {
+        if samples > MAX_SAMPLES {
             return Err(damaged(
                 "has more than 33,554,432 samples; save fewer curves in a file",
             ));

@@ -21,7 +21,7 @@ const MODE: &str = "DataSet\\SpecInfos\\SpecHeader";
 const GRIDS: &str = "DataSet\\SpecInfos\\SpecMapTable";
 const LISTED: &str = "DataSet\\SpecInfos\\SpecPosTable";
 /// Grids of a file at most.
-const MOST_GRIDS: usize = 256;
+const MAX_GRIDS: usize = 256;
 
 /// The positions of all curves.
 pub(super) enum Places {
@@ -110,7 +110,7 @@ impl Places {
         let Some(count) = header.get(GRIDS, "Count") else {
             return Self::Unstated;
         };
-        let count = count.trim().parse().unwrap_or(0usize).min(MOST_GRIDS);
+        let count = count.trim().parse().unwrap_or(0usize).min(MAX_GRIDS);
         let grids = (0..count).map(|place| Grid::parse(header.get(GRIDS, &format!("Map{place}"))?));
         match grids.collect::<Option<Vec<_>>>() {
             Some(grids) => Self::Grids(grids),

@@ -11,7 +11,7 @@ use crate::units::Unit;
 use crate::{Domain, Error};
 
 /// How many lines stand above the table at most [-].
-const MOST_LINES: usize = 200;
+const MAX_LINES: usize = 200;
 /// Columns of the table, and their SI units.
 const COLUMNS: [(&str, &str); 4] = [
     ("Time", "s"),
@@ -27,7 +27,7 @@ pub(super) fn read(text: &str, file: &InstrumentFile<'_>) -> Result<Option<Recor
     };
     let Some(head) = text
         .lines()
-        .take(MOST_LINES)
+        .take(MAX_LINES)
         .find(is_head)
         .filter(|_| text.starts_with("Date\t"))
     else {

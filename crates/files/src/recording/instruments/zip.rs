@@ -13,7 +13,7 @@ use flate2::read::DeflateDecoder;
 type Cause = &'static str;
 
 /// The largest part that is read [bytes].
-const MOST_OF_PART: u64 = 1 << 28;
+const MAX_PART_BYTES: u64 = 1 << 28;
 /// Deflate expands a byte to at most 1032 [RFC 1951].
 const EXPANSION: u64 = 1032;
 /// The record at the end, without its comment; of ZIP64 the record before it and its locator between the two [bytes].
@@ -91,7 +91,7 @@ impl<'b> Archive<'b> {
         }
         let packed = self.packed(part).ok_or("is cut short")?;
         let most = EXPANSION * (packed.len() as u64 + 1);
-        if part.size > MOST_OF_PART || part.size > most {
+        if part.size > MAX_PART_BYTES || part.size > most {
             return Err("states a size that it cannot have");
         }
         let mut content = Vec::with_capacity(part.size as usize);

@@ -49,7 +49,7 @@ pub struct OnSurface {
 }
 
 /// No scene has more neighbours.
-const MOST_NEIGHBOURS: u64 = 1000;
+const MAX_NEIGHBOURS: u64 = 1000;
 
 /// The keys of a draw, of which one says how.
 pub(crate) const KEYS: &[Key] = &[
@@ -103,7 +103,7 @@ impl OnSurface {
         Key::integer(
             "neighbour",
             1,
-            MOST_NEIGHBOURS,
+            MAX_NEIGHBOURS,
             "The surface is that of the `[[neighbour]]` with this number, from 1 in the order of the file.",
         )
         .optional("1", "it is the organ's"),
@@ -119,7 +119,7 @@ impl OnSurface {
     }
 
     /// Whether a point [m] with an outward unit normal belongs to it.
-    pub fn holds(&self, point: [f64; 3], normal: [f64; 3]) -> bool {
+    pub fn contains(&self, point: [f64; 3], normal: [f64; 3]) -> bool {
         let inside =
             (0..3).all(|axis| (self.min_m[axis]..=self.max_m[axis]).contains(&point[axis]));
         inside
@@ -145,7 +145,7 @@ impl Distribution {
     /// All of a table `[draw]`.
     pub(super) fn all(entry: &Entry, keys: &Keys<'_>) -> Result<Vec<Self>, Error> {
         let Value::Table(table) = &entry.value else {
-            return Err(keys.bad_entry("draw", entry, "a table of distributions"));
+            return Err(keys.invalid_entry("draw", entry, "a table of distributions"));
         };
         let each = table
             .iter()
@@ -160,7 +160,7 @@ impl Distribution {
     fn one(name: &str, entry: &Entry, keys: &Keys<'_>) -> Result<Self, Error> {
         let expected = "a distribution, such as { uniform = [1.0, 2.0] }";
         let Value::Table(table) = &entry.value else {
-            return Err(keys.bad_entry(name, entry, expected));
+            return Err(keys.invalid_entry(name, entry, expected));
         };
         let own = keys.of_entry(&format!("draw.{name}"), entry, table, KEYS);
         own.only_declared()?;
@@ -182,19 +182,20 @@ impl Distribution {
             _ => false,
         };
         if !has(name, "on_surface") {
-            return Err(self.bad("below", name, "the name of a draw `on_surface`"));
+            return Err(self.invalid("below", name, "the name of a draw `on_surface`"));
         }
         match depth {
-            Depth::Drawn(name) if !has(name, "uniform") && !has(name, "one_of") => Err(self.bad(
-                "depth_m",
-                name,
-                "a length, or the name of a draw of numbers",
-            )),
+            Depth::Drawn(name) if !has(name, "uniform") && !has(name, "one_of") => Err(self
+                .invalid(
+                    "depth_m",
+                    name,
+                    "a length, or the name of a draw of numbers",
+                )),
             _ => Ok(()),
         }
     }
 
-    fn bad(&self, key: &str, found: &str, expected: &'static str) -> Error {
+    fn invalid(&self, key: &str, found: &str, expected: &'static str) -> Error {
         Error::BadValue {
             place: self.place.clone(),
             key: format!("draw.{}.{key}", self.name),
@@ -246,7 +247,7 @@ impl Distribution {
             Depth::Fixed(depth) => *depth,
             Depth::Drawn(depth) => match values.iter().find(|(own, _)| own == depth) {
                 Some((_, Drawn::Number(depth))) => *depth,
-                _ => return Err(self.bad("depth_m", depth, "the name of a draw of numbers")),
+                _ => return Err(self.invalid("depth_m", depth, "the name of a draw of numbers")),
             },
         };
         let point = std::array::from_fn(|axis| above.point_m[axis] - depth * above.normal[axis]);
@@ -269,7 +270,7 @@ impl Recipe {
                 let expected = "a list of numbers, of vectors or of texts";
                 let values = keys.values_of("one_of", expected, Drawn::of)?;
                 if values.is_empty() {
-                    return Err(keys.bad("one_of", expected));
+                    return Err(keys.invalid("one_of", expected));
                 }
                 Self::OneOf(values)
             }
@@ -308,7 +309,7 @@ impl Recipe {
             {
                 Ok(Self::UniformVector([*least, *most]))
             }
-            _ => Err(keys.bad("uniform", expected)),
+            _ => Err(keys.invalid("uniform", expected)),
         }
     }
 

@@ -201,7 +201,7 @@ impl Variant {
         for (name, entry) in own.any_table("drawn")?.into_iter().flatten() {
             let expected = "a number, three numbers or a text";
             let value =
-                Drawn::of(&entry.value).ok_or_else(|| own.bad_entry(name, entry, expected))?;
+                Drawn::of(&entry.value).ok_or_else(|| own.invalid_entry(name, entry, expected))?;
             drawn.push((name.clone(), value));
         }
         Ok(Some(Self { seed, drawn }))

@@ -107,7 +107,7 @@ fn in_toml(value: Value) -> Toml {
             Err(_) => Toml::Float(value as f64),
         },
         Value::Number(value, _) => Toml::Float(value),
-        Value::Truth(truth) => Toml::Boolean(truth),
+        Value::Boolean(truth) => Toml::Boolean(truth),
         Value::Date(date) => match date.parse() {
             Ok(date) => Toml::Datetime(date),
             Err(_) => Toml::String(date),

@@ -1,4 +1,4 @@
-use super::super::raw::MOST_TRIANGLES;
+use super::super::raw::MAX_TRIANGLES;
 use super::buffers::Bytes;
 use super::document::{Document, part};
 use crate::ReadFault;
@@ -76,7 +76,7 @@ impl Source<'_> {
                 found: room as u64,
             });
         }
-        let most = 3 * MOST_TRIANGLES;
+        let most = 3 * MAX_TRIANGLES;
         if count as u64 > most {
             return Err(ReadFault::TooLarge {
                 what: "vertex numbers",

@@ -3,7 +3,7 @@ use std::ops::Deref;
 use std::path::{Component, Path, PathBuf};
 use std::rc::Rc;
 
-use super::super::{MOST_BYTES, base64, read_whole};
+use super::super::{MAX_BYTES, base64, read_whole};
 use super::document::Document;
 use crate::ReadFault;
 use crate::io::text::shortened;
@@ -34,7 +34,7 @@ pub(super) fn open_buffers<'a>(
     folder: &Path,
 ) -> Result<Vec<Bytes<'a>>, ReadFault> {
     let mut files = BTreeMap::new();
-    let mut left = MOST_BYTES;
+    let mut left = MAX_BYTES;
     let mut buffers = Vec::new();
     for buffer in &document.buffers {
         let bytes = match &buffer.uri {
@@ -88,8 +88,8 @@ fn by_uri(
     let bytes = read_whole(&folder.join(&path), *left).map_err(|fault| match fault {
         ReadFault::TooLarge { what, found, .. } => ReadFault::TooLarge {
             what,
-            found: found + (MOST_BYTES - *left),
-            most: MOST_BYTES,
+            found: found + (MAX_BYTES - *left),
+            most: MAX_BYTES,
         },
         _ => elsewhere(),
     })?;

@@ -11,7 +11,7 @@ use std::path::Path;
 
 use flate2::read::MultiGzDecoder;
 
-use super::{MOST_BYTES, read_whole};
+use super::{MAX_BYTES, read_whole};
 use crate::{LabelMap, ReadError, ReadFault};
 
 /// How a compressed file begins.
@@ -40,7 +40,7 @@ fn read_here(path: &Path) -> Result<LabelMap, ReadFault> {
         map.add_names(names::in_sidecar_file(&file));
         return Ok(map);
     }
-    let bytes = read_whole(path, MOST_BYTES)?;
+    let bytes = read_whole(path, MAX_BYTES)?;
     let mut map = if name.ends_with(".nii") || name.ends_with(".nii.gz") {
         nifti::read(&mut unpacked(&bytes))?
     } else if name.ends_with(".nrrd") {

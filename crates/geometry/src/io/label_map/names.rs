@@ -3,7 +3,7 @@ use std::fs;
 use std::path::Path;
 
 /// The longest list of names that is read [bytes].
-const MOST_BYTES: u64 = 1 << 20;
+const MAX_BYTES: u64 = 1 << 20;
 
 /// Names in a JSON file next to the map: `{"labels": {"1": "liver"}}`. None when there is no such
 /// file, or it is about something else.
@@ -12,7 +12,7 @@ pub(super) fn in_sidecar_file(map: &Path) -> Vec<(u16, String)> {
     let stem = name.trim_end_matches(".gz");
     let stem = stem.rsplit_once('.').map_or(stem, |(stem, _)| stem);
     let path = map.with_file_name(format!("{stem}.json"));
-    let is_small = fs::metadata(&path).is_ok_and(|m| m.is_file() && m.len() <= MOST_BYTES);
+    let is_small = fs::metadata(&path).is_ok_and(|m| m.is_file() && m.len() <= MAX_BYTES);
     let text = if is_small {
         fs::read(&path)
     } else {

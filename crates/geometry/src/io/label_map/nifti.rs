@@ -13,7 +13,7 @@ use crate::{LabelMap, ReadFault, Vec3};
 const HEADER_BYTES: usize = 348;
 
 /// The longest extension that is read [bytes]; they hold names.
-const MOST_EXTENSION: f64 = 1e7;
+const MAX_EXTENSION: f64 = 1e7;
 
 struct Header {
     bytes: [u8; HEADER_BYTES],
@@ -161,7 +161,7 @@ pub(super) fn read(source: &mut dyn Read) -> Result<LabelMap, ReadFault> {
     let encoding = header.encoding()?;
     let (steps, origin, warnings) = header.placement();
     let start = header.float(108);
-    if !(start >= HEADER_BYTES as f64 && start <= MOST_EXTENSION) {
+    if !(start >= HEADER_BYTES as f64 && start <= MAX_EXTENSION) {
         return Err(ReadFault::BadHeader {
             what: "beginning of the voxels",
             found: start.to_string(),

@@ -11,7 +11,7 @@ use crate::io::text::unexpected;
 use crate::{LabelMap, LengthUnit, ReadFault, Vec3};
 
 /// The longest header that is read [bytes]; that of a hundred segments has some ten thousand.
-const MOST_HEADER: usize = 1 << 20;
+const MAX_HEADER: usize = 1 << 20;
 
 /// A field or key of the header.
 struct Entry {
@@ -31,7 +31,7 @@ impl Header {
             let read = bytes.len() - rest.len();
             let line_end = rest
                 .iter()
-                .take(MOST_HEADER - read)
+                .take(MAX_HEADER - read)
                 .position(|&b| b == b'\n');
             let Some(end) = line_end else {
                 break;
@@ -57,10 +57,10 @@ impl Header {
                 value: value.trim().to_owned(),
             });
         }
-        match bytes.len() > MOST_HEADER {
+        match bytes.len() > MAX_HEADER {
             true => Err(ReadFault::BadHeader {
                 what: "length",
-                found: format!("more than {MOST_HEADER} bytes"),
+                found: format!("more than {MAX_HEADER} bytes"),
                 expected: "an empty line before that",
             }),
             false => Err(ReadFault::EndsEarly {

@@ -5,7 +5,7 @@ use crate::ReadFault;
 
 /// Voxels that are read at most: a whole body in slices of 1 mm has fewer, and a damaged header must not fill the memory.
 /// Their labels take 0.8 GB.
-const MOST_VOXELS: u64 = 400_000_000;
+const MAX_VOXELS: u64 = 400_000_000;
 
 /// Bytes that are unpacked at a time; a whole number of voxels of any kind.
 const CHUNK: usize = 1 << 16;
@@ -67,11 +67,11 @@ pub(super) fn size(lengths: [i64; 3]) -> Result<[usize; 3], ReadFault> {
         .iter()
         .try_fold(1u64, |product, &length| product.checked_mul(length as u64));
     match product {
-        Some(found) if found <= MOST_VOXELS => Ok(lengths.map(|length| length as usize)),
+        Some(found) if found <= MAX_VOXELS => Ok(lengths.map(|length| length as usize)),
         found => Err(ReadFault::TooLarge {
             what: "voxels",
             found: found.unwrap_or(u64::MAX),
-            most: MOST_VOXELS,
+            most: MAX_VOXELS,
         }),
     }
 }

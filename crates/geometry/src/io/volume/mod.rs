@@ -22,7 +22,7 @@ use std::path::Path;
 
 use super::raw::RawMesh;
 use super::unit::{extent_warning, unit_by_extent};
-use super::{MOST_BYTES, in_unit, read_whole};
+use super::{MAX_BYTES, in_unit, read_whole};
 use crate::mesh::tetrahedra::six_fold_volume;
 use crate::{LengthUnit, NodeId, ReadError, ReadFault, TetrahedronMesh, Vec3};
 
@@ -115,7 +115,7 @@ fn read_here(path: &Path, unit: Option<LengthUnit>) -> Result<ImportedTetrahedra
             return Err(ReadFault::UnknownVolumeExtension { found });
         }
     };
-    let bytes = read_whole(path, MOST_BYTES)?;
+    let bytes = read_whole(path, MAX_BYTES)?;
     let text = String::from_utf8_lossy(&bytes);
     let raw = match format {
         VolumeFormat::Msh => msh::read(&text)?,

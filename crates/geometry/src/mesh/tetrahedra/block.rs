@@ -25,11 +25,11 @@ impl TetrahedronMesh {
             return Err(TetrahedronError::NotALength { what, found });
         }
         let expected = 6.0 * cells.iter().map(|&n| n as f64).product::<f64>();
-        if expected > Self::MOST_TETRAHEDRA as f64 {
+        if expected > Self::MAX_TETRAHEDRA as f64 {
             return Err(TetrahedronError::TooMany {
                 expected,
                 edge_m: size.x / cells[0] as f64,
-                most: Self::MOST_TETRAHEDRA,
+                most: Self::MAX_TETRAHEDRA,
             });
         }
         if expected == 0.0 {

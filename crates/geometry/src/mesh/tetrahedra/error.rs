@@ -43,7 +43,7 @@ pub enum TetrahedronError {
     #[error(
         "the face {corners:?} belongs to {tetrahedra} tetrahedra where at most two can meet; remove the doubled ones"
     )]
-    CrowdedFace {
+    NonManifoldFace {
         /// The vertices of the face.
         corners: [usize; 3],
         /// How many tetrahedra have it.
@@ -121,7 +121,7 @@ impl TetrahedronError {
             | Self::IndexOutOfRange { .. }
             | Self::Inverted { .. }
             | Self::Flat { .. }
-            | Self::CrowdedFace { .. }
+            | Self::NonManifoldFace { .. }
             | Self::WrongRegions { .. }
             | Self::NotEnclosed { .. }
             | Self::NotALength { .. }

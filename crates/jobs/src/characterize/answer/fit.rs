@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::DMatrix;
 use palpate_characterize::Characterization;
-use palpate_characterize::inverse::{Correlations, LawDescription, SoughtLaw};
+use palpate_characterize::inverse::{CandidateLaw, Correlations, LawDescription};
 use palpate_characterize::lumped::{PieceTest, UniaxialFit};
 use serde::{Deserialize, Serialize};
 
@@ -70,7 +70,7 @@ impl CovarianceAnswer {
 /// How each law was fitted, by its key.
 pub(super) fn fits(found: &Characterization) -> BTreeMap<String, FitAnswer> {
     let criteria = found.criteria();
-    let criterion = |law: SoughtLaw| {
+    let criterion = |law: CandidateLaw| {
         let own = criteria.iter().find(|(of, _)| *of == law);
         own.map(|(_, criterion)| *criterion)
     };

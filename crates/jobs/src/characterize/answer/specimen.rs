@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use palpate_characterize::fit::correlated_pairs;
-use palpate_characterize::inverse::{Correlations, SoughtLaw};
+use palpate_characterize::inverse::{CandidateLaw, Correlations};
 use palpate_characterize::{Characterization, CleanRecording, WithoutGeometry};
 use palpate_files::recording::RecordingHeader;
 use palpate_files::tissue::LawName;
@@ -94,7 +94,7 @@ impl Specimen {
 
     /// The fitted elastic laws, by their keys, the simplest first.
     pub fn laws(&self) -> impl Iterator<Item = (&'static str, &LawAnswer)> {
-        let laws = SoughtLaw::NAMES.into_iter().map(LawName::word);
+        let laws = CandidateLaw::NAMES.into_iter().map(LawName::word);
         laws.filter_map(|name| Some((name, self.laws.get(name)?)))
     }
 
@@ -192,7 +192,7 @@ fn identifiability(found: &Characterization) -> Vec<String> {
     let pairs = own.map(|own| correlated_pairs(&own.names, &own.matrix));
     let law = found.preferred_law();
     // The parameters of the law come first.
-    let count = law.map_or(0, SoughtLaw::count);
+    let count = law.map_or(0, CandidateLaw::count);
     let named = |(places, pair): ([usize; 2], String)| match law {
         Some(law) if places.iter().any(|place| *place < count) => {
             format!("{}: {pair}", law.name().word())

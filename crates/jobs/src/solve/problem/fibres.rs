@@ -79,9 +79,9 @@ impl Fibres {
     fn constant(keys: &Keys<'_>, axis: [f64; 3], across: Option<[f64; 3]>) -> Result<Self, Error> {
         let frame = match across {
             Some(across) => FibreFrame::new(&axis.into(), &across.into())
-                .ok_or_else(|| keys.bad("across", "a direction that is not that of `axis`"))?,
+                .ok_or_else(|| keys.invalid("across", "a direction that is not that of `axis`"))?,
             None => FibreFrame::along(&axis.into())
-                .ok_or_else(|| keys.bad("axis", "a direction of finite length"))?,
+                .ok_or_else(|| keys.invalid("axis", "a direction of finite length"))?,
         };
         Ok(Self {
             field: FibreField::constant(frame),

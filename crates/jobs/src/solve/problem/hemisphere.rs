@@ -46,7 +46,7 @@ impl Hemisphere {
         let what = "the arc from the pole to the base";
         let depth = keys.required_number("depth_m")?;
         if depth >= radius {
-            return Err(keys.bad("depth_m", format!("less than the radius, {radius} m")));
+            return Err(keys.invalid("depth_m", format!("less than the radius, {radius} m")));
         }
         let patch = keys.word("patch", BONDS)?;
         Ok(Self {

@@ -1,7 +1,7 @@
 use palpate_files::{Domain, Error, Key, Keys};
 use palpate_mechanics::contact::{Friction, FrictionLaw};
 use palpate_mechanics::finite_elements::indentation::{
-    Base, Block, Indenter, IndenterShape, Relaxing, Side,
+    Base, Block, Indenter, IndenterShape, RelaxationMethod, Side,
 };
 
 use super::tools::ROUNDING;
@@ -36,7 +36,7 @@ pub(crate) struct Ramp {
     /// Number of output times, evenly spaced, ends included.
     pub(crate) samples: usize,
     /// How relaxation is taken into account.
-    pub(crate) method: Relaxing,
+    pub(crate) method: RelaxationMethod,
 }
 
 /// The indenter's end.
@@ -67,9 +67,9 @@ const SHAPES: &[(&str, End)] = &[
     ("cone", End::Cone),
 ];
 
-const METHODS: &[(&str, Relaxing)] = &[
-    ("convolution", Relaxing::Convolution),
-    ("full", Relaxing::Full),
+const METHODS: &[(&str, RelaxationMethod)] = &[
+    ("convolution", RelaxationMethod::Convolution),
+    ("full", RelaxationMethod::Full),
 ];
 
 const BLOCK: &[Key] = &[
@@ -272,7 +272,7 @@ fn loading(keys: &Keys<'_>, block: &Block) -> Result<Loading, Error> {
             samples: ramp.integer("samples")?.unwrap_or(200) as usize,
             method: ramp
                 .word("method", METHODS)?
-                .unwrap_or(Relaxing::Convolution),
+                .unwrap_or(RelaxationMethod::Convolution),
         })),
         (None, true) => some_numbers(keys, "depths_m", Some(height)).map(Loading::Depths),
         (None, false) => Err(keys.missing(

@@ -314,7 +314,7 @@ fn some_numbers(
 ) -> Result<Vec<f64>, palpate_files::Error> {
     let numbers = keys.required_numbers(key)?;
     if numbers.is_empty() {
-        return Err(keys.bad(key, "at least one number in the list"));
+        return Err(keys.invalid(key, "at least one number in the list"));
     }
     if let Some((limit, what)) = limit
         && let Some(entry) = numbers.iter().position(|number| *number >= limit)
@@ -335,7 +335,7 @@ fn length_below(
     let length = keys.required_number(key)?;
     match length < limit {
         true => Ok(length),
-        false => Err(keys.bad(key, format!("less than {what}, {limit} m"))),
+        false => Err(keys.invalid(key, format!("less than {what}, {limit} m"))),
     }
 }
 

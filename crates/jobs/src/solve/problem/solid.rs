@@ -134,7 +134,7 @@ impl Solid {
         regions::KEYS[0],
         regions::KEYS[1],
         regions::KEYS[2],
-        Key::truth(
+        Key::boolean(
             "fit_stiffness",
             "Whether the moduli of all tissues are multiplied by the factor with which the points move as measured, by \
              least squares.",
@@ -155,7 +155,7 @@ impl Solid {
         if gravity == Some(Vec3::zeros()) {
             let expected =
                 "an acceleration that is not zero, or leave the key out for a body without weight";
-            return Err(keys.bad("gravity_m_per_s2", expected).into());
+            return Err(keys.invalid("gravity_m_per_s2", expected).into());
         }
         let loads = keys.tables("load")?;
         let tools = keys.tables("tool")?;
@@ -166,7 +166,7 @@ impl Solid {
         let points = points.map(|(number, keys)| Point::from_keys(keys, number));
         let mut points: Vec<Point> = points.collect::<Result<_, _>>()?;
         points.extend(Point::nearest(keys, points.len())?);
-        let fits = keys.truth("fit_stiffness")?.unwrap_or(false);
+        let fits = keys.boolean("fit_stiffness")?.unwrap_or(false);
         let solid = Self {
             shape,
             anchor,
@@ -205,11 +205,11 @@ impl Solid {
         if self.patch.is_some() || !self.tools.is_empty() {
             let expected =
                 "false with a patch or a tool, whose displacement does not depend on the stiffness";
-            return Err(keys.bad("fit_stiffness", expected));
+            return Err(keys.invalid("fit_stiffness", expected));
         }
         if measured.map(|(_, way)| way.abs()).sum::<f64>() == 0.0 {
             let expected = "false, or points with `along` and a `measured_m` that is not zero";
-            return Err(keys.bad("fit_stiffness", expected));
+            return Err(keys.invalid("fit_stiffness", expected));
         }
         Ok(())
     }
@@ -288,10 +288,10 @@ impl Load {
         let pressure = keys.number("pressure_pa")?;
         let force = keys.vector("force_n")?.map(Vec3::from);
         if force == Some(Vec3::zeros()) {
-            return Err(keys.bad("force_n", "a force that is not zero"));
+            return Err(keys.invalid("force_n", "a force that is not zero"));
         }
         if pressure == Some(0.0) {
-            return Err(keys.bad("pressure_pa", "a pressure that is not zero"));
+            return Err(keys.invalid("pressure_pa", "a pressure that is not zero"));
         }
         let place = Self::place(keys)?;
         // Without a location it is a pressure.
@@ -309,7 +309,7 @@ impl Load {
                 return Err(keys.missing("box_m", expected));
             }
             (None, Some(_), Some((_, LoadPlace::Line(_)))) => {
-                return Err(keys.bad(
+                return Err(keys.invalid(
                     "line",
                     "a part of the surface for a pressure, by `box_m`, `center_m` or `region`",
                 ));
@@ -372,7 +372,7 @@ const ROUNDING: f64 = 1e-9;
 fn box_of(keys: &Keys<'_>) -> Result<Region, Error> {
     let corners = keys.vectors("box_m")?.unwrap_or_default();
     let [one, other] = corners[..] else {
-        return Err(keys.bad("box_m", "two opposite corners, [[x, y, z], [x, y, z]]"));
+        return Err(keys.invalid("box_m", "two opposite corners, [[x, y, z], [x, y, z]]"));
     };
     let largest = one
         .iter()
@@ -396,7 +396,7 @@ fn line_of(keys: &Keys<'_>) -> Result<[Vec3; 2], Error> {
         line.required_vector("to_m")?,
     ];
     if ends[0] == ends[1] {
-        return Err(line.bad("to_m", "another point than `from_m`"));
+        return Err(line.invalid("to_m", "another point than `from_m`"));
     }
     Ok(ends.map(Vec3::from))
 }
@@ -467,7 +467,7 @@ fn anchor(keys: &Keys<'_>, shape: &Shape) -> Result<Option<Region>, Error> {
     let expected = format!("fixed regions, such as `{EXAMPLE}`");
     match anchor.map(|keys| Region::from_keys(&keys)).transpose()? {
         Some(anchor) if !anchor.is_empty() => Ok(Some(anchor)),
-        Some(_) => Err(keys.bad("anchor", expected)),
+        Some(_) => Err(keys.invalid("anchor", expected)),
         None if matches!(shape, Shape::Builtin { .. }) => Ok(None),
         None => Err(keys.missing("anchor", expected)),
     }

@@ -174,7 +174,7 @@ impl Tool {
                 Shape::Cylinder => "at least twice the radius, for the ends are half balls",
                 _ => "less than half of the least length that it rounds",
             };
-            return Err(keys.bad(key, expected));
+            return Err(keys.invalid(key, expected));
         }
         let direction = keys.direction("direction")?.map_or(-Vec3::z(), Vec3::from);
         let axes = Axes::new(keys, direction)?;
@@ -231,7 +231,7 @@ impl Axes {
         let across = along - along.dot(&direction) * direction;
         match across.try_normalize(ALONG) {
             Some(along) => Ok(Self { direction, along }),
-            None if given => Err(keys.bad("along", "another direction than `direction`")),
+            None if given => Err(keys.invalid("along", "another direction than `direction`")),
             None => unreachable!("the least component of a direction is below 0.6"),
         }
     }
@@ -300,7 +300,7 @@ fn friction(keys: &Keys<'_>) -> Result<FrictionLaw, Error> {
 fn jaws(keys: &Keys<'_>, body: &RigidTool, thickness: f64) -> Result<Vec<RigidTool>, Error> {
     let openings = keys.required_numbers("opening_m")?;
     if openings.len() != body.path.len() {
-        return Err(keys.bad(
+        return Err(keys.invalid(
             "opening_m",
             format!(
                 "{} numbers: at the beginning, and at each place of `path_m`",

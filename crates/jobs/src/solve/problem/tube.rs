@@ -95,7 +95,7 @@ impl Tube {
         let radius = length_below(keys, "radius_m", outer.0, outer.1)?;
         if 2.0 * radius >= self.length {
             let expected = format!("less than half the length of the tube, {} m", self.length);
-            return Err(keys.bad("radius_m", expected));
+            return Err(keys.invalid("radius_m", expected));
         }
         Ok(TubeIndent {
             radius,

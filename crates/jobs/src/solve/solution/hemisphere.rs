@@ -9,7 +9,7 @@ use super::figures::Profile;
 use super::{Figures, Solution, plots, warnings};
 use crate::Error;
 use crate::plot::Plot;
-use crate::solve::telling::ProgressReporter;
+use crate::solve::solver_progress::ProgressReporter;
 
 /// Force on the patch, and displacement of the surface.
 pub(crate) fn solution(

@@ -14,18 +14,19 @@ use palpate_mechanics::finite_elements::indentation::{
 use super::super::problem::{Indentation, Loading, Problem, Ramp};
 use super::super::table::Table;
 use super::{
-    Figures, FrictionFigures, Solution, Wanted, field, millimetres, millinewtons, plots, warnings,
+    Figures, FrictionFigures, RequestedOutputs, Solution, field, millimetres, millinewtons, plots,
+    warnings,
 };
 use crate::Error;
 use crate::VERSION;
 use crate::plot::Plot;
-use crate::solve::telling::ProgressReporter;
+use crate::solve::solver_progress::ProgressReporter;
 
 /// Force at each depth, or at each time of a ramp.
 pub(crate) fn solution(
     problem: &Problem,
     case: &Indentation,
-    wanted: Wanted,
+    wanted: RequestedOutputs,
     reporter: &ProgressReporter<'_>,
 ) -> Result<Solution, Error> {
     let solution = match &case.loading {

@@ -23,10 +23,10 @@ use serde::Serialize;
 
 use super::answer::Answer;
 use super::problem::{Case, Problem};
+use super::solver_progress::ProgressReporter;
 use super::table::Table;
-use super::telling::ProgressReporter;
 use crate::plot::Plot;
-use crate::{Error, VERSION, Watch};
+use crate::{Error, ProgressCallback, VERSION};
 
 /// An answer in all its forms.
 #[derive(Debug, Serialize)]
@@ -60,7 +60,7 @@ pub struct Solution {
 
 /// Requested outputs in addition to the figures.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Wanted {
+pub struct RequestedOutputs {
     /// A plot that takes extra computation.
     pub plot: bool,
     /// The deformed body.
@@ -71,9 +71,13 @@ pub struct Wanted {
 ///
 /// # Errors
 /// When the solver rejects the problem, or finds no equilibrium.
-pub fn solve(problem: &Problem, wanted: Wanted, watch: &dyn Watch) -> Result<Answer, Error> {
+pub fn solve(
+    problem: &Problem,
+    wanted: RequestedOutputs,
+    watch: &dyn ProgressCallback,
+) -> Result<Answer, Error> {
     let begun = Instant::now();
-    let reporter = &ProgressReporter::to(watch);
+    let reporter = &ProgressReporter::new(watch);
     let mut solution = match &problem.case {
         Case::Indentation(case) => indentation::solution(problem, case, wanted, reporter),
         Case::Hemisphere(case) => hemisphere::solution(problem, case, reporter),

@@ -124,7 +124,7 @@ impl CondensedProblem<'_> {
         )?;
         match self.columns(&condensed, &mut parts.displacements, progress) {
             ControlFlow::Continue(()) => SurfaceResponse::new(parts),
-            ControlFlow::Break(()) => Err(Error::BrokenOff),
+            ControlFlow::Break(()) => Err(Error::Cancelled),
         }
     }
 
@@ -238,7 +238,7 @@ fn report_progress(
 ) -> Result<(), Error> {
     match progress(Progress { stage, part }) {
         ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(Error::BrokenOff),
+        ControlFlow::Break(()) => Err(Error::Cancelled),
     }
 }
 
@@ -251,7 +251,7 @@ fn factor(
     let mut supports = Supports::none(model);
     for axis in 0..3 {
         let nodes = (0..fixed.len()).filter(|&node| fixed[node]);
-        supports = supports.hold(model, nodes, axis, 0.0);
+        supports = supports.fix(model, nodes, axis, 0.0);
     }
     if supports.leave_free(model) {
         return Err(Error::NothingFixed);
@@ -265,7 +265,7 @@ fn factor(
             newton::eliminate(model, &rows, workspace, &mut vec![0.0; model.size()]);
             newton::factor(model, workspace)
         })
-        .map_err(|_| Error::UnsoundResponse {
+        .map_err(|_| Error::InvalidResponse {
             fault: "its stiffness has no factors",
         })
 }

@@ -41,12 +41,12 @@ impl HalfBall {
         let patch: Vec<usize> = disc.base.iter().filter(touched).copied().collect();
         let round = || disc.arc.iter().map(|&(node, _)| node);
         let mut supports = Supports::none(&model)
-            .hold(&model, patch.iter().copied(), 1, 1.0)
-            .hold(&model, disc.axis.iter().copied(), 0, 0.0)
-            .hold(&model, round(), 0, 0.0)
-            .hold(&model, round(), 1, 0.0);
+            .fix(&model, patch.iter().copied(), 1, 1.0)
+            .fix(&model, disc.axis.iter().copied(), 0, 0.0)
+            .fix(&model, round(), 0, 0.0)
+            .fix(&model, round(), 1, 0.0);
         if self.patch == Patch::Bonded {
-            supports = supports.hold(&model, patch.iter().copied(), 0, 0.0);
+            supports = supports.fix(&model, patch.iter().copied(), 0, 0.0);
         }
         let (_, workspace) = solved(&model, &supports)?;
         Ok(patch.iter().map(|&n| workspace.reaction(&model, n).y).sum())

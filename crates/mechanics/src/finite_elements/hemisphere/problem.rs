@@ -132,12 +132,12 @@ impl HemisphereProblem {
         let touched = || disc.arc.iter().filter(|(_, angle)| *angle <= rim);
         let patch: Vec<usize> = touched().map(|&(node, _)| node).collect();
         let mut supports = Supports::none(&model)
-            .hold(&model, patch.iter().copied(), 1, -self.depth)
-            .hold(&model, disc.axis.iter().copied(), 0, 0.0)
-            .hold(&model, disc.base.iter().copied(), 0, 0.0)
-            .hold(&model, disc.base.iter().copied(), 1, 0.0);
+            .fix(&model, patch.iter().copied(), 1, -self.depth)
+            .fix(&model, disc.axis.iter().copied(), 0, 0.0)
+            .fix(&model, disc.base.iter().copied(), 0, 0.0)
+            .fix(&model, disc.base.iter().copied(), 1, 0.0);
         if self.patch == Patch::Bonded {
-            supports = supports.hold(&model, patch.iter().copied(), 0, 0.0);
+            supports = supports.fix(&model, patch.iter().copied(), 0, 0.0);
         }
         let (state, workspace) = solved(&model, &supports)?;
         let along = |nodes: &[usize]| -> f64 {

@@ -23,7 +23,9 @@ mod stiffening;
 pub use base::ElasticBase;
 pub use indenter::{Indenter, IndenterShape, Side};
 pub use mesh::{Base, Block};
-pub use problem::{History, IndentationAnswer, IndentationProblem, Relaxing, solve, solve_history};
+pub use problem::{
+    History, IndentationAnswer, IndentationProblem, RelaxationMethod, solve, solve_history,
+};
 pub use run::{
     ContactNode, FrictionalContact, IndentationPoint, IndentationRun, IndentationSettings,
 };

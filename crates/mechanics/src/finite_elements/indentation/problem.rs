@@ -30,7 +30,7 @@ pub struct History {
 
 /// How relaxation is taken into account.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Relaxing {
+pub enum RelaxationMethod {
     /// The elastic curve, convolved with the relaxation function; fast, and the same to small strain.
     Convolution,
     /// Internal variables at every point of integration.
@@ -101,7 +101,7 @@ pub fn solve(
 pub fn solve_history(
     problem: &IndentationProblem,
     prony: &PronySeries,
-    relaxing: Relaxing,
+    relaxing: RelaxationMethod,
     history: &History,
     accuracy: f64,
     progress: &mut dyn FnMut(Progress),
@@ -113,8 +113,8 @@ pub fn solve_history(
             return Ok(None);
         }
         let answer = match relaxing {
-            Relaxing::Convolution => problem.convolved(prony, history, mesh, progress)?,
-            Relaxing::Full => problem.relaxed(prony, history, mesh, progress)?,
+            RelaxationMethod::Convolution => problem.convolved(prony, history, mesh, progress)?,
+            RelaxationMethod::Full => problem.relaxed(prony, history, mesh, progress)?,
         };
         let forces = answer.forces();
         Ok(Some((answer, forces)))
@@ -236,7 +236,7 @@ impl IndentationProblem {
         order.sort_by(|&a, &b| depths[a].total_cmp(&depths[b]));
         let deepest = order.last().map_or(0.0, |&last| depths[last]);
         let mut run = self.run(&PronySeries::default(), deepest, mesh)?;
-        let mut curve = IndentationCurve::untouched();
+        let mut curve = IndentationCurve::zero();
         let mut points = vec![run.point(); depths.len()];
         for &place in &order {
             let depth = depths[place];

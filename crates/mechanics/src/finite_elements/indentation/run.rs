@@ -19,7 +19,7 @@ use super::base::ElasticBase;
 use super::contact::{ContactStatus, Place};
 use super::indenter::{Indenter, IndenterShape};
 use super::mesh::{Base, Block, Body};
-use super::sensitivities::{Sensitivities, SoughtChange};
+use super::sensitivities::{Sensitivities, SensitivityParameter};
 use crate::material::law::Law;
 use crate::{Error, FibreError, PronySeries, Strain};
 use press::SearchMethod;
@@ -102,21 +102,21 @@ const FIRST_STEP: f64 = 0.1;
 const LONGEST_STEP: f64 = 0.5;
 const SHORTEST_STEP: f64 = 1e-3;
 /// Rounds of Newton's method and changes of contact at one depth.
-const MOST_CHANGES: usize = 24;
+const MAX_CHANGES: usize = 24;
 /// The same with Coulomb friction, where nodes stick and slip too.
-const MOST_CHANGES_WITH_FRICTION: usize = 60;
+const MAX_CHANGES_WITH_FRICTION: usize = 60;
 /// Longest step with Coulomb friction, in parts of the depth that the mesh is made for [-]: slip depends on the way, and
 /// backward differences of it have an error of the first power of the step.
 const FRICTION_STEP: f64 = 1.0 / 32.0;
 /// Enough to see which nodes touch without friction.
 const ROUGH: SolverControls = SolverControls {
     tolerance: 1e-3,
-    ..SolverControls::TRY
+    ..SolverControls::ATTEMPT
 };
 /// From there to equilibrium, without a further solution where that is reached.
 const FINISH: SolverControls = SolverControls {
     least: 0,
-    ..SolverControls::TRY
+    ..SolverControls::ATTEMPT
 };
 /// Solutions of the linear system after which steps grow, and above which they shrink.
 const LITTLE_EFFORT: usize = 6;
@@ -200,9 +200,9 @@ impl IndentationRun {
             Base::Lubricated => Vec::new(),
         };
         let rest = Supports::none(&model)
-            .hold(&model, glued, 0, 0.0)
-            .hold(&model, body.bottom, 1, 0.0)
-            .hold(&model, body.axis, 0, 0.0)
+            .fix(&model, glued, 0, 0.0)
+            .fix(&model, body.bottom, 1, 0.0)
+            .fix(&model, body.axis, 0, 0.0)
             .prescribed;
         let scale = indenter.scale(settings.deepest);
         let statuses = top
@@ -257,7 +257,7 @@ impl IndentationRun {
         let mut sought = Vec::new();
         for (region, law) in self.laws.iter().enumerate() {
             let known = law.parameters().into_iter().enumerate();
-            let of_law = known.map(|(parameter, (_, value))| SoughtChange {
+            let of_law = known.map(|(parameter, (_, value))| SensitivityParameter {
                 law: law.clone(),
                 parameter,
                 unit: if region == 0 { 1.0 } else { value },
@@ -345,13 +345,13 @@ impl IndentationRun {
         let first = if self.slides() {
             ROUGH
         } else {
-            SolverControls::TRY
+            SolverControls::ATTEMPT
         };
         let mut controls = first;
         let mut released = vec![false; statuses.len()];
         let most = match self.has_friction {
-            true => MOST_CHANGES_WITH_FRICTION,
-            false => MOST_CHANGES,
+            true => MAX_CHANGES_WITH_FRICTION,
+            false => MAX_CHANGES,
         };
         for _ in 0..most {
             let supports = self.supports(&statuses, depth, relaxing.as_ref());

@@ -30,7 +30,7 @@ pub(super) struct Entry {
 
 /// A parameter of the sensitivities.
 #[derive(Debug, Clone)]
-pub(super) struct SoughtChange {
+pub(super) struct SensitivityParameter {
     /// The law that it is of.
     pub(super) law: Arc<dyn Law>,
     /// Its place among the law's parameters.
@@ -42,12 +42,12 @@ pub(super) struct SoughtChange {
 /// ∂u/∂q of all unknowns, one column for each parameter.
 #[derive(Debug, Clone)]
 pub(super) struct Sensitivities {
-    sought: Vec<SoughtChange>,
+    sought: Vec<SensitivityParameter>,
     columns: Vec<Vec<f64>>,
 }
 
 impl Sensitivities {
-    pub(super) fn at_rest(model: &FiniteElementModel, sought: Vec<SoughtChange>) -> Self {
+    pub(super) fn at_rest(model: &FiniteElementModel, sought: Vec<SensitivityParameter>) -> Self {
         Self {
             columns: vec![vec![0.0; model.size()]; sought.len()],
             sought,
@@ -100,7 +100,7 @@ impl Sensitivities {
         rows: impl Fn() -> I,
     ) -> Vec<f64> {
         let mut product = vec![0.0; model.size()];
-        let each = |(sought, column): (&SoughtChange, &Vec<f64>)| {
+        let each = |(sought, column): (&SensitivityParameter, &Vec<f64>)| {
             let (law, parameter) = (&sought.law, sought.parameter);
             let direct = sensitivity::residual_sensitivity(model, state, law, parameter);
             model

@@ -43,7 +43,7 @@ const FACING: [f64; 2] = [0.3, 0.7];
 
 /// The largest pressure over its multiplier with which the curvature of a tool enters the tangent [-]. Beyond it is the penalty
 /// of a trial that went too far, with which the tangent would be indefinite.
-const MOST_BENDING: f64 = 2.0;
+const MAX_BENDING: f64 = 2.0;
 
 /// A corner of the boundary at a tool.
 #[derive(Debug, Clone, PartialEq)]
@@ -308,7 +308,7 @@ impl<'a> Contacts<'a> {
     }
 
     /// Adds the forces with the sign of a residual, and the tangent, which is symmetric, and exact where no pressure is more than
-    /// [`MOST_BENDING`] multipliers.
+    /// [`MAX_BENDING`] multipliers.
     pub(in super::super) fn assemble(
         &self,
         model: &FiniteElementModel,
@@ -330,7 +330,7 @@ impl<'a> Contacts<'a> {
             }
             let weighted = corner.points.iter().zip(&contact.weights);
             for ((point, weight), separation) in weighted.zip(&found.distances) {
-                let pressure = forces.pressure.min(MOST_BENDING * contact.pressure);
+                let pressure = forces.pressure.min(MAX_BENDING * contact.pressure);
                 let bend = -contact.area * pressure * *weight * separation.curvature;
                 for (&a, share) in point.nodes.iter().zip(point.shares) {
                     for (&b, other) in point.nodes.iter().zip(point.shares) {

@@ -18,7 +18,7 @@ const FEWEST: usize = 24;
 
 /// Places along a path, in sizes of the contact, and most of them on each part [-].
 const ALONG: f64 = 1.0;
-const MOST_PLACES: usize = 64;
+const MAX_PLACES: usize = 64;
 
 /// A sphere presses tissue away: it touches half the area of the circle in which it cuts the surface at rest [Hertz 1881].
 const TOUCHED: f64 = 0.5;
@@ -96,7 +96,7 @@ impl Footprint {
         for ends in tool.path.windows(2) {
             let length = (ends[1] - ends[0]).norm();
             longest += length;
-            let places = ((length / (ALONG * size)).ceil() as usize).min(MOST_PLACES);
+            let places = ((length / (ALONG * size)).ceil() as usize).min(MAX_PLACES);
             let between = (1..places).map(|k| ends[0].lerp(&ends[1], k as f64 / places as f64));
             for position in between {
                 found.push(under(&position, spacing));

@@ -148,10 +148,10 @@ impl Conditions<'_> {
         let pressed = pressed.iter();
         supports.pressed = pressed.map(|(faces, own)| (faces, part * own)).collect();
         for axis in 0..3 {
-            supports = supports.hold(model, prescribed.anchored.iter().copied(), axis, 0.0);
+            supports = supports.fix(model, prescribed.anchored.iter().copied(), axis, 0.0);
             if frame.prescribed[axis] {
                 let at = part * frame.displacement[axis];
-                supports = supports.hold(model, prescribed.moved.iter().copied(), axis, at);
+                supports = supports.fix(model, prescribed.moved.iter().copied(), axis, at);
             }
         }
         supports

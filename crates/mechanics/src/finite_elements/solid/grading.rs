@@ -363,7 +363,7 @@ fn triangles(body: &Body) -> Vec<[Vec3; 3]> {
 fn filling(surface: &Surface) -> Result<(TetrahedronMesh, f64), Error> {
     let mut about = FILLING;
     loop {
-        let settings = FillSettings::with_about(surface, about);
+        let settings = FillSettings::with_tetrahedron_count(surface, about);
         match fill(surface, &settings) {
             Err(TetrahedronError::TooCoarse { .. }) if about < FINEST_FILLING => about *= 2,
             done => return Ok((follow_sharp_edges(done?, surface)?, settings.edge)),
@@ -384,7 +384,7 @@ fn rim_in([a, b, c]: &[Vec3; 3], anchor: &Region, spacing: f64) -> Vec<Vec3> {
             [[from, right], [from, up], [right, up]]
         })
         .filter(|ends| {
-            let [first, last] = ends.map(|end| anchor.holds(end.into()));
+            let [first, last] = ends.map(|end| anchor.contains(end.into()));
             first != last
         })
         .map(|[first, last]| 0.5 * (first + last))

@@ -257,7 +257,7 @@ impl Part<'_> {
             (Overlap::Whole, _) => true,
             (Overlap::Part, 0) => {
                 let centroid = places.iter().sum::<Vec3>() / 3.0;
-                self.region.holds(centroid.into())
+                self.region.contains(centroid.into())
             }
             (Overlap::Part, _) => {
                 let [a, b, c] = points;
@@ -298,7 +298,7 @@ fn overlap(region: &Region, triangle: &[Vec3; 3]) -> Overlap {
     // Each of them is convex, and a plane leaves out what all corners are beyond.
     let planes = region.planes.iter();
     let planes = planes.map(|plane| {
-        let inside = corners.map(|corner| plane.holds(corner));
+        let inside = corners.map(|corner| plane.contains(corner));
         (inside == [true; 3], inside != [false; 3])
     });
     let boxes = region.boxes.iter().map(|own| {
@@ -308,12 +308,12 @@ fn overlap(region: &Region, triangle: &[Vec3; 3]) -> Overlap {
             let most = along.into_iter().fold(f64::NEG_INFINITY, f64::max);
             least <= own.max_m[axis] && most >= own.min_m[axis]
         });
-        (corners.iter().all(|corner| own.holds(*corner)), meets)
+        (corners.iter().all(|corner| own.contains(*corner)), meets)
     });
     let spheres = region.spheres.iter().map(|sphere| {
         let nearest = closest_on_triangle(triangle, &sphere.center_m.into()).position;
-        let meets = sphere.holds(nearest.into());
-        (corners.iter().all(|corner| sphere.holds(*corner)), meets)
+        let meets = sphere.contains(nearest.into());
+        (corners.iter().all(|corner| sphere.contains(*corner)), meets)
     });
     let each = planes.chain(boxes).chain(spheres);
     each.fold(Overlap::None, |so_far, of_one| match (so_far, of_one) {

@@ -22,11 +22,11 @@ use crate::contact::FrictionLaw;
 use crate::{Error, FibreError, Law, Vec3};
 
 /// More unknowns than these are refused: their factors would have about ten gigabytes.
-const MOST_UNKNOWNS: usize = 600_000;
+const MAX_UNKNOWNS: usize = 600_000;
 
 /// The last mesh is solved when the one before had at most so many unknowns, since it has about two and a
 /// half times as many.
-const MOST_BEFORE_THE_LAST: usize = 150_000;
+const MAX_BEFORE_LAST: usize = 150_000;
 
 /// Stress is infinite along the edges of patch and anchor, as the root of the distance, and elsewhere
 /// elements follow so that errors fall alike.
@@ -50,7 +50,7 @@ pub fn solve(
     let context = MeshContext::new(problem)?;
     let mut unknowns = 0;
     refine(&MESHES, accuracy, |mesh| {
-        if unknowns > MOST_BEFORE_THE_LAST {
+        if unknowns > MAX_BEFORE_LAST {
             return Ok(None);
         }
         let answer = problem.solve_on(&context, mesh, progress)?;
@@ -120,10 +120,10 @@ impl SolidProblem {
         let tetrahedra = &solid.mesh;
         let corners = tetrahedra.vertices().len();
         let unknowns = 4 * corners + 3 * tetrahedra.edges().len();
-        if unknowns > MOST_UNKNOWNS {
+        if unknowns > MAX_UNKNOWNS {
             return Err(Error::TooManyUnknowns {
                 unknowns,
-                most: MOST_UNKNOWNS,
+                most: MAX_UNKNOWNS,
             });
         }
         let prescribed = PrescribedNodes::new(self, tetrahedra, &solid.outer, context.center())?;

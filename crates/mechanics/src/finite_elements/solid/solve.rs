@@ -15,7 +15,7 @@ use crate::{Error, Strain};
 
 /// Free residual over that of the reactions [-].
 const TOLERANCE: f64 = 1e-9;
-const MOST_SOLUTIONS: usize = 4;
+const MAX_SOLUTIONS: usize = 4;
 
 /// Steps of the loads and of each part of the tools' paths [-].
 const STEPS: Steps = Steps {
@@ -38,7 +38,7 @@ const TOOL_STEPS: Steps = Steps {
 
 /// Contact is found when a further augmentation would change its forces by this part of them [-].
 const CONTACT_TOLERANCE: f64 = 1e-5;
-const MOST_AUGMENTATIONS: usize = 40;
+const MAX_AUGMENTATIONS: usize = 40;
 
 /// Tolerance of an equilibrium that a further augmentation changes, in the last change of the forces in contact [-].
 const TOLERANCE_IN_CHANGE: f64 = 1e-3;
@@ -202,7 +202,7 @@ impl Increments for SolidRun<'_, '_> {
                 contacts.close_increment(self.model, &trial.unknowns);
                 break;
             }
-            if augmentation == MOST_AUGMENTATIONS {
+            if augmentation == MAX_AUGMENTATIONS {
                 return Err(Failure::NotConverged);
             }
         }
@@ -230,7 +230,7 @@ fn linear(
     let mut right = vec![0.0; model.size()];
     newton::eliminate(model, &is_prescribed, workspace, &mut right);
     newton::factor(model, workspace)?;
-    for solution in 0..MOST_SOLUTIONS {
+    for solution in 0..MAX_SOLUTIONS {
         workspace.factors.solve(&mut right);
         for (x, dx) in state.unknowns.iter_mut().zip(&right) {
             *x += dx;

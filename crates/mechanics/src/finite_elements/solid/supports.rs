@@ -29,7 +29,7 @@ impl PrescribedNodes {
     ) -> Result<Self, Error> {
         let anchored: Vec<&Face> = faces
             .iter()
-            .filter(|face| problem.anchor.holds(face.centroid(mesh).into()))
+            .filter(|face| problem.anchor.contains(face.centroid(mesh).into()))
             .collect();
         if anchored.is_empty() {
             return Err(Error::NothingFixed);
@@ -74,7 +74,7 @@ fn check_every_piece_is_fixed(mesh: &TetrahedronMesh, anchored: &[&Face]) -> Res
     };
     let place = pieces.iter().position(|&piece| piece == loose);
     let [x, y, z] = place.map_or([0.0; 3], |t| mesh.positions(t)[0].into());
-    Err(Error::LoosePiece {
+    Err(Error::UnfixedPiece {
         place: [x, y, z],
         pieces: count,
     })

@@ -128,7 +128,7 @@ fn check(problem: &TubeProblem, punch: &TubePunch) -> Result<(), Error> {
     if punch.pressure > 0.0 && problem.law.volume().strain == Strain::Finite {
         let inflated = inflate::on_mesh(problem, &[], 2, &mut |_| {})?;
         if let Some(limit) = inflated.limit_pressure.filter(|&p| p < punch.pressure) {
-            return Err(Error::Balloons {
+            return Err(Error::LimitPointExceeded {
                 pressure: punch.pressure,
                 limit,
             });

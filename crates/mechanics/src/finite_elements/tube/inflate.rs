@@ -40,7 +40,7 @@ pub const WIDEST: f64 = 4.0;
 const PARTS: [f64; 4] = [0.75, 1.0, 2.0, 4.0];
 /// A pressure beyond so many limits of the coarsest mesh is past the limit on every mesh [-].
 const PAST: f64 = 1.1;
-const MOST_STEPS: usize = 500;
+const MAX_STEPS: usize = 500;
 
 /// What no mesh here shows.
 const CREASE: &str = "the inner corner of the fixed ends creases near the limit pressure, and the contact of \
@@ -140,11 +140,11 @@ impl Inflation<'_> {
         let half = 0.5 * self.problem.tube.length;
         let nodes = |z: f64| self.model.mesh().nodes_where(|x| x.y == z);
         let mut supports = Supports::none(self.model)
-            .hold(self.model, nodes(0.0), 1, 0.0)
-            .hold(self.model, nodes(half), 1, 0.0)
+            .fix(self.model, nodes(0.0), 1, 0.0)
+            .fix(self.model, nodes(half), 1, 0.0)
             .press(self.cavity, pressure);
         if self.problem.ends == Ends::Fixed {
-            supports = supports.hold(self.model, nodes(half), 0, 0.0);
+            supports = supports.fix(self.model, nodes(half), 0, 0.0);
         }
         supports
     }
@@ -194,7 +194,7 @@ impl Inflation<'_> {
             *u = Some(0.0);
         }
         let highest = pressures.iter().fold(0.0, |a: f64, &b| a.max(b)) / full;
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             path.advance()?;
             let limit = path.limit()?;
             let low = path.before().cloned().unwrap_or_else(|| path.now().clone());

@@ -81,11 +81,12 @@ impl<'a> Punching<'a> {
                 .nodes_where(|x| (x[axis] - at).abs() <= tiny)
                 .into_iter()
         };
-        let mut supports = Supports::none(&model)
-            .hold(&model, on(1, 0.0), 1, 0.0)
-            .hold(&model, on(2, 0.0), 2, 0.0);
+        let mut supports =
+            Supports::none(&model)
+                .fix(&model, on(1, 0.0), 1, 0.0)
+                .fix(&model, on(2, 0.0), 2, 0.0);
         for axis in 0..3 {
-            supports = supports.hold(&model, on(2, half), axis, 0.0);
+            supports = supports.fix(&model, on(2, half), axis, 0.0);
         }
         Ok(Self {
             workspace: FiniteElementWorkspace::new(&model)?,

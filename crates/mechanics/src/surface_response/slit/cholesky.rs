@@ -23,7 +23,7 @@ pub(super) struct Block {
 
 /// A row whose pivot is below this part of what its facet alone would have is locked [-]: H does not distinguish
 /// its jump from those before it, as where a slit is cut again. Of a long straight slit pivots are 0.2 and more.
-const LEAST_PIVOT: f64 = 0.1;
+const MIN_PIVOT: f64 = 0.1;
 
 fn start(row: usize) -> usize {
     row * (row + 1) / 2
@@ -89,7 +89,7 @@ impl GrowingCholesky {
             }
             let known: f64 = (0..i).map(|k| l[i][k] * l[i][k]).sum();
             let pivot = block.rest[i][i] + more[i] - known;
-            if pivot >= LEAST_PIVOT * block.alone[i] && pivot > 0.0 {
+            if pivot >= MIN_PIVOT * block.alone[i] && pivot > 0.0 {
                 l[i][i] = pivot.sqrt();
             } else {
                 // It bears nothing, whatever stands before its diagonal.

@@ -77,7 +77,7 @@ impl Facet {
         asked: &SlitFacet,
         first: usize,
     ) -> Result<Self, Error> {
-        let fault = |fault: &'static str| Error::UnsoundSlit { fault };
+        let fault = |fault: &'static str| Error::InvalidSlit { fault };
         let lengths = asked.length > 0.0 && asked.length.is_finite() && asked.depth > 0.0;
         if !lengths || !asked.middle.iter().all(|x| x.is_finite()) {
             return Err(fault("a facet has no length, depth or place"));

@@ -15,7 +15,7 @@ const REACH: f64 = 1.8;
 const IN_WALLS: f64 = 1.5;
 
 /// Of so many that lie in it,
-const MOST_FOUND: usize = 160;
+const MAX_FOUND: usize = 160;
 /// so many are taken at most.
 pub(super) const MOST: usize = 16;
 
@@ -45,7 +45,7 @@ pub(super) struct Gradient {
 impl Gradient {
     pub(super) fn new() -> Self {
         Self {
-            found: Vec::with_capacity(MOST_FOUND),
+            found: Vec::with_capacity(MAX_FOUND),
             weights: Vec::with_capacity(MOST),
             parts: Vec::with_capacity(MOST),
             size: 0.0,

@@ -3,7 +3,7 @@ use nalgebra::Matrix3;
 use super::super::response::{SurfaceResponse, TouchId};
 use super::super::tip_field::Share;
 use super::curvature::Medium;
-use super::traction::{MODES, Spot};
+use super::traction::{DiscForce, MODES};
 use super::{Cut, Slit};
 use crate::Vec3;
 use crate::boundary_elements::Precision;
@@ -48,7 +48,7 @@ impl<T: Precision> Slit<T> {
         &self,
         response: &SurfaceResponse<T>,
         shares: impl Iterator<Item = Share>,
-        spot: Option<&Spot>,
+        spot: Option<&DiscForce>,
         load: &mut SlitLoad,
     ) {
         load.rows.clear();
@@ -113,7 +113,7 @@ impl<T: Precision> Slit<T> {
     }
 
     /// Compliance that the slit adds to a load, times E [1/m]: symmetric, never negative.
-    pub fn further(&self, load: &SlitLoad) -> Matrix3<f64> {
+    pub fn added_compliance(&self, load: &SlitLoad) -> Matrix3<f64> {
         self.between(load, load) + load.rim
     }
 

@@ -29,7 +29,6 @@ mod cholesky;
 mod curvature;
 mod facet;
 mod gradient;
-mod judged;
 mod kernel;
 mod load;
 mod near;
@@ -37,6 +36,7 @@ mod plate;
 mod shell;
 mod spring;
 mod traction;
+mod warnings;
 
 use palpate_geometry::TriangleId;
 
@@ -49,11 +49,11 @@ use facet::Facet;
 pub use facet::{CutBody, SlitFacet};
 use gradient::{Gradient, MOST};
 pub use load::{SlitJumps, SlitLoad};
+pub use traction::{DiscForce, RIM_COMPLIANCE};
 use traction::{Loaded, MODES, Near, Part, triangles_near};
-pub use traction::{RIM_COMPLIANCE, Spot};
 
 /// Near triangles that are known to a facet at most.
-const MOST_NEAR: usize = 320;
+const MAX_NEAR: usize = 320;
 
 /// Jumps of a facet whose T is smooth far from it: the first.
 const SMOOTH: usize = 3;
@@ -105,12 +105,12 @@ impl<T: Precision> Slit<T> {
             poissons_ratio: response.parts().poissons_ratio,
             facets: Vec::with_capacity(most),
             rows: vec![T::of(0.0); most * SMOOTH * width],
-            near: Vec::with_capacity(MOST_NEAR * most),
+            near: Vec::with_capacity(MAX_NEAR * most),
             h: GrowingCholesky::new(most * MODES),
             curvature: Curvature::new(response.parts().poissons_ratio),
             gradients: [Gradient::new(), Gradient::new()],
             parts: Vec::with_capacity(2 * MOST),
-            found: Vec::with_capacity(MOST_NEAR),
+            found: Vec::with_capacity(MAX_NEAR),
             scratch: [0, 1].map(|_| vec![T::of(0.0); width]),
         }
     }
@@ -127,11 +127,11 @@ impl<T: Precision> Slit<T> {
     /// changed then.
     pub fn open(&mut self, body: &CutBody<'_, T>, asked: &SlitFacet) -> Result<(), Error> {
         if self.facets.len() == self.most {
-            return Err(Error::SlitIsFull { most: self.most });
+            return Err(Error::SlitTooLarge { most: self.most });
         }
         let triangles = body.response.parts().triangles;
         if 3 * triangles != self.width || body.surface.mesh().triangles().len() != triangles {
-            return Err(Error::UnsoundSlit {
+            return Err(Error::InvalidSlit {
                 fault: "its organ has another number of triangles",
             });
         }
@@ -232,7 +232,7 @@ impl<T: Precision> Slit<T> {
         let size = self.gradients[0].size;
         triangles_near(body.surface, facet, reach, size, &mut self.found);
         for &triangle in &self.found {
-            if body.response.holds(triangle) {
+            if body.response.is_fixed(triangle) {
                 continue;
             }
             let centroid = mesh.positions(triangle).iter().sum::<Vec3>() / 3.0;

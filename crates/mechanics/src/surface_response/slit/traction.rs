@@ -21,7 +21,7 @@ use crate::finite_spheres::quartic;
 /// Reach of a facet in radii of its stress on the surface, and in its depths, but no more than the last [-].
 const IN_GRADIENTS: f64 = 0.75;
 const IN_DEPTHS: f64 = 1.0;
-const MOST_GRADIENTS: f64 = 1.2;
+const MAX_GRADIENTS: f64 = 1.2;
 
 /// Beyond two reaches triangles are known as far as the loads of tips there go, in lengths √(2 A) of one [-].
 const OF_LOADS: f64 = 2.2;
@@ -41,7 +41,7 @@ pub(super) const MODES: usize = 5;
 
 /// A force that is spread over a disc, wherever its triangles are.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Spot {
+pub struct DiscForce {
     /// Its middle, at rest [m].
     pub place: Vec3,
     /// Outward unit normal there [-].
@@ -95,7 +95,7 @@ impl Facet {
     /// Distance within which the closed forms have full weight [m].
     pub(super) fn reach(&self, gradient: f64) -> f64 {
         let wanted = (IN_GRADIENTS * gradient).max(IN_DEPTHS * self.depth());
-        wanted.min(MOST_GRADIENTS * gradient)
+        wanted.min(MAX_GRADIENTS * gradient)
     }
 
     /// A force as the facet sees it; none that is too far or on another side.
@@ -171,7 +171,7 @@ impl Facet {
         &self,
         medium: Medium<'_>,
         reach: f64,
-        spot: &Spot,
+        spot: &DiscForce,
     ) -> Option<(f64, [Vec3; MODES])> {
         let seen = self.sees(reach, &spot.place, &spot.normal)?;
         let [x, y] = seen.at;
@@ -220,7 +220,7 @@ impl Facet {
 
     /// The facet's part of a spot's rim [-], and the compliance that a deep slit adds there along the axes of
     /// space [1/m].
-    pub(super) fn rim_of(&self, reach: f64, spot: &Spot) -> Option<(f64, Matrix3<f64>)> {
+    pub(super) fn rim_of(&self, reach: f64, spot: &DiscForce) -> Option<(f64, Matrix3<f64>)> {
         let seen = self.sees(reach, &spot.place, &spot.normal)?;
         let through = matches!(self.geometry, CrackGeometry::Wall { part, .. } if part >= 1.0);
         if seen.face < 0.0 && !through {

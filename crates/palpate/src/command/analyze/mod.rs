@@ -4,7 +4,7 @@ mod report;
 mod table;
 
 use clap::Args;
-use palpate_files::write_whole;
+use palpate_files::write_atomically;
 use palpate_jobs::analyze::analyze;
 use palpate_jobs::json_text;
 use std::path::PathBuf;
@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use super::overwrite::OverwriteOption;
 use super::recordings::Recordings;
 use crate::failure::Failure;
-use crate::interrupt::{self, Unbroken};
+use crate::interrupt::{self, UninterruptedSection};
 use crate::output;
 use crate::progress::{Progress, Reader};
 
@@ -58,13 +58,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let recordings = arguments.recordings.request();
     let analyzed = analyze(&recordings, &progress)?;
     drop(progress);
-    let unbroken = Unbroken::begin();
+    let unbroken = UninterruptedSection::begin();
     if let Some(out) = &arguments.out {
-        write_whole(out, json_text(&analyzed)?.as_bytes())?;
+        write_atomically(out, json_text(&analyzed)?.as_bytes())?;
     }
     if let Some(page) = &arguments.report {
-        let html = report::html(&analyzed, &recordings.said());
-        write_whole(page, html.as_bytes())?;
+        let html = report::html(&analyzed, &recordings.options());
+        write_atomically(page, html.as_bytes())?;
     }
     drop(unbroken);
     if arguments.json {

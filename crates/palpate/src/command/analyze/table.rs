@@ -46,7 +46,7 @@ fn of_file(text: &mut String, read: &ReadRecording, found: &Analysis) -> std::fm
             found.settle_s
         )?;
     }
-    if let Some(found) = &read.sideways {
+    if let Some(found) = &read.lateral_load {
         writeln!(
             text,
             "  all axes    {:.2} mN along the approach, {:.2} mN sideways ({:.1} %), {:.3} mN m at the sensor",

@@ -8,14 +8,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 use palpate_files::tissue::LawName;
-use palpate_files::{Tissue, write_whole};
+use palpate_files::{Tissue, write_atomically};
 use palpate_jobs::Error;
 use palpate_jobs::characterize::{Choice, StudyFolder, characterize};
 
 use super::overwrite::OverwriteOption;
 use super::recordings::Recordings;
 use crate::failure::Failure;
-use crate::interrupt::{self, Unbroken};
+use crate::interrupt::{self, UninterruptedSection};
 use crate::output;
 use crate::progress::{Progress, Reader};
 
@@ -141,11 +141,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let found = characterize(&recordings, arguments.choice()?, folder.as_ref(), &progress)?;
     let answer = found.answer;
     let warnings = progress.unprinted(warnings::for_people(&answer));
-    let unbroken = Unbroken::begin();
+    let unbroken = UninterruptedSection::begin();
     arguments.write(found.tissues)?;
     if let Some(path) = &arguments.report {
         let page = report::html(&answer, &found.portraits, &arguments.settings());
-        write_whole(path, page.as_bytes())?;
+        write_atomically(path, page.as_bytes())?;
     }
     drop(unbroken);
     if arguments.json {
@@ -195,7 +195,7 @@ impl Arguments {
             add("--closed-forms", String::new());
         }
         add("--draws", self.draws.to_string());
-        settings.extend(self.recordings.request().said());
+        settings.extend(self.recordings.request().options());
         settings
     }
 
@@ -216,13 +216,13 @@ impl Arguments {
         })?;
         let text = only?;
         if let Some(path) = &self.out {
-            write_whole(path, text.as_bytes())?;
+            write_atomically(path, text.as_bytes())?;
         }
         let card = |to_card: fn(&Tissue) -> Result<String, palpate_files::card::NoCard>,
                     path: &PathBuf| {
             let tissue = Tissue::parse(&text, path)?;
             let card = to_card(&tissue)?;
-            write_whole(path, card.as_bytes()).map_err(Failure::from)
+            write_atomically(path, card.as_bytes()).map_err(Failure::from)
         };
         if let Some(path) = &self.abaqus {
             card(Tissue::to_abaqus, path)?;

@@ -1,6 +1,6 @@
 use std::fmt::Write;
 
-use palpate_characterize::inverse::SoughtLaw;
+use palpate_characterize::inverse::CandidateLaw;
 use palpate_files::printable;
 use palpate_files::quantity::{plain_quantity, without_unit};
 use palpate_files::tissue::LawName;
@@ -50,7 +50,7 @@ fn write(text: &mut String, specimen: &Specimen) -> std::fmt::Result {
             writeln!(text, "  relaxation {place}     g {g}, tau {tau}")?;
         }
     }
-    for name in SoughtLaw::NAMES.map(LawName::word) {
+    for name in CandidateLaw::NAMES.map(LawName::word) {
         if let Some(law) = specimen.laws.get(name) {
             writeln!(text, "  {name:<16} {}", of_law(law))?;
         } else if let Some(why) = specimen.reasons.get(name) {

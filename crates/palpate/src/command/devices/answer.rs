@@ -125,7 +125,7 @@ impl Device {
             continuous_force_n: capabilities.continuous_force,
             forces_are: match found.forces {
                 Origin::Device => "as the device says",
-                Origin::Ours => "ours, for the device does not say",
+                Origin::Assumed => "ours, for the device does not say",
             },
             workspace_m: capabilities
                 .workspace

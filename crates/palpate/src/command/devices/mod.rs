@@ -119,7 +119,7 @@ fn tested(
     places: &Places,
 ) -> Result<SelfTest, Failure> {
     let progress = Progress::new(Reader::of_json(arguments.json), None);
-    progress.say(format!(
+    progress.show_step(format!(
         "{}: hold the handle for three seconds",
         found.capabilities.name
     ));

@@ -7,7 +7,7 @@ use palpate_files::Overwrite;
 use palpate_files::protocol::MeasuredTissue;
 use palpate_jobs::measure::{Plan, folder as claimed};
 use palpate_servo::{Clock, Vec3};
-use palpate_viewer::rig::{Begin, Bench, MadeRig, Place, open_rig_window};
+use palpate_viewer::rig::{Begin, Bench, Place, PreparedRig, open_rig_window};
 use palpate_viewer::{Error, check_display};
 
 use crate::command::window::is_absent;
@@ -64,10 +64,10 @@ fn place(plan: &Plan, place: usize) -> Place {
     let known = [organ, measured.subject.clone(), measured.site.clone()];
     let known: Vec<String> = known.into_iter().flatten().collect();
     let plan = plan.clone();
-    let make = move |at_step: &mut dyn FnMut(f64)| -> Result<MadeRig, String> {
+    let make = move |at_step: &mut dyn FnMut(f64)| -> Result<PreparedRig, String> {
         let (specimen, warnings) = plan.specimen(place, at_step).map_err(|e| e.to_string())?;
         let rig = plan.rig(specimen, place, Clock::real());
-        Ok(MadeRig {
+        Ok(PreparedRig {
             rig: rig.map_err(|error| error.to_string())?,
             warnings,
         })

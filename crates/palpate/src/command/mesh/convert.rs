@@ -61,7 +61,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let _claims = arguments.overwrite.claim([&arguments.out])?;
     interrupt::ends_between_files("interrupted; nothing was converted");
     let progress = Progress::new(Reader::of_json(arguments.json), None);
-    progress.say("reading the mesh");
+    progress.show_step("reading the mesh");
     let imported = super::read(&arguments.file, arguments.unit.as_deref())?;
     let (mesh, repairs) = repair(&imported.mesh)?;
     let answer = Answer {

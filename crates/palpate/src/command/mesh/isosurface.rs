@@ -14,7 +14,7 @@ use serde::Serialize;
 use super::written::{Output, Written, with_stem_suffix};
 use crate::failure::Failure;
 use crate::progress::{Progress, Reader};
-use palpate_jobs::{Watch, label};
+use palpate_jobs::{ProgressCallback, label};
 
 use crate::{interrupt, output};
 
@@ -98,7 +98,7 @@ struct Surfaced {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     interrupt::ends_between_files("interrupted; the surfaces that were written are whole");
     let progress = Progress::of_job(Reader::of_json(arguments.json));
-    progress.say("reading the volume");
+    progress.show_step("reading the volume");
     let folder = match arguments.file.is_dir() {
         true => read_dicom_folder(&arguments.file)?,
         false => DicomFolder::default(),
@@ -128,8 +128,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             false => Some(apart(map, &chosen, &mut warnings)?),
         };
         for (number, (label, out)) in chosen.surfaces.iter().enumerate() {
-            progress.say(format!("the surface of {}", label::in_words(label)));
-            let at = |part| Watch::at(&progress, (number as f64 + part) / count);
+            progress.show_step(format!("the surface of {}", label::in_words(label)));
+            let at =
+                |part| ProgressCallback::report_fraction(&progress, (number as f64 + part) / count);
             let made = match number == 0 && !chosen.inside.is_empty() {
                 true => {
                     let whole = map.with_inside(label.number, &chosen.inside);

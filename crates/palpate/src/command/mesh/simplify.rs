@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use clap::Args;
 use palpate_geometry::{Deviation, LengthUnit, SimplifySettings, repair, simplify_with_progress};
-use palpate_jobs::Watch;
+use palpate_jobs::ProgressCallback;
 use serde::Serialize;
 
 use super::written::{Output, Written, repair_sentences};
@@ -66,12 +66,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let _claims = arguments.overwrite.claim([&arguments.out])?;
     interrupt::ends_between_files("interrupted; nothing was simplified");
     let progress = Progress::of_job(Reader::of_json(arguments.json));
-    progress.say("reading the mesh");
+    progress.show_step("reading the mesh");
     let mut imported = super::read(&arguments.file, arguments.unit.as_deref())?;
     let (mesh, repairs) = repair(&imported.mesh)?;
     let warnings = &mut imported.warnings;
     warnings.extend(repair_sentences(&repairs));
-    progress.say(format!(
+    progress.show_step(format!(
         "{} triangles become {}",
         mesh.triangles().len(),
         arguments.triangles
@@ -79,7 +79,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let begin = Instant::now();
     let settings = SimplifySettings::to(arguments.triangles);
     let simplified = simplify_with_progress(&mesh, &settings, &mut |part| {
-        Watch::at(&progress, part);
+        ProgressCallback::report_fraction(&progress, part);
         ControlFlow::Continue(())
     });
     let simplified = simplified?;

@@ -148,7 +148,7 @@ fn envelope_of(
     settings: &WrapSettings,
     progress: &Progress,
 ) -> Result<(Envelope, usize), Failure> {
-    progress.say("reading the triangles");
+    progress.show_step("reading the triangles");
     let imported = super::read(path, unit)?;
     let mut found =
         envelope(&imported.mesh, settings, progress).map_err(|error| error.about(path))?;

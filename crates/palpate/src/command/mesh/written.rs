@@ -1,11 +1,11 @@
 use std::path::{Path, PathBuf};
 
-use palpate_files::write_whole;
+use palpate_files::write_atomically;
 use palpate_geometry::{LengthUnit, ReadError, Repairs, TriangleMesh, WriteFormat};
 use serde::Serialize;
 
 use crate::failure::Failure;
-use crate::interrupt::Unbroken;
+use crate::interrupt::UninterruptedSection;
 
 /// A file to write.
 pub(super) struct Output {
@@ -42,8 +42,8 @@ impl Output {
     /// Writes `mesh`, whole or not at all.
     pub(super) fn write(self, mesh: &TriangleMesh) -> Result<Written, Failure> {
         let bytes = self.format.bytes(mesh, self.unit);
-        let _unbroken = Unbroken::begin();
-        write_whole(&self.path, &bytes)?;
+        let _unbroken = UninterruptedSection::begin();
+        write_atomically(&self.path, &bytes)?;
         Ok(Written {
             file: self.path,
             unit: self.unit.symbol(),

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use palpate_record::{CurvePoint, Measure, Spread, Standard};
 use serde::Serialize;
 
-use super::course::{CurveQuantity, JudgedAttempt, LearningCurve, Trainee};
+use super::learning_curves::{CurveQuantity, JudgedAttempt, LearningCurve, Trainee};
 use crate::date;
 use crate::output::VERSION;
 

@@ -7,7 +7,7 @@ use palpate_viewer::training::{
     AssignedTask, Class, StandingWord, TaskProgress, TraineeProgress, TraineeStanding,
 };
 
-use super::course::{CurveQuantity, LearningCurve};
+use super::learning_curves::{CurveQuantity, LearningCurve};
 use crate::command::teacher;
 use crate::date;
 use crate::failure::Failure;

@@ -2,7 +2,7 @@
 
 use palpate_record::Spread;
 
-use super::course::{CurveQuantity, LearningCurve};
+use super::learning_curves::{CurveQuantity, LearningCurve};
 use crate::plot::{Axis, Band, Plot, Series, Style};
 
 /// Trainees that are drawn one by one, at most; all are in the mean.

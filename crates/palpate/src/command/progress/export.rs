@@ -2,7 +2,7 @@
 
 use palpate_files::text_cell;
 
-use super::course::{JudgedAttempt, LearningCurve};
+use super::learning_curves::{JudgedAttempt, LearningCurve};
 use crate::date;
 use crate::failure::Failure;
 

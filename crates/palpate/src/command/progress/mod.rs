@@ -3,9 +3,9 @@
 mod anonymous;
 mod answer;
 mod class;
-mod course;
 mod curves;
 mod export;
+mod learning_curves;
 mod report;
 mod table;
 mod xapi;
@@ -14,13 +14,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use palpate_files::write_whole;
+use palpate_files::write_atomically;
 use palpate_record::{Filter, IN_A_ROW, Record};
 
 use self::answer::Answer;
 pub(crate) use self::class::class;
-use self::course::LearningCurve;
-pub(crate) use self::course::{ERRORS, TIME};
+use self::learning_curves::LearningCurve;
+pub(crate) use self::learning_curves::{ERRORS, TIME};
 use super::overwrite::OverwriteOption;
 use crate::failure::Failure;
 use palpate_jobs::nearest;
@@ -116,11 +116,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let courses = LearningCurve::all(&attempts, trainee.as_deref());
     let answer = Answer::new(record.path(), &courses);
     if let Some(table) = &arguments.csv {
-        write_whole(table, export::csv(&courses)?.as_bytes())?;
+        write_atomically(table, export::csv(&courses)?.as_bytes())?;
     }
     if let Some(statements) = &arguments.xapi {
         let text = output::json_text(&xapi::statements(&courses))?;
-        write_whole(statements, text.as_bytes())?;
+        write_atomically(statements, text.as_bytes())?;
     }
     if let Some(page) = &arguments.report {
         let html = report::html(
@@ -128,7 +128,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             &answer.warnings,
             &settings(arguments, record.path()),
         );
-        write_whole(page, html.as_bytes())?;
+        write_atomically(page, html.as_bytes())?;
     }
     if arguments.json {
         return output::json(&answer);

@@ -1,7 +1,7 @@
 //! `--report`: trainees' progress as a page for people.
 
-use super::course::{JudgedAttempt, LearningCurve, Trainee};
 use super::curves::{self, TRAINEES};
+use super::learning_curves::{JudgedAttempt, LearningCurve, Trainee};
 use super::table::{NONE, proficient, shown, standing, truth, valued};
 use crate::date;
 use crate::report::{Markup, Page, Table, count, figure, provenance, quantity, warning_list};
@@ -30,9 +30,9 @@ pub(super) fn html(
     let nothing = provenance(settings, std::iter::empty());
     Page {
         title,
-        lead: Markup::of_class("p", "lead", lead),
+        summary: Markup::of_class("p", "lead", lead),
         body: warning_list("Warnings", warnings).and(each.collect::<Markup>()),
-        foot: nothing.and(Markup::plain("p", super::rule() + CONVENTIONS)),
+        footer: nothing.and(Markup::plain("p", super::rule() + CONVENTIONS)),
     }
     .html()
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use palpate_files::printable;
 use palpate_files::quantity::number;
 
-use super::course::{CurveQuantity, JudgedAttempt, LearningCurve, Trainee};
+use super::learning_curves::{CurveQuantity, JudgedAttempt, LearningCurve, Trainee};
 use crate::date;
 use crate::report::{count, quantity, unit};
 

@@ -4,7 +4,7 @@
 use palpate_record::Attempt;
 use serde_json::{Value, json};
 
-use super::course::{JudgedAttempt, LearningCurve};
+use super::learning_curves::{JudgedAttempt, LearningCurve};
 use crate::date;
 
 /// Prefix of the names that only this program defines.

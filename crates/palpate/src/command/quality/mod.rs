@@ -65,7 +65,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut warnings = simulation.warnings().to_vec();
     let mut runs = Vec::new();
     for &rate in &arguments.rates {
-        progress.say(format!("{rate} Hz for {} s", arguments.seconds));
+        progress.show_step(format!("{rate} Hz for {} s", arguments.seconds));
         let quality = touch(&simulation, rate, arguments.seconds)?;
         for warning in quality.warnings(memory) {
             if !warnings.contains(&warning) {

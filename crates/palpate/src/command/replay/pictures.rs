@@ -90,7 +90,7 @@ impl Pictures {
             match &mut self.destination {
                 Destination::InFolder(folder) => {
                     let path = folder.join(name(self.files.len() as u64));
-                    palpate_files::write_whole(&path, &png(&picture)?)?;
+                    palpate_files::write_atomically(&path, &png(&picture)?)?;
                     self.files.push(path);
                 }
                 Destination::InAnimation(_, animation) => animation.add(&picture)?,
@@ -102,7 +102,7 @@ impl Pictures {
     /// Writes what is not yet written; all files.
     pub(super) fn finish(mut self) -> Result<Vec<PathBuf>, Failure> {
         if let Destination::InAnimation(path, animation) = self.destination {
-            palpate_files::write_whole(&path, &animation.finish()?)?;
+            palpate_files::write_atomically(&path, &animation.finish()?)?;
             self.files.push(path);
         }
         Ok(self.files)

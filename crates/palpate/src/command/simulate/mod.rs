@@ -294,7 +294,7 @@ fn play(arguments: &Arguments, played: &Played<'_>, out: &Path) -> Result<(), Fa
 }
 
 /// Rows of a motion that are considered for the viewpoint, at most.
-const MOST_ROWS: usize = 1000;
+const MAX_ROWS: usize = 1000;
 
 /// The place of a tool that is deepest in the organ, or nearest to it, over the rows of `motion` [m].
 fn touched(simulation: &Simulation, motion: &Motion) -> Option<Vec3> {
@@ -302,7 +302,7 @@ fn touched(simulation: &Simulation, motion: &Motion) -> Option<Vec3> {
     let tree = AabbTree::new(surface.mesh());
     let count: usize = motion.tools().iter().map(|tool| tool.rows().len()).sum();
     let rows = motion.tools().iter().flat_map(|tool| tool.rows());
-    let rows = rows.step_by(1 + count / MOST_ROWS);
+    let rows = rows.step_by(1 + count / MAX_ROWS);
     let places = rows.map(|row| Vec3::from(row.pose.position_m));
     let depths = places.map(|place| (surface.signed_distance(&tree, &place).1, place));
     let deepest = depths.min_by(|(one, _), (other, _)| one.total_cmp(other));

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use palpate_files::Claim;
 use palpate_jobs::json_text;
-use palpate_jobs::solve::{Answer, Problem, Wanted, in_words, solve};
+use palpate_jobs::solve::{Answer, Problem, RequestedOutputs, in_words, solve};
 
 use super::overwrite::OverwriteOption;
 use crate::failure::Failure;
-use crate::interrupt::{self, Unbroken};
+use crate::interrupt::{self, UninterruptedSection};
 use crate::output;
 use crate::plot::Draw;
 use crate::progress::{Progress, Reader};
@@ -91,7 +91,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let _claims = claimed(arguments, &problem)?;
     interrupt::ends_between_files("interrupted; no answer was found");
     let progress = Progress::of_job(Reader::of_json(arguments.json));
-    let wanted = Wanted {
+    let wanted = RequestedOutputs {
         plot: arguments.plot.is_some(),
         vtu: arguments.vtu.is_some(),
     };
@@ -135,12 +135,12 @@ fn claimed(arguments: &Arguments, problem: &Problem) -> Result<Vec<Claim>, Failu
 fn write(arguments: &Arguments, answer: &Answer) -> Result<(), Failure> {
     let solution = &answer.solution;
     // Ctrl-C is delayed until the files are complete.
-    let _unbroken = Unbroken::begin();
+    let _unbroken = UninterruptedSection::begin();
     if let Some(path) = &arguments.plot {
         solution.plot.write(path)?;
     }
     if let (Some(path), Some(bytes)) = (&arguments.vtu, &solution.vtu) {
-        palpate_files::write_whole(path, bytes)?;
+        palpate_files::write_atomically(path, bytes)?;
     }
     if let (Some(path), Some(recording)) = (&arguments.recording, &solution.recording) {
         recording.write(path)?;
@@ -150,7 +150,7 @@ fn write(arguments: &Arguments, answer: &Answer) -> Result<(), Failure> {
     }
     if let Some(path) = &arguments.out {
         let json = json_text(answer)? + "\n";
-        palpate_files::write_whole(path, json.as_bytes())?;
+        palpate_files::write_atomically(path, json.as_bytes())?;
     }
     Ok(())
 }

@@ -27,7 +27,7 @@ fn row(step: u32) -> SessionRow {
         contact: true,
         depth_m: 0.001,
         events: match step {
-            0 => [Event::BeginAnew].into_iter().collect(),
+            0 => [Event::Restart].into_iter().collect(),
             _ => Events::default(),
         },
         grip_force_n: 0.0,
@@ -119,10 +119,10 @@ fn a_session_on_a_broken_disk_goes_on_elsewhere_whole() {
         .recorder
         .record(breaking(&at("broken"), header_lines()));
     played.play(0..30);
-    until(|| played.recorder.unwritten().is_some());
-    let unwritten = played.recorder.unwritten().unwrap();
+    until(|| played.recorder.recording_failure().is_some());
+    let unwritten = played.recorder.recording_failure().unwrap();
     assert!(
-        unwritten.is_whole && unwritten.cause.contains("broken"),
+        unwritten.is_complete && unwritten.cause.contains("broken"),
         "{unwritten:?}"
     );
     played.play(30..60);
@@ -130,7 +130,7 @@ fn a_session_on_a_broken_disk_goes_on_elsewhere_whole() {
         .recorder
         .record_elsewhere(writer(&at("other")))
         .unwrap();
-    assert_eq!(played.recorder.unwritten(), None);
+    assert_eq!(played.recorder.recording_failure(), None);
     played.play(60..90);
     played.recorder.end().unwrap();
     let expected: Vec<_> = (0..90).map(row).collect();
@@ -156,13 +156,13 @@ fn a_session_that_has_ended_is_still_in_memory() {
     assert!(!played.recorder.end().unwrap_err().is_input());
     // Rows after the end do not belong to it.
     played.play(30..40);
-    assert!(played.recorder.unwritten().is_some());
+    assert!(played.recorder.recording_failure().is_some());
     played
         .recorder
         .record_elsewhere(writer(&at("other")))
         .unwrap();
     assert_eq!(rows_in(&at("other")).len(), 30);
-    assert_eq!(played.recorder.unwritten(), None);
+    assert_eq!(played.recorder.recording_failure(), None);
     played.recorder.record(writer(&at("next")));
     played.play(0..5);
     played.recorder.end().unwrap();
@@ -179,8 +179,8 @@ fn more_rows_than_memory_keeps_are_an_incomplete_session() {
         .recorder
         .record(breaking(&at("broken"), header_lines()));
     played.play(0..30);
-    until(|| played.recorder.unwritten().is_some());
-    until(|| !played.recorder.unwritten().unwrap().is_whole);
+    until(|| played.recorder.recording_failure().is_some());
+    until(|| !played.recorder.recording_failure().unwrap().is_complete);
     let said = played.recorder.record_elsewhere(writer(&at("other")));
     assert!(said.unwrap_err().to_string().contains("first 20 rows"));
     let session = Session::read(at("other/session.csv.part")).unwrap();

@@ -48,7 +48,7 @@ fn held_triangles_are_a_new_solution() {
         let mut hands = Hands::new(&simulation);
         hands.at(&POLE, 0.0);
         hands.at(&POLE, 1.0);
-        assert!(hands.tool().holds() && hands.did(Event::Grip));
+        assert!(hands.tool().is_grasping() && hands.did(Event::Grip));
         hands.go(&[pose(&(POLE + by), &turned, 1.0)]);
         let found = hands.tool().force;
 

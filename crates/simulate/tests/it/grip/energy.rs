@@ -36,10 +36,10 @@ fn a_slip_keeps_the_pull_at_its_limit() {
         hands.at(&POLE, 0.0);
         hands.at(&POLE, 1.0);
         let (mut at_limit, mut before, mut steps) = (0, 0.0, 0);
-        while hands.tool().holds() && steps < 4000 {
+        while hands.tool().is_grasping() && steps < 4000 {
             steps += 1;
             let force = hands.at(&(POLE + Vec3::z() * (2e-5 * f64::from(steps))), 1.0);
-            if !hands.tool().holds() {
+            if !hands.tool().is_grasping() {
                 assert_eq!(force, Vec3::zeros());
                 break;
             }

@@ -32,7 +32,9 @@ fn taking_hold_makes_no_jump() {
         assert!(pressed.z > 0.0);
         let shown = hands.state.deformed.clone();
         let held = hands.at(&(POLE - Vec3::z() * 2e-3), 0.9);
-        assert!(hands.tool().holds() && !hands.did(Event::Contact) && !hands.did(Event::Release));
+        assert!(
+            hands.tool().is_grasping() && !hands.did(Event::Contact) && !hands.did(Event::Release)
+        );
         assert!(
             (held - pressed).norm() < 1e-9 * pressed.norm(),
             "{kind}: {held} {pressed}"
@@ -68,7 +70,7 @@ fn what_is_let_go_is_at_rest() {
         let mut hands = Hands::new(&simulation);
         hands.at(&POLE, 0.0);
         hands.at(&POLE, 1.0);
-        assert!(hands.tool().holds() && hands.did(Event::Grip) && hands.did(Event::Contact));
+        assert!(hands.tool().is_grasping() && hands.did(Event::Grip) && hands.did(Event::Contact));
         // The tip did not touch before: nothing is felt.
         assert!(hands.tool().force.norm() < 1e-12);
         let up = POLE + Vec3::z() * 2e-3;
@@ -82,10 +84,10 @@ fn what_is_let_go_is_at_rest() {
         assert!(!hands.is_at_rest());
         // A trembling hand lets nothing go.
         hands.at(&up, 0.45);
-        assert!(hands.tool().holds());
+        assert!(hands.tool().is_grasping());
         let force = hands.at(&up, 0.3);
         assert!(hands.did(Event::GripRelease) && hands.did(Event::Release));
-        assert!(!hands.tool().holds() && force == Vec3::zeros());
+        assert!(!hands.tool().is_grasping() && force == Vec3::zeros());
         assert!(hands.is_at_rest(), "{kind}");
         assert_eq!(hands.tool().row.grip_force_n, 0.0);
     }
@@ -100,7 +102,7 @@ fn only_jaws_that_shut_take_hold() {
         for &grip in grips {
             hands.at(&(POLE - Vec3::z() * 5e-4), grip);
         }
-        hands.tool().holds()
+        hands.tool().is_grasping()
     };
     let scene = grasping(&HEMISPHERE, Jaws::GRASPER, 1);
     assert!(holds(&scene, &[0.0, 1.0]));
@@ -119,7 +121,7 @@ fn only_jaws_that_shut_take_hold() {
     let mut hands = Hands::new(&simulation);
     hands.at(&far, 0.0);
     hands.at(&far, 1.0);
-    assert!(!hands.tool().holds() && !hands.did(Event::Grip));
+    assert!(!hands.tool().is_grasping() && !hands.did(Event::Grip));
 }
 
 /// Judge: the next step. What jaws hold is a spring until it slips, and it pulls.

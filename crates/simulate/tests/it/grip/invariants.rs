@@ -46,7 +46,7 @@ fn random_grips(simulation: &Simulation, number: usize) -> (f64, usize) {
                 largest = largest.max(own.force.norm());
                 held += usize::from(own.row.events.contains(Event::Grip));
                 // What slips is at the limit, along the faces.
-                if own.holds() && own.grip_force > 0.0 {
+                if own.is_grasping() && own.grip_force > 0.0 {
                     let [i, j, k, w] = own.row.orientation;
                     let turned =
                         UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, i, j, k));
@@ -135,7 +135,7 @@ fn pulled(simulation: &Simulation, losing: impl Fn(u32) -> bool) -> Vec<[u64; 3]
             felt.push([own.force.x, own.force.y, own.force.z].map(f64::to_bits));
         }
     }
-    assert!(hands.state.tools[1].holds() && !hands.state.tools[0].holds());
+    assert!(hands.state.tools[1].is_grasping() && !hands.state.tools[0].is_grasping());
     felt
 }
 

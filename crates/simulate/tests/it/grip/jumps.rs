@@ -107,7 +107,7 @@ fn a_jump_releases_and_is_reported() {
         for grip in [0.0, 1.0] {
             hands.go(&[pose(&(POLE - Vec3::z() * 1e-3), &upright, grip), press]);
         }
-        assert!(hands.tool().holds());
+        assert!(hands.tool().is_grasping());
         let away = POLE + Vec3::z() * 2.0;
         hands.go(&[pose(&away, &upright, 1.0), press]);
         let did = |event| hands.tool().row.events.contains(event);
@@ -115,7 +115,7 @@ fn a_jump_releases_and_is_reported() {
             did(Event::Jump) && did(Event::Release) && did(Event::GripRelease),
             "{kind}"
         );
-        assert!(!hands.tool().holds() && hands.tool().force == Vec3::zeros());
+        assert!(!hands.tool().is_grasping() && hands.tool().force == Vec3::zeros());
         // The other is where it was.
         let other = &hands.state.tools[1];
         assert!(!other.row.events.contains(Event::Jump) && other.force.z > 0.0);
@@ -127,7 +127,7 @@ fn a_jump_releases_and_is_reported() {
         assert!(told.len() == 1 && told[0].contains("\"right\""), "{told:?}");
         // Back into the organ in a step: a contact that begins there, and jaws that are shut hold nothing.
         hands.go(&[pose(&(POLE - Vec3::z() * 1e-3), &upright, 1.0), press]);
-        assert!(hands.did(Event::Jump) && hands.did(Event::Contact) && !hands.tool().holds());
+        assert!(hands.did(Event::Jump) && hands.did(Event::Contact) && !hands.tool().is_grasping());
     }
 }
 

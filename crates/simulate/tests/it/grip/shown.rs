@@ -52,8 +52,8 @@ fn a_finer_surface_goes_with_the_jaws() {
     hands.go(&[pose(&place(-1e-3), &turned, 0.0)]);
     hands.go(&[pose(&place(-1e-3), &turned, 1.0)]);
     hands.go(&[pose(&place(4e-3), &turned, 1.0)]);
-    assert!(hands.tool().holds());
-    assert!(surface.follow(hands.state.whole.as_ref().unwrap()));
+    assert!(hands.tool().is_grasping());
+    assert!(surface.follow(hands.state.organ_field.as_ref().unwrap()));
     let tip = place(4e-3);
     let shown = surface.places().iter().map(|vertex| (vertex - tip).norm());
     let nearest_to_tip = shown.fold(f64::INFINITY, f64::min);

@@ -33,7 +33,7 @@ const TIME_LIMIT: Duration = Duration::from_secs(600);
 
 /// Of scenes that the reader takes, so many may be refused as input when they are prepared [-]: for an inclusion or a trocar
 /// in the wrong place, which nobody knows without the organ.
-const MOST_REFUSED: f64 = 0.2;
+const MAX_REFUSED: f64 = 0.2;
 
 /// A generator of a number: two numbers beside each other have nothing in common.
 fn random(number: u64) -> Random {
@@ -112,7 +112,7 @@ fn played(number: u64, scene: &Scene, simulation: &Simulation) -> Played {
                 *events.entry(event.word()).or_default() += 1;
             }
         }
-        Ok(Flow::GoOn)
+        Ok(Flow::Continue)
     });
     let summary = summary.unwrap_or_else(|error| panic!("scene {number}: {error}"));
     let tools: Vec<_> = scene.tools.iter().map(|tool| tool.kind.word()).collect();
@@ -184,7 +184,7 @@ impl<'a> Check<'a> {
                 _ => 0.0,
             };
             assert!((0.0..=strongest).contains(&own.grip_force), "{at}: {row:?}");
-            if let (Some(jaws), true) = (tool.jaws, own.holds()) {
+            if let (Some(jaws), true) = (tool.jaws, own.is_grasping()) {
                 let [i, j, k, w] = row.orientation;
                 let turned = UnitQuaternion::from_quaternion(Quaternion::new(w, i, j, k));
                 let pull = turned.inverse() * own.force;
@@ -277,7 +277,7 @@ fn scenes(numbers: impl Iterator<Item = u64>) {
     assert!(seen.played > 0);
     let all = (seen.played + seen.refused) as f64;
     assert!(
-        seen.refused as f64 <= MOST_REFUSED * all,
+        seen.refused as f64 <= MAX_REFUSED * all,
         "{} refused",
         seen.refused
     );

@@ -130,14 +130,14 @@ fn tasks_have_their_texts_in_the_catalogue() {
     sources(&tasks, &mut files);
     files.retain(|file| file.extension().is_some_and(|end| end == "toml"));
     assert!(files.len() >= 4);
-    speak(Language::German);
+    set_language(Language::German);
     for file in files {
         let text = std::fs::read_to_string(&file).unwrap();
         let scene = palpate_files::Scene::parse(&text, &file).unwrap();
         let own = [scene.task.title, scene.task.instructions].map(Option::unwrap);
         for words in &own {
             let key = keys(ENGLISH).filter(|key| key.starts_with(OF_TASKS));
-            let mut english = key.map(|key| Catalogue::new(Language::English).say(key, &[]));
+            let mut english = key.map(|key| Catalogue::new(Language::English).translate(key, &[]));
             let is_there = english.any(|own| own.as_deref() == Some(words));
             assert!(is_there, "{}: `{words}` is not in en.ftl", file.display());
         }
@@ -172,7 +172,7 @@ fn plurals_and_numbers_are_those_of_the_language() {
             "0,5",
         ),
     ] {
-        speak(language);
+        set_language(language);
         for (errors, words) in [(0, none), (1, one), (2, two)] {
             assert_eq!(text!("common-time-errors", s = 9.0, errors = errors), words);
         }
@@ -185,8 +185,8 @@ fn plurals_and_numbers_are_those_of_the_language() {
 #[test]
 fn a_phrase_that_is_not_translated_is_english() {
     let lacking = Catalogue::new(Language::French);
-    assert_eq!(lacking.say("no-such-key", &[]), None);
-    speak(Language::French);
+    assert_eq!(lacking.translate("no-such-key", &[]), None);
+    set_language(Language::French);
     assert_eq!(text!("common-back"), "Retour");
-    assert_eq!(say("no-such-key", &[]), "no-such-key");
+    assert_eq!(translate("no-such-key", &[]), "no-such-key");
 }

@@ -10,7 +10,7 @@ use super::{MAGIC, PREAMBLE, Values, is_dicom, read_object};
 use crate::{ReadError, ReadFault, Vec3};
 
 /// Files that are looked at, at most.
-const MOST_FILES: usize = 100_000;
+const MAX_FILES: usize = 100_000;
 
 /// Folders in folders that are looked into.
 const DEEPEST: usize = 16;
@@ -117,11 +117,11 @@ fn collect(folder: &Path, deeper: usize, files: &mut Vec<PathBuf>) -> Result<(),
         } else if kind.is_dir() && deeper > 0 {
             collect(&entry.path(), deeper - 1, files)?;
         }
-        if files.len() > MOST_FILES {
+        if files.len() > MAX_FILES {
             return Err(ReadFault::TooLarge {
                 what: "files",
                 found: files.len() as u64,
-                most: MOST_FILES as u64,
+                most: MAX_FILES as u64,
             });
         }
     }

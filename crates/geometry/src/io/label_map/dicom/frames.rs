@@ -59,7 +59,7 @@ impl<'o> Groups<'o> {
     }
 
     /// From slice to slice, else the thickness of a slice [mm].
-    fn apart(&self) -> Option<f64> {
+    fn slice_spacing(&self) -> Option<f64> {
         self.find(|group| {
             let measures = group.first(tags::PIXEL_MEASURES_SEQUENCE)?;
             let apart = measures.numbers::<1>(tags::SPACING_BETWEEN_SLICES);
@@ -113,7 +113,10 @@ impl Lattice {
         let positions: Option<Vec<_>> = positions.collect();
         let positions = positions.ok_or_else(|| missing("image position"))?;
         let mut heights: Vec<f64> = positions.iter().map(|at| normal.dot(at)).collect();
-        let apart = slice_spacing(&heights, first.apart().map(|apart| MILLIMETRE * apart))?;
+        let apart = slice_spacing(
+            &heights,
+            first.slice_spacing().map(|apart| MILLIMETRE * apart),
+        )?;
         let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
         let origin = positions
             .iter()

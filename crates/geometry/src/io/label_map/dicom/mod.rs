@@ -23,7 +23,7 @@ pub use folder::{DicomFolder, DicomSeries, read_dicom_folder};
 
 use self::lengths::{Encoding, check_lengths};
 use crate::io::text::shortened;
-use crate::io::{MOST_BYTES, read_whole};
+use crate::io::{MAX_BYTES, read_whole};
 use crate::{LabelMap, ReadFault};
 
 /// The magic bytes after the preamble of a file.
@@ -111,15 +111,15 @@ fn meta_end(file: &mut (impl Read + Seek)) -> io::Result<u64> {
 
 fn inflated(file: impl Read) -> Result<Vec<u8>, ReadFault> {
     let mut data = Vec::new();
-    let mut stream = DeflateDecoder::new(file).take(MOST_BYTES + 1);
+    let mut stream = DeflateDecoder::new(file).take(MAX_BYTES + 1);
     stream
         .read_to_end(&mut data)
         .map_err(ReadFault::BadCompression)?;
     match data.len() as u64 {
-        found if found > MOST_BYTES => Err(ReadFault::TooLarge {
+        found if found > MAX_BYTES => Err(ReadFault::TooLarge {
             what: "bytes",
             found,
-            most: MOST_BYTES,
+            most: MAX_BYTES,
         }),
         _ => Ok(data),
     }
@@ -131,7 +131,7 @@ pub(super) fn only_segmentation(path: &Path) -> Result<(PathBuf, Vec<u8>), ReadF
     match folder.segmentations.len() {
         1 => {
             let file = folder.segmentations.remove(0);
-            let bytes = read_whole(&file, MOST_BYTES)?;
+            let bytes = read_whole(&file, MAX_BYTES)?;
             Ok((file, bytes))
         }
         found => Err(ReadFault::NotOneSegmentation { found }),

@@ -22,9 +22,9 @@ use super::super::table::Table;
 use super::figures::{
     CavityFigures, Displacements, Figures, PatchFigures, PointFigures, SolidFigures,
 };
-use super::{Solution, Wanted, plots, warnings};
+use super::{RequestedOutputs, Solution, plots, warnings};
 use crate::Error;
-use crate::solve::telling::ProgressReporter;
+use crate::solve::solver_progress::ProgressReporter;
 
 /// Displacement over the length of a body above which a linear law gets a warning [-].
 const LARGE_WAY: f64 = 0.05;
@@ -35,13 +35,13 @@ const VOLUMES: [&str; 3] = ["msh", "vtk", "vtu"];
 /// The fit of the stiffness stops when it changes by no more than this part of the accuracy [-], or after this many
 /// solutions.
 const FITTED_TO: f64 = 0.1;
-const MOST_FITS: usize = 8;
+const MAX_FITS: usize = 8;
 
 /// Solves a body that is moved or loaded, and fits its tissue where that is requested.
 pub(crate) fn solution(
     problem: &Problem,
     case: &Solid,
-    wanted: Wanted,
+    wanted: RequestedOutputs,
     reporter: &ProgressReporter<'_>,
 ) -> Result<Solution, Error> {
     let BodyOfFile {
@@ -86,7 +86,7 @@ pub(crate) fn solution(
     let mut found = solved(&mechanical)?;
     let mut factor = 1.0;
     let mut tissue = None;
-    for fit in 0..=MOST_FITS {
+    for fit in 0..=MAX_FITS {
         if !case.fits {
             break;
         }
@@ -95,9 +95,9 @@ pub(crate) fn solution(
         if (change - 1.0).abs() <= FITTED_TO * problem.accuracy {
             break;
         }
-        if fit == MOST_FITS {
+        if fit == MAX_FITS {
             warnings.push(format!(
-                "the fitted stiffness still changes by {:.2} % after {MOST_FITS} solutions; measure points that move \
+                "the fitted stiffness still changes by {:.2} % after {MAX_FITS} solutions; measure points that move \
                  more with it",
                 100.0 * (change - 1.0).abs()
             ));

@@ -6,7 +6,7 @@ use super::super::figures::Figures;
 use super::super::{Solution, millimetres, millinewtons, plots, warnings};
 use crate::Error;
 use crate::plot::Plot;
-use crate::solve::telling::ProgressReporter;
+use crate::solve::solver_progress::ProgressReporter;
 
 /// Adds to the solution of the inflated tube the forces of a punch on its side under the last pressure.
 pub(crate) fn with_forces(

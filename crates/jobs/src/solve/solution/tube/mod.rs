@@ -9,15 +9,15 @@ use palpate_mechanics::finite_elements::tube::{
 use super::super::problem::{Problem, Tube};
 use super::super::table::Table;
 use super::figures::TubeFigures;
-use super::{Figures, Solution, Wanted, plots};
+use super::{Figures, RequestedOutputs, Solution, plots};
 use crate::Error;
-use crate::solve::telling::ProgressReporter;
+use crate::solve::solver_progress::ProgressReporter;
 
 /// Widening of the tube under each pressure.
 pub(crate) fn solution(
     problem: &Problem,
     case: &Tube,
-    wanted: Wanted,
+    wanted: RequestedOutputs,
     reporter: &ProgressReporter<'_>,
 ) -> Result<Solution, Error> {
     let mechanical = TubeProblem {

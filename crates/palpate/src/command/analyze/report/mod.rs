@@ -35,9 +35,9 @@ pub(super) fn html(analyzed: &Analyzed, settings: &[(String, String)]) -> String
     let recordings = analyzed.recordings.iter().map(|(read, _)| source(read));
     Page {
         title,
-        lead: Markup::of_class("p", "lead", lead(analyzed)),
+        summary: Markup::of_class("p", "lead", lead(analyzed)),
         body: overview.and(organs).and(unusable).and(warned(analyzed)),
-        foot: provenance(settings, recordings).and(Markup::plain("p", CONVENTIONS)),
+        footer: provenance(settings, recordings).and(Markup::plain("p", CONVENTIONS)),
     }
     .html()
 }

@@ -1,7 +1,7 @@
 use palpate_characterize::Analysis;
 
 use super::{CURVES, some_of, title};
-use crate::plot::{Plot, Series, Style, kept};
+use crate::plot::{Plot, Series, Style, thinned_indices};
 use crate::report::{Markup, figure, unit};
 use palpate_jobs::ReadRecording;
 
@@ -24,7 +24,7 @@ pub(super) fn figure_of(own: &[&(ReadRecording, Analysis)]) -> Markup {
     let force = unit("_n", largest(|read| &read.clean.filtered_force));
     let series = drawn().enumerate().map(|(color, read)| {
         let clean = &read.clean;
-        let places = kept(&clean.time, &clean.depth, &clean.filtered_force);
+        let places = thinned_indices(&clean.time, &clean.depth, &clean.filtered_force);
         let points = places.into_iter().map(|place| {
             let [along, up] = [clean.depth[place], clean.filtered_force[place]];
             (depth.factor * along, force.factor * up)

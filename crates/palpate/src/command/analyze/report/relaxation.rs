@@ -2,7 +2,7 @@ use palpate_characterize::analyze::Relaxation;
 use palpate_characterize::{Analysis, CleanRecording};
 
 use super::{CURVES, some_of, title};
-use crate::plot::{Axis, Plot, Series, Style, kept};
+use crate::plot::{Axis, Plot, Series, Style, thinned_indices};
 use crate::report::{Markup, Table, figure, quantity};
 use palpate_jobs::ReadRecording;
 
@@ -21,7 +21,7 @@ pub(super) fn figure_of(own: &[&Own]) -> Markup {
     let series = drawn.map(|(color, (read, relaxation))| {
         let clean = &read.clean;
         let until = relaxation.hold_start_s + relaxation.hold_s;
-        let places = kept(&clean.time, &clean.depth, &clean.filtered_force);
+        let places = thinned_indices(&clean.time, &clean.depth, &clean.filtered_force);
         let within =
             |place: &usize| (relaxation.hold_start_s..=until).contains(&clean.time[*place]);
         let points = places.into_iter().filter(within).map(|place| {

@@ -14,7 +14,7 @@ pub(super) fn table(own: &[&(ReadRecording, Analysis)]) -> Markup {
     ]);
     let all = own
         .iter()
-        .filter_map(|(read, _)| Some((read, read.sideways?)));
+        .filter_map(|(read, _)| Some((read, read.lateral_load?)));
     for (read, found) in all {
         table.row(vec![
             Markup::plain("code", read.path.display().to_string()),

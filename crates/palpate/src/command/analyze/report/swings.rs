@@ -2,7 +2,7 @@ use palpate_characterize::Analysis;
 use palpate_characterize::analyze::{COHERENT, Sinusoid, SweepPoint};
 
 use super::{CURVES, some_of, title};
-use crate::plot::{Axis, Plot, Series, Style, kept};
+use crate::plot::{Axis, Plot, Series, Style, thinned_indices};
 use crate::report::{Markup, Table, figure, quantity, unit};
 use palpate_jobs::ReadRecording;
 
@@ -66,7 +66,7 @@ fn loops(own: &[&Own]) -> Markup {
             let last = clean.time.partition_point(|time| *time <= end + 1e-6);
             let [time, depth, force] =
                 [&clean.time, &clean.depth, &clean.filtered_force].map(|all| &all[first..last]);
-            let points = kept(time, depth, force).into_iter();
+            let points = thinned_indices(time, depth, force).into_iter();
             let points = points.map(|place| (1e3 * depth[place], scale.factor * force[place]));
             let name = format!("{}, {:.3} Hz", title(read), sine.frequency_hz);
             Series::new(name, points.collect(), Style::Line, color)

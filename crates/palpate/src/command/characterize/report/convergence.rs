@@ -6,10 +6,10 @@ use super::words;
 use crate::plot::{Plot, Style};
 use crate::report::{Markup, Table, figure, quantity, symbol};
 use palpate_jobs::characterize::Specimen;
-use palpate_jobs::characterize::{DrawnLaw, Portrait};
+use palpate_jobs::characterize::{DrawnLaw, FitPlots};
 
 /// Convergence of the fits.
-pub(super) fn figures(portrait: &Portrait) -> Markup {
+pub(super) fn figures(portrait: &FitPlots) -> Markup {
     let moved = portrait.laws.iter().filter(|law| law.iterations.len() > 1);
     moved.map(|law| figure(&way(law), caption(law))).collect()
 }

@@ -3,13 +3,13 @@ use crate::plot::{Band, Plot, Series, Style};
 use crate::report::{Markup, Scale, figure, unit};
 use palpate_characterize::lumped::PieceTest;
 use palpate_jobs::characterize::Specimen;
-use palpate_jobs::characterize::{DrawnCurve, DrawnFit, Portrait};
+use palpate_jobs::characterize::{DrawnCurve, DrawnFit, FitPlots};
 
 /// Recordings that are drawn in one plot, at most.
 const RECORDINGS: usize = 6;
 
 /// Recordings, models over time and depth, and residuals of the models.
-pub(super) fn figures(own: &Specimen, portrait: &Portrait) -> Markup {
+pub(super) fn figures(own: &Specimen, portrait: &FitPlots) -> Markup {
     let recordings = portrait.recordings.iter();
     let recorded: Markup = recordings
         .clone()

@@ -1,4 +1,4 @@
-use palpate_characterize::fit::WORTH;
+use palpate_characterize::fit::MIN_IMPROVEMENT;
 
 use super::words;
 use crate::report::{Markup, Table, quantity, rounded, symbol, unit};
@@ -66,7 +66,7 @@ fn verdict(preferred: &str, specimen: &Specimen, least: f64) -> Markup {
             format!("The {name} law is preferred: no other is better by the information criterion.")
         }
         _ => format!(
-            "The {name} law is preferred: it is the simplest that no other beats by more than {WORTH}, and the best is ahead by {:.1} only.",
+            "The {name} law is preferred: it is the simplest that no other beats by more than {MIN_IMPROVEMENT}, and the best is ahead by {:.1} only.",
             criterion(own) - least
         ),
     };

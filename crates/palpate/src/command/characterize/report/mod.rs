@@ -14,13 +14,13 @@ mod words;
 
 use crate::report::{Markup, Page, Provenance, count, provenance};
 use palpate_jobs::characterize::Answer;
-use palpate_jobs::characterize::Portrait;
+use palpate_jobs::characterize::FitPlots;
 
 /// The page on `answer`, whose specimens have `portraits`, in their order. `settings` are the options of the command:
 /// names and values.
 pub(super) fn html(
     answer: &Answer,
-    portraits: &[Portrait],
+    portraits: &[FitPlots],
     settings: &[(String, String)],
 ) -> String {
     let several = answer.specimens.len() > 1;
@@ -37,10 +37,10 @@ pub(super) fn html(
         .map(|(place, (own, portrait))| specimen::section(place, own, several, portrait))
         .collect();
     Page {
-        lead: Markup::of_class("p", "lead", lead(answer)),
+        summary: Markup::of_class("p", "lead", lead(answer)),
         title,
         body: overview.and(specimens),
-        foot: foot(portraits, settings),
+        footer: foot(portraits, settings),
     }
     .html()
 }
@@ -57,7 +57,7 @@ fn lead(answer: &Answer) -> String {
 }
 
 /// The provenance of the page.
-fn foot(portraits: &[Portrait], settings: &[(String, String)]) -> Markup {
+fn foot(portraits: &[FitPlots], settings: &[(String, String)]) -> Markup {
     let recordings = portraits.iter().flat_map(|portrait| &portrait.recordings);
     let recordings = recordings.map(|own| Provenance {
         file: own.file.clone(),

@@ -1,10 +1,10 @@
 use super::curves::{self, TIME, line};
 use crate::plot::{Axis, Plot, Style};
 use crate::report::{Markup, figure};
-use palpate_jobs::characterize::{DrawnRelaxation, Portrait};
+use palpate_jobs::characterize::{DrawnRelaxation, FitPlots};
 
 /// Forces over the instantaneous elastic force, and the relaxation functions, over the logarithm of time.
-fn plot(portrait: &Portrait) -> Option<Plot> {
+fn plot(portrait: &FitPlots) -> Option<Plot> {
     let mut series = Vec::new();
     let seen = portrait.recordings.iter().filter_map(|own| {
         let fit = own.fitted.as_ref()?;
@@ -56,7 +56,7 @@ fn plot(portrait: &Portrait) -> Option<Plot> {
 }
 
 /// The same in its frame; nothing where no relaxation was found.
-pub(super) fn drawn(portrait: &Portrait) -> Markup {
+pub(super) fn drawn(portrait: &FitPlots) -> Markup {
     let caption = "G(t)/G(0) is what a step would show. While the indenter still moves the force lies below it, and the ramp relaxes as it goes: \
                    a fit that takes the ramp for a step misses that part.";
     plot(portrait).map_or_else(Markup::default, |plot| figure(&plot, caption))

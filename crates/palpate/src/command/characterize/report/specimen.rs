@@ -1,10 +1,10 @@
 use super::{convergence, curves, laws, lumped, relaxation, words};
 use crate::report::{Markup, count, quantity, rounded, symbol, warning_list};
-use palpate_jobs::characterize::Portrait;
+use palpate_jobs::characterize::FitPlots;
 use palpate_jobs::characterize::{Identified, Known, Specimen};
 
 /// The section on one specimen, with its title if it is one of `several`.
-pub(super) fn section(place: usize, own: &Specimen, several: bool, portrait: &Portrait) -> Markup {
+pub(super) fn section(place: usize, own: &Specimen, several: bool, portrait: &FitPlots) -> Markup {
     let files = own
         .files
         .iter()
@@ -41,7 +41,7 @@ pub(super) fn section(place: usize, own: &Specimen, several: bool, portrait: &Po
 }
 
 /// The preferred law with its numbers, relaxation, and facts on the specimen from the recordings.
-fn headline(own: &Specimen, portrait: &Portrait) -> Markup {
+fn headline(own: &Specimen, portrait: &FitPlots) -> Markup {
     let mut cards = Vec::new();
     match own.preferred() {
         Some((key, law)) => {
@@ -76,7 +76,7 @@ fn headline(own: &Specimen, portrait: &Portrait) -> Markup {
 }
 
 /// Facts on the specimen from the recordings.
-fn facts(own: &Specimen, portrait: &Portrait) -> String {
+fn facts(own: &Specimen, portrait: &FitPlots) -> String {
     let named = [
         ("organ", &own.organ),
         ("subject", &own.subject),

@@ -47,7 +47,7 @@ pub(crate) struct Arguments {
 /// Prints the report.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let progress = Progress::new(Reader::of_json(arguments.json), None);
-    progress.say("reading the mesh");
+    progress.show_step("reading the mesh");
     let answer = match (&arguments.file, &arguments.builtin) {
         (Some(file), _) => of_file(file, arguments.unit.as_deref(), &progress)?,
         (None, name) => of_builtin(name.as_deref().unwrap_or_default(), arguments, &progress)?,
@@ -62,7 +62,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 fn of_file(file: &Path, unit: Option<&str>, progress: &Progress) -> Result<Answer, Failure> {
     let imported = super::read(file, unit)?;
-    progress.say("looking for holes, crossings and slivers");
+    progress.show_step("looking for holes, crossings and slivers");
     let origin = Origin::File {
         file: file.to_owned(),
         format: imported.format.to_string(),
@@ -75,6 +75,6 @@ fn of_builtin(name: &str, arguments: &Arguments, progress: &Progress) -> Result<
     let organ = builtin_organ(name)?;
     let triangles = arguments.triangles;
     let mesh = organ.surface_mesh(triangles.unwrap_or(organ.default_triangles()))?;
-    progress.say("looking for holes, crossings and slivers");
+    progress.show_step("looking for holes, crossings and slivers");
     Ok(Answer::new(Origin::Builtin(organ), &mesh, Vec::new()))
 }

@@ -3,7 +3,7 @@ use hayro_jpeg2000::{DecodeSettings, DecoderContext, Image};
 use super::FrameFormat;
 
 /// Most pixels of a frame: a stream of few bytes may announce any number, and the decoder takes about 20 bytes for each.
-const MOST_PIXELS: usize = 1 << 24;
+const MAX_PIXELS: usize = 1 << 24;
 
 /// Decompresses one frame, of one component of whole numbers.
 pub(super) fn decode(data: &[u8], format: FrameFormat, pixels: &mut Vec<u8>) -> Result<(), String> {
@@ -19,8 +19,8 @@ pub(super) fn decode(data: &[u8], format: FrameFormat, pixels: &mut Vec<u8>) -> 
     if size != [format.columns, format.rows] {
         return Err(format!("{} × {} pixels", size[0], size[1]));
     }
-    if format.pixels() > MOST_PIXELS {
-        return Err(format!("more than {MOST_PIXELS} pixels"));
+    if format.pixels() > MAX_PIXELS {
+        return Err(format!("more than {MAX_PIXELS} pixels"));
     }
     let mut context = DecoderContext::default();
     let decoded = image.decode(&mut context);
