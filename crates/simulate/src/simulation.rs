@@ -207,7 +207,7 @@ impl Simulation {
                 // It cannot be cancelled, and takes seconds.
                 let _ = on_progress(Progress { work, part });
             };
-            warnings.extend(body.compute_forces(scene, &tools, at_step)?);
+            warnings.extend(body.prepare_tips(scene, &tools, at_step)?);
         }
         warnings.extend(tip_laws::stiffen(&mut tools, &touched, &mut |part| {
             let work = Work::ForceOverDepth;

@@ -48,6 +48,7 @@ fn example() -> PathBuf {
 }
 
 #[test]
+#[ignore = "long"]
 fn the_example_prints_the_forces_of_the_step_in_rust() {
     if let Some(output) = run(&[&example()], &[]) {
         let error = String::from_utf8_lossy(&output.stderr);
@@ -57,6 +58,7 @@ fn the_example_prints_the_forces_of_the_step_in_rust() {
 }
 
 #[test]
+#[ignore = "long"]
 fn refusals_and_states_are_those_of_the_header() {
     let sources: [&Path; 2] = [&beside("checks.cs"), &example()];
     if let Some(output) = run(&sources, &["-main:Checks"]) {

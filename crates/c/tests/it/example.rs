@@ -83,6 +83,7 @@ pub(super) fn expected() -> String {
 }
 
 #[test]
+#[ignore = "long"]
 fn it_prints_the_forces_of_the_step_in_rust() {
     let folder = libraries();
     let archive = folder.join("libpalpate_c.a");

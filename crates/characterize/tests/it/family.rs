@@ -37,6 +37,7 @@ fn an_exponential_law_needs_few_runs() {
 /// the true one to 1e-3, some times what `law_fit` asks of each depth; a parameter is the true one but for ten times that
 /// where the force tells it, and else within its interval, which then is wide.
 #[test]
+#[ignore = "long"]
 fn laws_of_several_shapes_return_or_say_that_they_do_not() {
     let truths: [(CandidateLaw, &[f64]); 4] = [
         (CandidateLaw::Ogden(Terms::One), &[5.3]),

@@ -155,6 +155,7 @@ fn held(truth: Truth, halvings: i32, seeds: u64) -> Vec<(String, usize, usize)> 
 
 /// Six recordings of the quickest law: fewer than three within would be one chance in ten thousand at 95 %.
 #[test]
+#[ignore = "long"]
 fn few_intervals_hold_an_independent_truth() {
     let held = held(TRUTHS[0], 1, 6);
     println!("{held:?}");
@@ -164,6 +165,7 @@ fn few_intervals_hold_an_independent_truth() {
 /// A hundred recordings of each of two laws, with and without the indenter's shape: the contact lies within its 95 %
 /// interval in nine of ten.
 #[test]
+#[ignore = "long"]
 fn contacts_hold_an_independent_truth() {
     let [neo_hookean, exponential] = [TRUTHS[0], TRUTHS[2]].map(|truth| elastic(truth, 0));
     let flat = Some(IndenterShape::Flat);
@@ -238,6 +240,7 @@ fn intervals_hold_an_independent_yeoh_truth() {
 /// A slab of 6 mm under a punch of 2 mm, whose force finite elements give on another mesh: its modulus within the
 /// interval where the thickness is stated, and 1.6 times as much where it is not, which is said.
 #[test]
+#[ignore = "long"]
 fn a_stated_thickness_gives_the_tissue() {
     let Body::Block { block, indenter } = Body::under_punch(2e-3) else {
         panic!("a punch is pressed into a block");

@@ -143,6 +143,7 @@ const CONDITIONS: [(f64, f64); 4] = [(2e-3, 0.2), (4e-3, 1.0), (8e-3, 0.5), (8e-
 /// Judge: the printed springs that made the recordings, of four conditions with noise of 0.1 mN. Tolerance: four
 /// of the standard errors; all eight are found within that, and the esophagus has no second spring.
 #[test]
+#[ignore = "long"]
 fn springs_return() {
     for (organ, branches) in [("liver", 2), ("esophagus", 1)] {
         let truth = printed(organ);

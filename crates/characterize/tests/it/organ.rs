@@ -46,6 +46,7 @@ fn far_field(body: &Body) -> FarField {
 /// Judge: axisymmetric elements, 1.079 of the half-space for a patch of 5 mm on a hemisphere of 50 mm, and 1.000 on the
 /// large piece. Tolerance: the least error of the elements.
 #[test]
+#[ignore = "long"]
 fn a_hemisphere_is_stiffer_than_a_large_piece() {
     let far = far_field(&Body::under_punch(RADIUS));
     let depth = 1e-2 * RADIUS;
@@ -145,6 +146,7 @@ fn held(law: CandidateLaw, body: Body, deepest: f64, seeds: u64) -> Vec<usize> {
 
 /// Judge: forces of axisymmetric elements at finite strain, to as deep as the punch is wide.
 #[test]
+#[ignore = "long"]
 fn a_modulus_on_a_hemisphere_is_within_its_interval() {
     let held = held(
         CandidateLaw::NeoHookean,
@@ -304,6 +306,7 @@ fn a_place_off_the_mesh_is_refused() {
 
 /// The mesh reaches the fit by the recording's header, and a mesh that nobody read is told.
 #[test]
+#[ignore = "long"]
 fn a_recording_of_an_organ_needs_its_mesh() {
     let time: Vec<f64> = (0..200).map(|i| 0.01 * f64::from(i)).collect();
     let depth: Vec<f64> = time

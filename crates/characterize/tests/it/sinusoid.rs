@@ -264,6 +264,7 @@ fn held(noise: Correlated, rate: f64, frequency: f64, duration: f64, count: u64)
 /// 95 % some 89 to 100 % by chance (twice the standard error 3.1 %), and what the estimate of the correlation costs;
 /// what takes the noise as white holds it in half to three quarters of the cases.
 #[test]
+#[ignore = "long"]
 fn intervals_hold_the_truth_in_correlated_noise() {
     for noise in [Correlated::FirstOrder(0.1), Correlated::OneOverF] {
         let [stiffness, phase] = held(noise, 100.0, 1.0, 14.0, 50);

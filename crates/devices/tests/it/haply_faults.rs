@@ -83,6 +83,7 @@ fn bad(what: &'static str) -> Option<Fault> {
 const NOT_AS_DOCUMENTED: &str = "a message that is not as its documents have it";
 
 #[test]
+#[ignore = "long"]
 fn every_fault_takes_the_force_off_and_has_a_name() {
     use Misbehaviour::*;
     let says = |text: &str| SendsText(text.to_owned());

@@ -47,6 +47,7 @@ fn safety(what: &'static str) -> Fault {
 }
 
 #[test]
+#[ignore = "long"]
 fn of_open_haptics() {
     let error = "stand_in_error";
     let table = [

@@ -71,11 +71,13 @@ proptest! {
     #![proptest_config(tries(10_000))]
 
     #[test]
+    #[ignore = "long"]
     fn changed_documents_are_read_or_refused(text in mutated()) {
         read_all(&text);
     }
 
     #[test]
+    #[ignore = "long"]
     fn any_text_is_refused(text in any::<String>()) {
         read_all(&text);
         read_all(&format!("format = 1\n{text}"));

@@ -31,6 +31,7 @@ fn boundary(mesh: &TetrahedronMesh) -> TriangleMesh {
 /// Judge: the surface. The number of nodes is met to a percent, the volume to rounding of four inflations, and a boundary
 /// with elements as large as the body allows stays near the surface: within 4 % of the body's size.
 #[test]
+#[ignore = "long"]
 fn organs_keep_their_shape_with_few_nodes() {
     for (which, triangles, tetrahedra) in [
         (Organ::Liver, 3000, 12_000),

@@ -45,6 +45,7 @@ fn angles_are_those_of_the_source() {
 /// The same at edges at random, so that the lattice meets the surface in every way: a rough organ,
 /// and one with sharp edges.
 #[test]
+#[ignore = "long"]
 fn angles_hold_wherever_the_lattice_lies() {
     let mut random = Random(7);
     for kind in [Organ::Liver, Organ::Hemisphere] {
@@ -136,6 +137,7 @@ fn a_lost_rod_is_told_with_its_end() {
 /// cost volume with the square of the edge; the slope over three halvings says so, within what the
 /// position of the lattice moves it.
 #[test]
+#[ignore = "long"]
 fn volume_converges_with_order_two() {
     for kind in [Organ::Hemisphere, Organ::Kidney] {
         let (surface, _) = organ(kind, 20_000);

@@ -43,6 +43,7 @@ const RAW: IsosurfaceSettings = IsosurfaceSettings {
 
 /// All 256 patterns of 2 x 2 x 2 voxels, the ambiguous ones among them.
 #[test]
+#[ignore = "long"]
 fn every_pattern_of_eight_voxels_is_closed() {
     for case in 1..256u32 {
         let voxels = (0..8).map(|k| (case >> k & 1) as u16).collect();
@@ -60,6 +61,7 @@ fn every_pattern_of_eight_voxels_is_closed() {
 
 /// Judge: the definition of a solid, on noise where every pattern meets every other.
 #[test]
+#[ignore = "long"]
 fn random_voxels_bound_one_solid() {
     let mut random = Random(7);
     for part in [0.3, 0.5, 0.7, 0.9] {
@@ -254,6 +256,7 @@ fn a_picture_is_no_label_map() {
 
 /// Judges: the meshes that the voxels were made of, and the counts of the voxels.
 #[test]
+#[ignore = "long"]
 fn real_organs_come_back_from_their_voxels() {
     let Some(folder) = data::folder() else {
         return;
@@ -283,6 +286,7 @@ fn real_organs_come_back_from_their_voxels() {
 
 /// Every organ of a CT; of the first six the border cuts all but the gallbladder.
 #[test]
+#[ignore = "long"]
 fn real_ct_labels_are_closed() {
     let Some(folder) = data::folder() else {
         return;

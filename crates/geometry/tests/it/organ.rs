@@ -19,6 +19,7 @@ fn every_organ_bounds_a_solid_at_every_fineness() {
 }
 
 #[test]
+#[ignore = "long"]
 fn the_finest_meshes_are_sound_too() {
     for organ in Organ::ALL {
         is_sound(organ, 70_000);
@@ -89,7 +90,7 @@ fn size_and_volume_are_as_described() {
         );
         let ratio = mesh.volume() / description.volume;
         assert!((ratio - 1.0).abs() < 0.005, "{organ}: {} m³", mesh.volume());
-        assert!(description.to_string().contains("held"));
+        assert!(description.to_string().contains("fixed"));
     }
 }
 
@@ -133,6 +134,7 @@ fn smooth_organs_converge_to_second_order() {
 }
 
 #[test]
+#[ignore = "long"]
 fn triangles_are_well_shaped() {
     for organ in Organ::ALL {
         for triangles in [organ.least_triangles(), 1_000, 4_000, 20_000, 70_000] {
@@ -192,6 +194,7 @@ fn the_same_number_gives_the_same_mesh() {
 }
 
 #[test]
+#[ignore = "long"]
 fn margins_of_smooth_organs_are_rounded() {
     for organ in SMOOTH {
         let mesh = organ.surface_mesh(70_000).unwrap();

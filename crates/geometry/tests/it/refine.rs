@@ -106,6 +106,7 @@ fn refined(name: &str, surface: &Surface, center: Vec3, levels: i32) {
 }
 
 #[test]
+#[ignore = "long"]
 fn stays_sound_and_well_shaped() {
     for kind in Organ::ALL {
         if [Organ::Esophagus, Organ::Diaphragm].contains(&kind) {
@@ -121,6 +122,7 @@ fn stays_sound_and_well_shaped() {
 }
 
 #[test]
+#[ignore = "long"]
 fn real_organs_are_refined() {
     let Some(folder) = data::folder() else { return };
     for name in [
@@ -197,6 +199,7 @@ fn crossings(mesh: &TetrahedronMesh, center: &Vec3, radius: f64) -> usize {
 /// Judge: the area of a spherical cap of chord radius r, π r², whatever the ball. Flat triangles
 /// miss parts of it with the square of the edge over the radius of the circle.
 #[test]
+#[ignore = "long"]
 fn a_circle_is_resolved() {
     let (surface, _) = organ(Organ::Hemisphere, 100_000);
     let center = Vec3::z() * 0.05;
@@ -319,6 +322,7 @@ fn regions_keep_their_shapes() {
 }
 
 #[test]
+#[ignore = "long"]
 fn too_many_tetrahedra_are_refused() {
     let block = TetrahedronMesh::block(Vec3::zeros(), Vec3::repeat(1.0), [1, 1, 1]).unwrap();
     let error = refine_to(&block, None, |_| 1e-3).unwrap_err();

@@ -34,6 +34,7 @@ fn smallest_angle(mesh: &TriangleMesh) -> f64 {
 
 /// Judges: the topology of the built-in organs, which is that of a sphere; their volume.
 #[test]
+#[ignore = "long"]
 fn organs_stay_closed_and_keep_their_volume() {
     for organ in Organ::ALL {
         let mesh = organ.surface_mesh(6_000).unwrap();
@@ -241,6 +242,7 @@ fn sides_of_a_thin_wall_do_not_cross() {
 /// A mesh of more than 120,000 triangles is simplified in blocks first. Judges: the same surface with fewer triangles than that, which
 /// is as near to its own simplification, and has the same volume after it; predicates of the sides of a thin wall.
 #[test]
+#[ignore = "long"]
 fn large_meshes_are_simplified_as_well_as_smaller_ones() {
     let of = |around: u32, across: u32| {
         let mesh = torus(around, across);
@@ -324,6 +326,7 @@ fn sizes_that_are_none_are_refused() {
 /// Judges: the simplified meshes that lie beside the data (their farthest points are 2.17, 2.23 and
 /// 3.53 mm off), parry's distance to the original at each vertex, and the volume.
 #[test]
+#[ignore = "long"]
 fn real_organs_are_simplified_as_published() {
     let Some(folder) = data::folder() else {
         return;

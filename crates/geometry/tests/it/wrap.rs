@@ -56,6 +56,7 @@ fn check(wrapped: &Wrapped, volume: f64, distance: f64) {
 }
 
 #[test]
+#[ignore = "long"]
 fn a_ball_with_double_walls_and_missing_triangles_is_a_ball() {
     let outer = ball(0.02);
     let inner = moved(&outer, Vec3::zeros(), 0.75);
@@ -74,6 +75,7 @@ fn a_ball_with_double_walls_and_missing_triangles_is_a_ball() {
 
 /// A ball with an inner wall that has holes; in this wall lie a ball and a smaller one within that. Judge: their volumes.
 #[test]
+#[ignore = "long"]
 fn surfaces_inside_are_kept() {
     let outer = ball(0.02);
     let count = outer.triangles().len();
@@ -108,6 +110,7 @@ fn surfaces_inside_are_kept() {
 }
 
 #[test]
+#[ignore = "long"]
 fn two_crossing_balls_are_their_union() {
     let (radius, apart) = (0.02, 0.025);
     let one = ball(radius);
@@ -124,6 +127,7 @@ fn two_crossing_balls_are_their_union() {
 /// A ball with a fissure, 1.5 mm wide and 8 mm deep around its equator: closed if all gaps are, and kept if only needed ones are. Judge:
 /// its volume.
 #[test]
+#[ignore = "long"]
 fn a_fissure_stays_where_nothing_needs_it_closed() {
     let (radius, wide, deep) = (0.02_f64, 1.5e-3, 8e-3);
     // Its profile, from pole to pole, turned around z.
@@ -187,6 +191,7 @@ fn turned(profile: &[[f64; 2]]) -> TriangleMesh {
 }
 
 #[test]
+#[ignore = "long"]
 fn two_halves_with_a_gap_are_one_body() {
     let whole = ball(0.02);
     let gap = 1.5e-3;
@@ -224,6 +229,7 @@ fn what_encloses_nothing_is_refused() {
 /// envelope is the outer ball without the cap over the opening, down to where it is narrowest, at the inner ball, however that
 /// lies to the voxels.
 #[test]
+#[ignore = "long"]
 fn a_wide_opening_without_a_rim_is_closed_flat() {
     let ([outer, inner], open) = ([0.02, 0.018], PI / 6.0);
     let walls = double_walled_cup([outer, inner], open);
@@ -245,6 +251,7 @@ fn a_wide_opening_without_a_rim_is_closed_flat() {
 /// As published it has two walls that meet at the rims of its openings, and encloses 0.074 l. Judge: the volume of all parts of this
 /// liver, of which some stand out of the openings.
 #[test]
+#[ignore = "long"]
 fn a_real_liver_with_a_double_wall_is_filled() {
     let Some(folder) = data::folder() else { return };
     let path = folder
@@ -332,6 +339,7 @@ fn distances_that_are_none_or_too_small_are_refused() {
 
 /// A whole surface stays as it is, but for the asked distance.
 #[test]
+#[ignore = "long"]
 fn a_surface_is_its_own_envelope() {
     let body = ball(0.02);
     let wrapped = wrap(&body, &SETTINGS).unwrap();

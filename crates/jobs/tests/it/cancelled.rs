@@ -40,6 +40,7 @@ impl ProgressCallback for Impatient {
 /// Broken off after each of its words, on its threads: the study holds whole files alone, and goes on to the same
 /// answer.
 #[test]
+#[ignore = "long"]
 fn a_study_that_is_cancelled_goes_on() {
     let folder = tempfile::tempdir().unwrap();
     let recordings = Recordings {

@@ -20,6 +20,7 @@ pub(crate) fn quick() -> Choice {
 
 /// Judge: the same recordings as files.
 #[test]
+#[ignore = "long"]
 fn texts_answer_as_files_do() {
     let folder = tempfile::tempdir().unwrap();
     let paths = measured(folder.path());
@@ -73,6 +74,7 @@ fn the_position_of_a_curve_is_no_recording_of_its_own() {
 
 /// The bounds are those of the settings: 0 is an answer without repeated fits, and from ten draws on there is a spread.
 #[test]
+#[ignore = "long"]
 fn too_few_draws_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let recordings = Recordings {
@@ -101,6 +103,7 @@ fn too_few_draws_are_refused() {
 }
 
 #[test]
+#[ignore = "long"]
 fn specimens_are_told_without_being_characterized() {
     let folder = tempfile::tempdir().unwrap();
     let paths = measured(folder.path());

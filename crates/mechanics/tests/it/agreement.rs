@@ -23,6 +23,7 @@ fn normal_stiffness(model: &FiniteSphereModel, contact: &LocalContact) -> f64 {
 /// its base, K being the half-space's. The bound of 5 % is what is promised of the source's 34
 /// particles; three unrelated meshes and places away from the pole show that it is not the mesh.
 #[test]
+#[ignore = "long"]
 fn hemisphere_meets_its_closed_form() {
     let meshes = [
         ("built-in, 1000", organ(Organ::Hemisphere, 1_000)),

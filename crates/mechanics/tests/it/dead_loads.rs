@@ -151,6 +151,7 @@ fn elastica(force_over_stiffness: f64) -> [f64; 2] {
 /// Judge: the elastica, by shooting, at a deflection of about half the length. It neither shears nor stretches: shear adds
 /// about E h²/(4 k G L²), 1 %; and the clamp stiffens the first height by a tenth, 0.3 % each.
 #[test]
+#[ignore = "long"]
 fn a_slender_beam_is_the_elastica() {
     let modulus = 3e6;
     let law = Arc::new(NeoHookean::incompressible(modulus / 6.0).unwrap());
@@ -195,6 +196,7 @@ fn a_force_on_an_edge_bends_as_one_on_the_face() {
 
 /// Judge: the finest mesh, and what the estimate says of the others.
 #[test]
+#[ignore = "long"]
 fn the_displacement_of_a_beam_converges() {
     let law = Arc::new(NeoHookean::incompressible(4e4).unwrap());
     let mut problem = beam([6, 1, 1], law);

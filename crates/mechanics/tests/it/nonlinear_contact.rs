@@ -179,6 +179,7 @@ fn judged(depth: f64, ratio: f64) -> f64 {
 /// meshes (12 cells, and depths of 1.5 and 6 mm) kept 2.5 to 4.6 %, always too soft. Judge of a motion: the same, held and
 /// iterated until nothing changes.
 #[test]
+#[ignore = "long"]
 fn a_sphere_presses_as_on_finite_elements_and_leaves_the_body_at_rest() {
     let (depth, steps) = (6e-3, 6);
     for (ratio, against) in [

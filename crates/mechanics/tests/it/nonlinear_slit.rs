@@ -91,6 +91,7 @@ fn compliances(mesh: &TetrahedronMesh) -> Vec<Matrix3<f64>> {
 /// split; and how much more either yields than without the slit. The load is alike on both, on one side of the slit. Tolerance: both
 /// meshes are within 1 % of finer ones.
 #[test]
+#[ignore = "long"]
 fn a_slit_yields_as_doubled_nodes_do() {
     let fine = block([12, 12, 6]);
     let fine_uncut = compliances(&fine);
@@ -182,6 +183,7 @@ impl Pulled {
 /// Judge: the slit body that was pulled from rest. What is elastic forgets when it was cut; before it moves, the other elements are
 /// where the first were.
 #[test]
+#[ignore = "long"]
 fn a_body_that_is_cut_while_it_is_pulled_is_the_cut_body() {
     let whole = block([7, 7, 4]);
     let cut = slit(&whole, 8e-3);

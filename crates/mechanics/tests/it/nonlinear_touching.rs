@@ -281,6 +281,7 @@ fn curved() -> TetrahedronMesh {
 /// is wide, and by the correction of a bonded layer [Dimitriadis et al. 2002], 1 + 0.88 χ with χ = √(R d/2)/h at this
 /// Poisson's ratio, 4.4 % stiffer than a half-space. 5 %. The upper one is turned, so that no edges meet.
 #[test]
+#[ignore = "long"]
 fn two_balls_press_as_hertz_has_it() {
     let (ratio, depth, gap) = (0.3, 2e-3, 1e-5);
     let (sin, cos) = 0.4_f64.sin_cos();
@@ -359,6 +360,7 @@ fn a_slit_closes_as_its_half_does_on_a_plane() {
 /// not negative, but for one part in a hundred of the work that it does back and forth (steps are not converged). Let go,
 /// the pieces go back to rest.
 #[test]
+#[ignore = "long"]
 fn random_gestures_of_a_piece_give_no_energy() {
     let mut random = 7_u64;
     let mut draw = move || {

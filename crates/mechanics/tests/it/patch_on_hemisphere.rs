@@ -82,6 +82,7 @@ fn the_force_converges_with_order_one() {
 /// What is asked for is met, and the error is said to within half and five times itself, or a warning says
 /// that it is an upper figure.
 #[test]
+#[ignore = "long"]
 fn the_estimate_is_honest() {
     for (patch, bond) in PATCHES {
         for (nu, accuracy) in [(0.0, 0.01), (0.3, 0.01), (0.45, 1e-3)] {

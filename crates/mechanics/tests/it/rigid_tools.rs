@@ -114,6 +114,7 @@ fn spheres(mesh: i32, most: f64) {
 /// Judge: axisymmetric elements, whose contact is node by node. On the coarsest mesh three faces lie across the contact;
 /// halved, they err by 1 % (`spheres_converge_to_axisymmetric_elements`).
 #[test]
+#[ignore = "long"]
 fn spheres_press_as_on_axisymmetric_elements() {
     spheres(-1, 0.03);
 }
@@ -149,6 +150,7 @@ fn a_rounded_punch_presses_as_on_axisymmetric_elements() {
 
 /// Judge: the patch that moves as a whole, on a finer mesh. That of the coarse one errs by as much.
 #[test]
+#[ignore = "long"]
 fn a_sharp_punch_presses_as_a_patch() {
     for (friction, most) in [(Friction::Frictionless, 0.02), (Friction::Bonded, 0.05)] {
         let patch = cube(0.005, 0.3, friction);
@@ -256,6 +258,7 @@ fn jaws_hold_and_pull() {
 
 /// Judge: the same problem turned as a whole.
 #[test]
+#[ignore = "long"]
 fn a_turned_tool_feels_the_same() {
     let path = [0.012, 0.0115].map(|z| Vec3::new(0.004, 0.005, z));
     let shape = RigidShape::Cylinder {
@@ -295,6 +298,7 @@ fn a_turned_tool_feels_the_same() {
 
 /// A frictionless tool that goes back leaves the body as it was.
 #[test]
+#[ignore = "long"]
 fn a_body_that_is_left_is_at_rest() {
     let [up, down] = [0.012, 0.011].map(|z| Vec3::new(0.005, 0.005, z));
     let sphere = RigidShape::Sphere { radius: 0.002 };
@@ -349,6 +353,7 @@ fn pressed_cube() -> SolidProblem {
 
 /// Judge: axisymmetric elements, on the cylinder of the same height and volume.
 #[test]
+#[ignore = "long"]
 fn a_problem_with_tools_has_an_error_estimate() {
     let found = solve(&pressed_cube(), 0.2, &mut |_| ()).unwrap();
     assert!(found.error > 0.0 && found.error < 0.2, "{}", found.error);

@@ -46,6 +46,7 @@ fn force(indenter: Indenter, law: Arc<dyn Law>, depth: f64) -> f64 {
 
 /// Judge: [Sneddon 1965]. Tolerance: the block's 1 %, the answer's own of 1 %.
 #[test]
+#[ignore = "long"]
 fn rounded_indenters_meet_sneddon() {
     let law = LinearElastic::new(6000.0, 0.45).unwrap();
     let cone = IndenterShape::Cone {
@@ -69,6 +70,7 @@ fn rounded_indenters_meet_sneddon() {
 
 /// Judge: the sphere, whose contact begins at a point; it differs by half a percent of the radius. Tolerance: the error of both.
 #[test]
+#[ignore = "long"]
 fn a_punch_that_is_all_edge_is_a_sphere() {
     for face in [FrictionLaw::Frictionless, FrictionLaw::Coulomb(0.3)] {
         let round = IndenterShape::RoundedPunch {
@@ -86,6 +88,7 @@ fn a_punch_that_is_all_edge_is_a_sphere() {
 /// Judge: the sharp punch, whose nodes are on its face from the beginning. At small strain the edge matters as its radius over
 /// that of the punch, to some part of 1 %; tissue that is pressed by a fifth of the radius goes around it either way.
 #[test]
+#[ignore = "long"]
 fn a_punch_with_a_small_edge_is_nearly_sharp() {
     let sharp = IndenterShape::Flat {
         side: Side::Touches(FrictionLaw::Bonded),

@@ -145,6 +145,7 @@ fn a_rim_yields_with_the_reciprocal_of_the_distance() {
 /// Judge: as above, on a coarser grid, whose slit opens some percent less. Tolerances: what is asked; and two
 /// meshes of which no line is the other's agree in a tenth of the stiffness.
 #[test]
+#[ignore = "long"]
 fn the_rim_of_a_block_is_that_of_finite_elements() {
     let x = [1.25, 2.5, 5.0, 6.0, 8.5, 13.0, 20.0];
     let y = [1.25, 3.0, 4.75, 7.25, 11.0, 20.0];

@@ -137,6 +137,7 @@ fn a_patch_on_a_cube_is_a_punch() {
 /// Judges: equilibrium and the work of the patch; and the same body turned, so that its displacement is
 /// oblique and its slip needs a frame of its own.
 #[test]
+#[ignore = "long"]
 fn a_turned_body_feels_the_same_force() {
     for grip in [Friction::Frictionless, Friction::Bonded] {
         let straight = cube(0.02, 0.3, grip);
@@ -227,6 +228,7 @@ fn pressures_change_nothing_where_nothing_locks() {
 
 /// Quick form of the two tests below, at a tenth of the patch's radius. Judges and tolerances: the same.
 #[test]
+#[ignore = "long"]
 fn a_hyperelastic_solid_begins_with_the_slope_of_its_energy() {
     for grip in [Friction::Bonded, Friction::Frictionless] {
         hyperelastic(cube(0.02, 0.49, grip), 0.002);

@@ -9,6 +9,7 @@ use crate::solid::{HALF, MODULUS, at, cube};
 
 /// Judge: the plane that holds the same triangles.
 #[test]
+#[ignore = "long"]
 fn boxes_and_balls_hold_as_planes_do() {
     let mut problem = cube(0.02, 0.3, Friction::Bonded);
     let expected = at(&problem, 0);

@@ -108,6 +108,7 @@ mod tests {
 
     /// Every task that comes with the program draws its variants, and can be played.
     #[test]
+    #[ignore = "long"]
     fn tasks_are_whole() {
         for BuiltIn {
             name,

@@ -206,6 +206,7 @@ fn compare(folder: &Path, file: &str, stated: &Stated) -> (f64, f64) {
 
 /// A linear tissue in closed form, found as a neo-Hookean one.
 #[test]
+#[ignore = "long"]
 fn a_linear_tissue_comes_back_as_the_force_it_was() {
     let protocol = protocol("builtin_tissue = \"pig-esophagus\"", &[4], 10);
     let closed = close(

@@ -42,6 +42,7 @@ fn vector(value: &Value) -> [f64; 3] {
 
 /// A dead load on a flat box, the top of the cube, and one in a ball on a side of it, with its weight. Judge: equilibrium.
 #[test]
+#[ignore = "long"]
 fn weight_and_loads_in_boxes_and_balls_are_carried() {
     let answer = solve(&format!(
         "{BODY}gravity_m_per_s2 = [0.0, 0.0, -9.81]\n\
@@ -77,6 +78,7 @@ fn weight_and_loads_in_boxes_and_balls_are_carried() {
 
 /// Judge: the same body in the words of the first version, to the last bit.
 #[test]
+#[ignore = "long"]
 fn regions_are_layers_and_inclusions() {
     let soft = "tissue = { law = \"linear\", youngs_modulus_pa = 5000.0, poissons_ratio = 0.45 }\n";
     let now = solve(&format!(
@@ -138,6 +140,7 @@ fn cube_in_millimetres(edge: f64) -> String {
 
 /// Judge: the pressure and the fluid that were asked for, and signs.
 #[test]
+#[ignore = "long"]
 fn a_region_is_a_cavity() {
     let ball = "ball = { center_m = [0.0, 0.0, 0.0], radius_m = 0.035 }";
     let problem = |cavity: &str, load: &str| {
@@ -164,6 +167,7 @@ fn a_region_is_a_cavity() {
 
 /// A closed surface inside, with its unit. Judge: the volume of a cube.
 #[test]
+#[ignore = "long"]
 fn a_region_is_the_inside_of_a_surface() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();

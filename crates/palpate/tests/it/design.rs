@@ -31,6 +31,7 @@ fn reach(answer: &serde_json::Value, name: &str, key: &str) -> f64 {
 
 /// Judge: what is wanted is expected to be known better than before, and what is designed keeps within the limits.
 #[test]
+#[ignore = "long"]
 fn a_protocol_keeps_within_its_limits_and_tells_more() {
     let folder = folder();
     let limits = [
@@ -69,6 +70,7 @@ fn a_protocol_keeps_within_its_limits_and_tells_more() {
 /// palpate-characterize) and another by which an interval spreads that comes from noise known from three presses. Those of
 /// the times are up to five times as wide on this rig: see the limits in `docs/theory/characterization.md`.
 #[test]
+#[ignore = "long"]
 fn a_designed_protocol_is_measured() {
     let folder = folder();
     let neo_hookean = LIVER

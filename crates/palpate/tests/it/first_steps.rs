@@ -8,6 +8,7 @@ use crate::{json, palpate, palpate_in, stderr, stdout};
 
 /// Every example is right, and the folder holds no other files.
 #[test]
+#[ignore = "long"]
 fn examples_are_valid() {
     let folder = tempfile::tempdir().unwrap();
     let written = palpate_in(folder.path(), &["examples", "here"]);

@@ -226,6 +226,7 @@ fn a_mesh_is_converted_and_made_smaller() {
 /// A box without its lid, which no scene takes, has an envelope that can be simulated. Judge: the whole box; its edges are
 /// rounded within the asked distance, which takes 2 % here.
 #[test]
+#[ignore = "long"]
 fn an_open_box_is_wrapped() {
     let folder = tempfile::tempdir().unwrap();
     let mut text = String::new();

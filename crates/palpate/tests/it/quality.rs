@@ -4,6 +4,7 @@ use crate::{json, palpate, stderr, stdout};
 
 /// Judge: counts that hold on any machine; ticks that were done and left out fill the time.
 #[test]
+#[ignore = "long"]
 fn a_run_per_rate_with_every_tool() {
     let answer = json(&palpate(&[
         "quality",

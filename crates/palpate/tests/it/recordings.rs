@@ -47,6 +47,7 @@ pub(crate) fn folder() -> tempfile::TempDir {
 /// Judge: the closed form of the recordings. The reference's linear stiffness is 16 C₁₀ a for small depths,
 /// and a neo-Hookean force falls behind it by up to 7 % at two radii.
 #[test]
+#[ignore = "long"]
 fn a_folder_is_a_study() {
     let folder = folder();
     let output = palpate_in(folder.path(), &["characterize", ".", "--json"]);
@@ -405,6 +406,7 @@ fn the_preferred_law_has_one_name_and_the_recorded_force() {
 /// The same for a punch in a block of exponential tissue, where the column's γ is another. Judge: the finite elements
 /// that made the recording, on another mesh than those of the fit; 1.5 % is what both promise.
 #[test]
+#[ignore = "long"]
 fn an_indented_tissue_has_the_recorded_force_again() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();

@@ -226,6 +226,7 @@ fn a_long_linear_tube_is_lames() {
 
 /// The punch on a cube whose bottom is held, next to the closed form of the half-space.
 #[test]
+#[ignore = "long"]
 fn a_solid_pushes_back_and_is_drawn() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
@@ -323,6 +324,7 @@ fn the_help_shows_a_problem_that_is_solved() {
 /// A flat face on a round tube: it touches ever more of it, so that the force grows faster than the depth;
 /// and stays below that of a half-space of the same tissue.
 #[test]
+#[ignore = "long"]
 fn a_tube_is_indented() {
     let answer = solve(
         "format = 1\nkind = \"tube\"\nlength_m = 0.03\ninner_radius_m = 0.005\n\

@@ -39,6 +39,7 @@ fn vectors(value: &Value) -> Vec<[f64; 3]> {
 
 /// Judges: what the tool pushes the table carries; Coulomb's law.
 #[test]
+#[ignore = "long"]
 fn a_plate_presses_and_drags_a_block() {
     let folder = folder_with(&format!(
         "{BLOCK}[[tool]]\nname = \"plate\"\nshape = \"plate\"\nfriction = 0.3\nfrom_m = [0, 0, 0.1]\n\

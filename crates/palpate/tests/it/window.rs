@@ -134,6 +134,7 @@ fn without_an_adapter_frames_fail_and_the_rest_does_not() {
 
 /// Every row of the table is there, on any machine: with a number and its adapter, or with the reason.
 #[test]
+#[ignore = "long"]
 fn table_7_1_has_all_its_rows() {
     let folder = tempfile::tempdir().unwrap();
     let output = palpate_in(folder.path(), &["reproduce", "table-7-1", "--json"]);
@@ -173,6 +174,7 @@ fn table_7_1_has_all_its_rows() {
 /// sixth less: more than 10 levels wherever red has more than 63 of 255, which is all tissue that is lit. A tenth of
 /// the pixels is left to the tool's shadow and to places where the film adds light.
 #[test]
+#[ignore = "long"]
 fn figure_7_12_is_seen_to_be_wet() {
     let folder = tempfile::tempdir().unwrap();
     let output = palpate_in(folder.path(), &["reproduce", "figure-7-12", "--json"]);

@@ -78,8 +78,8 @@ impl SoftBody {
         Ok((all, warnings))
     }
 
-    /// Computes the force of its tissue on the tips of the `tools` of `scene`, and warnings.
-    pub(crate) fn compute_forces(
+    /// Prepares the force of its tissue on the tips of the `tools` of `scene`; returns warnings.
+    pub(crate) fn prepare_tips(
         &mut self,
         scene: &Scene,
         tools: &[Tool],

@@ -10,6 +10,7 @@ use crate::scenes::{Hand, Random, Setting, nearest};
 
 /// The equations of all steps judge the response that is made once. 3 % is what a user is promised.
 #[test]
+#[ignore = "long"]
 fn reused_assembly_agrees_with_that_of_every_step() {
     for organ in ["liver", "kidney", "stomach", "spleen", "esophagus"] {
         let builtin = format!("builtin = \"{organ}\"");

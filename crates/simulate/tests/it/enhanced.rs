@@ -44,6 +44,7 @@ fn drawn(seen: &EnhancedSurface) -> Surface {
 /// Judge: the checks of a surface, which has to be closed, manifold and oriented at every step of a slide,
 /// at rest and as it is drawn.
 #[test]
+#[ignore = "long"]
 fn a_slide_is_seen_without_cracks() {
     for setting in [OWN, CARRIED] {
         let simulation = setting.simulation();
@@ -82,6 +83,7 @@ fn a_slide_is_seen_without_cracks() {
 /// Judge: the tip, which the surface has to meet; 5 % of the depth is a pixel of an organ that fills a
 /// window. Coarse triangles are drawn between vertices that the tip may miss altogether.
 #[test]
+#[ignore = "long"]
 fn the_drawn_dimple_is_as_deep_as_the_tip() {
     for setting in [OWN, CARRIED] {
         let simulation = setting.simulation();

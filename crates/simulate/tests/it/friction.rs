@@ -44,6 +44,7 @@ fn drag(simulation: &Simulation) -> (Vec<Vec3>, f64) {
 /// tissue along until it slides the other way. No crater: the surface moves by no more than the depth and the shear that
 /// friction bears, half of the depth here, where a tip that sticks drags it by more than twice as far.
 #[test]
+#[ignore = "long"]
 fn a_dragged_tip_slides_against_its_friction() {
     for (kind, model) in [
         ("local", ""),

@@ -216,23 +216,27 @@ const COARSE: &str =
     "kind = \"hybrid\"\nmechanical_triangles = 600\nresponse = \"boundary_elements\"";
 
 #[test]
+#[ignore = "long"]
 fn on_the_esophagus() {
     gestures("builtin = \"esophagus\"\ntriangles = 2000", COARSE, 20_000);
     gestures("builtin = \"esophagus\"\ntriangles = 2000", LOCAL, 10_000);
 }
 
 #[test]
+#[ignore = "long"]
 fn on_the_stomach() {
     gestures("builtin = \"stomach\"\ntriangles = 2000", COARSE, 20_000);
 }
 
 #[test]
+#[ignore = "long"]
 fn on_the_liver() {
     gestures("builtin = \"liver\"\ntriangles = 2000", COARSE, 20_000);
 }
 
 /// On both real ones.
 #[test]
+#[ignore = "long"]
 fn real_esophagi() {
     let Some(folder) = data::folder() else { return };
     for name in [

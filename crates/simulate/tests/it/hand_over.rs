@@ -32,6 +32,7 @@ fn at_once(simulation: &Simulation, hand: &Hand<'_>, tip: &Vec3) -> Vec3 {
 
 /// Judge: central differences of the step itself, 10 µm, in a jump, which tissue cannot relax from.
 #[test]
+#[ignore = "long"]
 fn the_slope_is_that_of_the_force() {
     let prony = "[{ g = 0.2866, tau_s = 1.537 }, { g = 0.2022, tau_s = 6.090 }]";
     let cases = [
@@ -125,6 +126,7 @@ fn a_sphere_in_a_stiff_organ_hands_over_the_slope_of_its_force() {
 
 /// What touches grows with the force, and with it what the ball changes.
 #[test]
+#[ignore = "long"]
 fn a_sphere_over_an_inclusion_hands_over_the_slope_of_its_force() {
     hands_over_the_slope(BALL, 1.3e-3);
 }

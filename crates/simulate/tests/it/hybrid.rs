@@ -120,6 +120,7 @@ fn stiffness_changes_nothing_that_was_prepared() {
 /// Judge: the response that was solved. A damaged file, or one of something else under its name, is told
 /// and made again.
 #[test]
+#[ignore = "long"]
 fn a_damaged_file_is_made_again() {
     let folder = tempfile::tempdir().unwrap();
     let resources = Resources {

@@ -7,6 +7,7 @@ use palpate_simulate::{Error, Flow, Simulation, play};
 /// Judge: the depth that a session records is measured to the rest surface, not along the way. Tolerance: the
 /// normals of a mesh, which are averaged over the tip; 3 % of the depth.
 #[test]
+#[ignore = "long"]
 fn an_indentation_is_as_deep_as_was_asked() {
     for (organ, tip) in [
         ("liver", "flat"),

@@ -325,6 +325,7 @@ fn a_hand_may_leave_in_contact() {
 
 /// A minute of dragging a mouse over an organ, in and out, sixty moves a second.
 #[test]
+#[ignore = "long"]
 fn a_dragged_mouse_meets_only_numbers() {
     for (organ, contact) in [("kidney", "stick"), ("liver", "slip"), ("stomach", "stick")] {
         let setting = Setting {

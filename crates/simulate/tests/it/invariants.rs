@@ -164,6 +164,7 @@ fn look_at(name: &str, organ: &str) -> [Count; 2] {
 }
 
 #[test]
+#[ignore = "long"]
 fn builtin_organs_under_random_pokes_and_slides() {
     let organs = ["esophagus", "liver"];
     let found = organs.map(|organ| look_at(organ, &format!("builtin = \"{organ}\"")));
@@ -173,6 +174,7 @@ fn builtin_organs_under_random_pokes_and_slides() {
 }
 
 #[test]
+#[ignore = "long"]
 fn real_organs_under_random_pokes_and_slides() {
     let Some(folder) = crate::data::folder() else {
         return;

@@ -29,6 +29,7 @@ pub(crate) fn track(simulation: &palpate_simulate::Simulation) -> Vec<Vec3> {
 }
 
 #[test]
+#[ignore = "long"]
 fn a_sliding_step_allocates_nothing() {
     for (kind, contact, model) in [
         ("local", "slip", ""),
@@ -123,6 +124,7 @@ fn a_step_with_a_shaft_allocates_nothing() {
 
 /// Two graspers that take hold, pull, slip and let go, and take hold again.
 #[test]
+#[ignore = "long"]
 fn a_step_with_two_grips_allocates_nothing() {
     for kind in ["hybrid", "local", "nonlinear"] {
         let setting = Setting {
@@ -180,6 +182,7 @@ fn a_step_with_two_grips_allocates_nothing() {
 /// A blade that opens the surface, and one that goes along in the opening and cuts the layers below it, or scratches, and a reset.
 /// Cuts have room for as many triangles as the strokes make.
 #[test]
+#[ignore = "long"]
 fn a_step_that_cuts_layers_allocates_nothing() {
     for model in [
         "",

@@ -144,6 +144,7 @@ fn lobes_bend_as_finite_elements_do(thicknesses: &[f64], from_end: f64, nodes: &
 }
 
 #[test]
+#[ignore = "long"]
 fn a_lobe_of_one_element_bends_as_finite_elements_do() {
     lobes_bend_as_finite_elements_do(&[5e-3], FROM_END, &[700, 1500]);
 }
@@ -186,6 +187,7 @@ fn lobes_bend_by_a_response(thicknesses: &[f64], radii: &[f64], parts: &[f64]) {
 }
 
 #[test]
+#[ignore = "long"]
 fn a_lobe_is_felt_to_bend_by_every_model() {
     lobes_bend_by_a_response(&[5e-3], &[RADIUS], &[0.35, 0.5]);
 }

@@ -93,6 +93,7 @@ fn a_shaft_across_a_cube_is_pushed_at_its_middle() {
 /// Judge: Coulomb's law. A shaft on a cube that is drawn along its axis meets less friction than μ N, then μ N, but for 3 %: the
 /// cube bulges. It is so the other way too, and the hand's work on the way there and back is what friction takes.
 #[test]
+#[ignore = "long"]
 fn a_shaft_drawn_along_itself_slides_at_coulombs_force() {
     let (friction, by) = (0.2, 1e-4);
     let simulation = with_friction(&CUBE, friction);
@@ -169,6 +170,7 @@ fn the_stiffness_of_a_shaft_is_that_of_its_force() {
 /// Judge: energy. A shaft that is laid on a cube, moved around and lifted in small steps is given no more work than was done, but
 /// for 1 % of what was stored, and the cube is at rest afterwards.
 #[test]
+#[ignore = "long"]
 fn a_shaft_gains_no_energy_and_leaves_rest() {
     let simulation = with_trocar(None);
     let turned = along(&Vec3::x());
@@ -243,6 +245,7 @@ fn a_tube_does_not_pass_through_a_shaft() {
 /// Judge: the rows themselves. A shaft whose direction is not known meets nothing, and meets nothing when the session is played
 /// again, although rows have an orientation; one that is known pushes again, to the last bit.
 #[test]
+#[ignore = "long"]
 fn sessions_say_whether_a_shaft_was_known() {
     let simulation = Arc::new(with_trocar(None));
     for turned in [None, Some(along(&Vec3::x()))] {

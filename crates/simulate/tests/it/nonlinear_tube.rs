@@ -76,6 +76,7 @@ fn ball<'a>(organ: &'a str, model: &'a str) -> Setting<'a> {
 /// dragged along meets no more friction than 1.25 μ N, and μ N on average, but for 15 %: points that come into
 /// contact first have to shear the wall. Symmetry: it is not pushed aside by more than a tenth. Little friction is none.
 #[test]
+#[ignore = "long"]
 fn a_ball_dragged_along_a_thin_tube_slides_at_coulombs_force() {
     let folder = tempfile::tempdir().unwrap();
     let (organ, model) = under_ball(folder.path(), 1500, REACH);
@@ -112,6 +113,7 @@ fn a_ball_dragged_along_a_thin_tube_slides_at_coulombs_force() {
 /// in `docs/theory/large_deformation.md`), and +17 and +18 % were found. The force neither leaps from step to step nor goes away: a
 /// step of 50 µm adds 1.5 % of it.
 #[test]
+#[ignore = "long"]
 fn a_ball_on_a_thin_tube_is_felt_smoothly() {
     let folder = tempfile::tempdir().unwrap();
     for (nodes, most) in [(1500, 0.2), (3000, 0.05)] {
@@ -137,6 +139,7 @@ fn a_ball_on_a_thin_tube_is_felt_smoothly() {
 /// Judges: the same tube with an anchor twice as deep, which fixes the same nodes: one that ends on a face of the organ
 /// misses none. And a ring in the middle of the tube, narrower than the elements, between whose nodes it lies.
 #[test]
+#[ignore = "long"]
 fn an_anchor_fixes_the_nodes_of_the_faces_that_it_holds() {
     let folder = tempfile::tempdir().unwrap();
     let said = |simulation: &Simulation| {

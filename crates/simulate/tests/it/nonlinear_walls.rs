@@ -70,6 +70,7 @@ fn expected(radius: f64) -> (f64, f64) {
 
 /// Judge: the figure of the slow test below. Tolerance: 5 %, as asked; +3.5 % was found, and +38 % without what the wall yields more.
 #[test]
+#[ignore = "long"]
 fn a_small_tip_on_a_thin_wall_is_felt_as_by_finite_elements() {
     let error = felt(1e-3, 1500) / 2.680 - 1.0;
     println!("{error:+.3}");
@@ -95,6 +96,7 @@ fn tips_of_all_sizes_on_a_thin_wall_are_felt_as_by_finite_elements() {
 /// Judge: the linear organ. Tissue that is held behind does not bend. Tolerance: 5 %, as asked; taken for a free wall the slab is
 /// 19 % too soft.
 #[test]
+#[ignore = "long"]
 fn a_slab_that_is_held_from_below_is_no_wall() {
     let press = |kind, model| {
         let simulation = Setting {

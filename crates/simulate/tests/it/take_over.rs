@@ -60,6 +60,7 @@ fn touch(
 
 /// Orders to begin anew, between steps in contact; each row says so.
 #[test]
+#[ignore = "long"]
 fn a_new_beginning_allocates_nothing() {
     for kind in ["local", "hybrid"] {
         let (mut hands, _) = touch(&simulation(kind), palpating(1.0));
@@ -83,6 +84,7 @@ fn a_new_beginning_allocates_nothing() {
 /// The device is neither stopped nor opened again, forces are off and come back, and from then on the rows are those of
 /// the other model.
 #[test]
+#[ignore = "long"]
 fn another_model_takes_over_while_the_device_stays_open() {
     let (local, other) = (simulation("local"), simulation("hybrid"));
     let (mut hands, stops) = touch(&local, palpating_liver(&local));
@@ -132,6 +134,7 @@ fn another_model_takes_over_while_the_device_stays_open() {
 
 /// A pause that a person asked for stays one.
 #[test]
+#[ignore = "long"]
 fn a_pause_outlasts_another_model() {
     let (mut hands, _) = touch(&simulation("local"), palpating(1.0));
     advance(&mut hands, 1200);
@@ -147,6 +150,7 @@ fn a_pause_outlasts_another_model() {
 /// A hand that is deep in the organ when another model takes over has no force until it comes out: the first force would
 /// be a jump. Judge: the limit at arming, 0.3 N.
 #[test]
+#[ignore = "long"]
 fn a_hand_deep_in_another_model_has_no_force_until_it_comes_out() {
     let local = simulation("local");
     let (mut hands, _) = touch(&local, palpating(1.0));

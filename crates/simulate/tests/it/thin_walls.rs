@@ -199,6 +199,7 @@ fn slides_on_a_thin_wall_are_smooth() {
 
 /// Quick form of the test above: four slides on a coarser wall.
 #[test]
+#[ignore = "long"]
 fn some_slides_on_a_thin_wall_are_smooth() {
     thin_wall_slides(600, 300, 4);
 }

@@ -197,6 +197,7 @@ fn sphere(body: Body, poissons_ratio: f64, radius: f64) -> Case<'static> {
 
 /// Quick form of `tips_on_a_cube`: depths to a sphere's radius, where Hertz's paraboloid is 25 to 60 % too stiff.
 #[test]
+#[ignore = "long"]
 fn spheres_on_a_cube_are_those_of_finite_elements() {
     for (poissons_ratio, kinds, depths) in [
         (0.3, &["local"][..], &[1.0][..]),
@@ -215,6 +216,7 @@ fn spheres_on_a_cube_are_those_of_finite_elements() {
 
 /// Quick form of `tips_on_a_hemisphere`: a body that is round itself, whose force a plane has a tenth too high.
 #[test]
+#[ignore = "long"]
 fn spheres_on_a_hemisphere_are_those_of_finite_elements() {
     let case = sphere(Body::Hemisphere, 0.45, 0.01);
     for (kind, depth, off) in case.compared(&["local", "hybrid"], &[0.1, 0.2]) {
@@ -224,6 +226,7 @@ fn spheres_on_a_hemisphere_are_those_of_finite_elements() {
 
 /// A flat tip at small depth, where it is linear.
 #[test]
+#[ignore = "long"]
 fn a_flat_tip_on_a_cube_is_that_of_finite_elements() {
     flat_on(Body::Cube);
 }
@@ -307,6 +310,7 @@ fn tips_on_a_hemisphere() {
 
 /// Neo-Hookean tissue, incompressible.
 #[test]
+#[ignore = "long"]
 fn spheres_on_a_neo_hookean_cube_are_those_of_finite_elements() {
     let radius = 0.01;
     let law: Arc<dyn Law> = Arc::new(NeoHookean::incompressible(YOUNGS_MODULUS / 6.0).unwrap());

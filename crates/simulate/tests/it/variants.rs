@@ -128,6 +128,7 @@ fn area(surface: &Surface, scene: &Scene) -> f64 {
 /// the tolerance is of the area and the tolerance of the diameter is of its range; so does one who always marks and
 /// states what was right once. Judge: the binomial distribution, four deviations.
 #[test]
+#[ignore = "long"]
 fn clicking_without_touching_passes_by_chance_alone() {
     let scene = palpation();
     let Goal::Find {

@@ -119,6 +119,7 @@ fn drag(organ: BuiltinOrgan, tip: &str, seconds: f64) {
 }
 
 #[test]
+#[ignore = "long"]
 fn dragging_over_every_organ() {
     for (_, organ) in BuiltinOrgan::WORDS {
         drag(*organ, "{ shape = \"flat\", radius_m = 0.0015 }", SECONDS);

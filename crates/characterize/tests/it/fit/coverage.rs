@@ -102,6 +102,7 @@ impl Recordings {
 /// Two of the cases below, with few recordings: their 200 answers are not independent, so that of 95 % some 3 % is
 /// chance. What takes the noise as independent holds the truth far less often.
 #[test]
+#[ignore = "long"]
 fn intervals_hold_the_truth() {
     for (correlation, beat) in [(0.1, 0.02), (0.5, 0.0)] {
         let recordings = Recordings {

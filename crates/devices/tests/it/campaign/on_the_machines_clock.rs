@@ -334,6 +334,7 @@ fn campaign(moments: u32, troubles: &[Trouble], orders: &[Order]) {
 }
 
 #[test]
+#[ignore = "long"]
 fn what_needs_the_machines_time_once() {
     let troubles = [Trouble::Silence, Trouble::Late, Trouble::Hung];
     campaign(1, &troubles, &ORDERS[..2]);

@@ -205,11 +205,13 @@ fn stops(moments: u32) {
 }
 
 #[test]
+#[ignore = "long"]
 fn every_fault_once() {
     faults(1);
 }
 
 #[test]
+#[ignore = "long"]
 fn a_stop_in_every_state_once() {
     stops(1);
 }

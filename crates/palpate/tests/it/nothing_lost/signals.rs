@@ -78,6 +78,7 @@ fn sigterm_withdraws_the_indenter() {
 
 /// What is told to go on after the terminal is closed goes on (`nohup`).
 #[test]
+#[ignore = "long"]
 #[cfg(target_os = "linux")]
 fn nohup_keeps_its_meaning() {
     let folder = folder();
