@@ -266,8 +266,9 @@ impl Cuts {
             return;
         };
         self.cut_path = None;
-        self.version += u64::from(cut_path.opens);
         let before = cut_path.before;
+        let is_deeper = self.deepened.len() > before.deepened;
+        self.version += u64::from(cut_path.opens || is_deeper);
         if cut_path.opens {
             // A blade that has opened nothing leaves the surface unchanged, and a puncture of its layers.
             self.surface.end(&simulation.surface).ok();
@@ -275,9 +276,8 @@ impl Cuts {
         for part in &mut self.parts {
             part.in_mechanics = part.layers;
         }
-        let has_opened = self.parts.len() > before.parts
-            || self.deepened.len() > before.deepened
-            || self.surface.cuts() > before.surface;
+        let has_opened =
+            self.parts.len() > before.parts || is_deeper || self.surface.cuts() > before.surface;
         if has_opened {
             self.before.push(before);
         }

@@ -183,7 +183,7 @@ impl Cuts {
             .unwrap_or_default()
     }
 
-    /// Changes whenever the triangles change.
+    /// Changes whenever the triangles change, or the depth of a cut.
     pub fn version(&self) -> u64 {
         self.version
     }
@@ -196,6 +196,11 @@ impl Cuts {
     /// Number of cuts that can be undone.
     pub fn count(&self) -> usize {
         self.before.len()
+    }
+
+    /// Number of cuts that can be undone, with one in progress.
+    pub(crate) fn begun(&self) -> usize {
+        self.before.len() + usize::from(self.cut_path.is_some())
     }
 
     /// The path of all cuts over the resting surface, with the number of open layers in each part.

@@ -1,11 +1,12 @@
 //! Cuts in the elements: another thread makes the elements of the cut organ, and the body switches to them.
 //!
 //! ```text
-//! cuts ──lifted blade──▶ CutPaths ──▶ thread: slits, factors at rest ──▶ Ready ──after the delay──▶ body, workspace
+//! cuts ──▶ RequestedCuts ──▶ thread: slits, factors at rest ──▶ Ready ──after the delay──▶ body, workspace
 //! ```
 //!
-//! The body switches a stated time after the blade was lifted, whatever time the computer needs: a motion has the same
-//! forces on all computers. A step waits for the other thread if that is not ready by then.
+//! The body switches a stated time after the request, whatever time the computer needs: a motion has the same forces on all
+//! computers. A step waits for the other thread if that is not ready by then. A cut in progress is requested over and over,
+//! each time as far as it has come.
 
 use std::sync::Arc;
 use std::sync::mpsc::TryRecvError;
@@ -13,7 +14,7 @@ use std::time::Duration;
 
 use palpate_geometry::Vec3;
 
-use super::cut_thread::{Below, Discarded, ElementState, Job, Ready, Rims};
+use super::cut_thread::{Below, Discarded, ElementState, Job, Ready, RequestedCuts, Rims};
 use super::slits::key;
 use super::target::Now;
 use super::{Body, NonlinearOrgan, NonlinearWorkspace, REACH_IN_RADII, jaws_radius};
@@ -22,7 +23,7 @@ use crate::grip::Grasped;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, ToolState};
 
-/// Delay from lifting a blade to the change of the forces, for an organ of a thousand nodes [s]. The time for its
+/// Delay from the request for a cut to the change of the forces, for an organ of a thousand nodes [s]. The time for its
 /// factorization grows with a power of their number.
 const DELAY: f64 = 0.4;
 const POWER: f64 = 1.5;
@@ -30,11 +31,10 @@ const POWER: f64 = 1.5;
 /// Polling interval of a step that waits for the other thread.
 const LOOKS_EVERY: Duration = Duration::from_micros(200);
 
-/// Cuts that are not in the elements yet: the number of their parts.
+/// Requested cuts that are not in the elements yet.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pending {
     key: u64,
-    parts: usize,
     /// Remaining delay [s].
     left: f64,
 }
@@ -45,6 +45,7 @@ pub(super) struct FollowedCuts {
     /// Key of its cuts: zero without any.
     key: u64,
     pending: Option<Pending>,
+    requested: RequestedCuts,
     /// Version of the cuts at the last check.
     version: u64,
     /// Vertices of the openings, and their displacements [m].
@@ -59,6 +60,14 @@ pub(super) struct FollowedCuts {
 }
 
 impl FollowedCuts {
+    /// With capacity for requests about an organ with this number of displayed vertices.
+    pub(super) fn with_capacity(vertices: usize) -> Self {
+        Self {
+            requested: RequestedCuts::with_capacity(vertices),
+            ..Self::default()
+        }
+    }
+
     fn is_uncut(simulation: &Simulation, organ: &Arc<NonlinearOrgan>) -> bool {
         let whole = simulation.nonlinear.as_ref();
         whole.is_some_and(|whole| Arc::ptr_eq(whole, organ))
@@ -129,17 +138,17 @@ impl NonlinearWorkspace {
         let Some(cuts) = cuts.as_mut().filter(|_| simulation.forces_follow_cuts()) else {
             return;
         };
-        body.look_at(cuts);
+        body.request_cuts(simulation, cuts);
         let Some(pending) = &mut body.cuts.pending else {
             return;
         };
         pending.left -= elapsed;
         let pending = *pending;
         if pending.left > 0.0 {
-            self.begin(simulation, &pending, body, cuts);
+            self.begin(simulation, &pending, body);
             return;
         }
-        let made = self.finished(simulation, &pending, body, cuts);
+        let made = self.finished(simulation, &pending, body);
         body.cuts.pending = None;
         body.cuts.key = pending.key;
         let Some(mut job) = made else {
@@ -151,6 +160,7 @@ impl NonlinearWorkspace {
                 self.closed = ready.closed;
                 ready.replace(simulation, tools, body);
                 self.replace(simulation, body, ready);
+                body.discard_undone_rims(cuts);
                 let rims = body.cuts.rims.iter().flat_map(|rims| {
                     let numbers = rims.numbers.iter().copied();
                     numbers.zip(rims.detached.iter().copied())
@@ -167,10 +177,8 @@ impl NonlinearWorkspace {
     }
 
     /// Requests the organ with these cuts, if its thread is free.
-    fn begin(&mut self, simulation: &Simulation, cut: &Pending, body: &Body, cuts: &Cuts) {
-        let (Some(thread), Some(model), Some(whole)) =
-            (&mut self.thread, &simulation.cutting, &simulation.nonlinear)
-        else {
+    fn begin(&mut self, simulation: &Simulation, cut: &Pending, body: &Body) {
+        let (Some(thread), Some(whole)) = (&mut self.thread, &simulation.nonlinear) else {
             return;
         };
         if let Ok(job) = thread.done() {
@@ -184,10 +192,7 @@ impl NonlinearWorkspace {
         job.key = cut.key;
         job.uncut = Arc::clone(whole);
         job.now = Arc::clone(&body.organ);
-        job.paths.follow(model, cuts, cut.parts);
-        job.cuts = cuts.count();
-        job.rims.clear();
-        job.rims.extend(cuts.openings(simulation));
+        job.cuts.copy(&body.cuts.requested);
         // A thread that has ended returns nothing: the organ stays unchanged.
         let _ = thread.jobs.send(job);
     }
@@ -198,10 +203,9 @@ impl NonlinearWorkspace {
         simulation: &Simulation,
         cut: &Pending,
         body: &Body,
-        cuts: &Cuts,
     ) -> Option<Box<Job>> {
         loop {
-            self.begin(simulation, cut, body, cuts);
+            self.begin(simulation, cut, body);
             let thread = self.thread.as_mut()?;
             let Some(job) = thread.job.take() else {
                 match thread.done() {
@@ -250,26 +254,27 @@ impl NonlinearWorkspace {
 }
 
 impl Body {
-    /// Checks whether the organ has cuts that are not in its elements.
-    fn look_at(&mut self, cuts: &Cuts) {
+    /// Requests the cuts that are not in the elements, one request at a time.
+    fn request_cuts(&mut self, simulation: &Simulation, cuts: &Cuts) {
+        self.discard_undone_rims(cuts);
         let own = &mut self.cuts;
-        if own
-            .rims
-            .as_ref()
-            .is_some_and(|rims| rims.cuts > cuts.count())
-        {
-            own.rims = None;
-        }
-        // A cut in progress counts once its blade has been lifted, and after those before it.
-        if own.version == cuts.version() || cuts.is_cutting() || own.pending.is_some() {
+        if own.version == cuts.version() || own.pending.is_some() {
             return;
         }
         own.version = cuts.version();
-        let parts = cuts.parts().len();
-        let key = key(cuts, parts);
+        let key = key(cuts);
         let nodes = self.organ.composition.nodes as f64 / 1e3;
         let left = DELAY * nodes.powf(POWER);
-        own.pending = (key != own.key).then_some(Pending { key, parts, left });
+        own.pending = (key != own.key).then_some(Pending { key, left });
+        if let (Some(_), Some(model)) = (own.pending, &simulation.cutting) {
+            own.requested.follow(simulation, model, cuts);
+        }
+    }
+
+    /// Forgets the vertices of openings that have been undone since.
+    fn discard_undone_rims(&mut self, cuts: &Cuts) {
+        let rims = &mut self.cuts.rims;
+        rims.take_if(|rims| rims.cuts > cuts.begun());
     }
 }
 

@@ -9,6 +9,7 @@ use palpate_mechanics::nonlinear::{EmbeddedPoints, NonlinearState, SpreadLoad, S
 use super::slits::{CLEARANCE, CutPaths};
 use super::{NonlinearOrgan, OrganWorkspace};
 use crate::Error;
+use crate::cutting::{Cuts, CuttingModel};
 use crate::simulation::Simulation;
 
 /// Points below the surface are known within this distance of a cut [m], or within this many times the depth of the
@@ -33,7 +34,7 @@ pub(super) struct Rims {
     /// The detached piece of each, from 1 on, or zero.
     pub(super) detached: Vec<u32>,
     pub(super) below: Below,
-    /// Number of cuts at that time.
+    /// Number of cuts that had begun at that time.
     pub(super) cuts: usize,
 }
 
@@ -47,16 +48,50 @@ pub(super) struct Below {
     pub(super) embedded: EmbeddedPoints,
 }
 
+/// The cuts of an organ when they were requested.
+#[derive(Debug, Clone, Default)]
+pub(super) struct RequestedCuts {
+    paths: CutPaths,
+    /// The vertices of the openings: their numbers, their positions at rest [m], and the directions in which they open
+    /// [-].
+    rims: Vec<(u32, Vec3, Vec3)>,
+    /// Number of cuts that had begun.
+    begun: usize,
+}
+
+impl RequestedCuts {
+    /// With capacity for the cuts of an organ with this number of displayed vertices.
+    pub(super) fn with_capacity(vertices: usize) -> Self {
+        Self {
+            paths: CutPaths::with_capacity(CAPACITY),
+            rims: Vec::with_capacity(vertices),
+            begun: 0,
+        }
+    }
+
+    /// Takes over `cuts`.
+    pub(super) fn follow(&mut self, simulation: &Simulation, model: &CuttingModel, cuts: &Cuts) {
+        self.paths.follow(model, cuts);
+        self.rims.clear();
+        self.rims.extend(cuts.openings(simulation));
+        self.begun = cuts.begun();
+    }
+
+    /// Takes over `other`; nothing is allocated within the capacity.
+    pub(super) fn copy(&mut self, other: &Self) {
+        self.paths.copy(&other.paths);
+        self.rims.clear();
+        self.rims.extend_from_slice(&other.rims);
+        self.begun = other.begun;
+    }
+}
+
 /// A request for a cut organ, in the background of the steps.
 pub(super) struct Job {
     pub(super) key: u64,
     pub(super) uncut: Arc<NonlinearOrgan>,
     pub(super) now: Arc<NonlinearOrgan>,
-    pub(super) paths: CutPaths,
-    /// The vertices of the openings: their numbers, their positions at rest [m], and the directions in which they open
-    /// [-]; and the number of cuts.
-    pub(super) rims: Vec<(u32, Vec3, Vec3)>,
-    pub(super) cuts: usize,
+    pub(super) cuts: RequestedCuts,
     /// Depths that a cut can have [m].
     pub(super) depths: Vec<f64>,
     pub(super) tools: usize,
@@ -121,9 +156,7 @@ impl CutThread {
                 key: 0,
                 uncut: Arc::clone(whole),
                 now: Arc::clone(whole),
-                paths: CutPaths::with_capacity(CAPACITY),
-                rims: Vec::with_capacity(simulation.surface.mesh().vertices().len()),
-                cuts: 0,
+                cuts: RequestedCuts::with_capacity(simulation.surface.mesh().vertices().len()),
                 depths: simulation.cut_depths(),
                 tools: simulation.tools.len(),
                 ready: None,
@@ -157,11 +190,12 @@ impl Job {
         let (organ, closed) = match self.key {
             0 => (Arc::clone(&self.uncut), 0.0),
             _ => {
-                let (organ, closed) = self.uncut.slit(&self.paths)?;
+                let (organ, closed) = self.uncut.slit(&self.cuts.paths)?;
                 (Arc::new(organ), closed)
             }
         };
-        let places = self.rims.iter();
+        let openings = &self.cuts.rims;
+        let places = openings.iter();
         let places: Vec<Vec3> = places
             .map(|(_, place, opens)| place + CLEARANCE * opens)
             .collect();
@@ -169,11 +203,11 @@ impl Job {
         let embedded = organ.model.embed(&places, all)?;
         let detached: Vec<u32> = embedded.free_pieces(&organ.model).collect();
         let rims = Rims {
-            numbers: self.rims.iter().map(|(number, ..)| *number).collect(),
+            numbers: openings.iter().map(|(number, ..)| *number).collect(),
             below: self.below(&organ, &detached)?,
             detached,
             embedded,
-            cuts: self.cuts,
+            cuts: self.cuts.begun,
         };
         Ok(Ready {
             transfer: StateTransfer::new(&self.now.model, &organ.model)?,
@@ -182,7 +216,7 @@ impl Job {
                 vec![organ.model.spread_load(); self.tools],
             )),
             workspace: Some(organ.workspace_of(self.tools)),
-            rims_moved: vec![Vec3::zeros(); self.rims.len()],
+            rims_moved: vec![Vec3::zeros(); openings.len()],
             below: vec![Vec3::zeros(); rims.below.rest.len()],
             discarded: None,
             discarded_workspace: None,
@@ -200,19 +234,19 @@ impl Job {
         let (shown, tree) = (&organ.composition.shown, &organ.composition.tree);
         let deepest = self.depths.iter().copied().fold(0.0, f64::max);
         let reach = AROUND.min(OF_DEPTH * deepest);
-        let on_rim = |number: u32| self.rims.iter().any(|(rim, ..)| *rim == number);
+        let on_rim = |number: u32| self.cuts.rims.iter().any(|(rim, ..)| *rim == number);
         let vertices = shown.mesh().vertices().iter().enumerate();
         let near = vertices.filter(|(number, place)| {
-            self.paths.is_within(place, reach) && !on_rim(*number as u32)
+            self.cuts.paths.is_within(place, reach) && !on_rim(*number as u32)
         });
         let near = near.map(|(number, place)| PointBelow {
             number: number as u32,
             place: *place,
-            aside: self.paths.aside(place) - place,
+            aside: self.cuts.paths.aside(place) - place,
             normal: shown.vertex_normals()[number],
             piece: organ.detached.piece(NodeId(number as u32)),
         });
-        let rims = self.rims.iter().zip(detached);
+        let rims = self.cuts.rims.iter().zip(detached);
         let rims = rims.map(|((number, place, opens), piece)| {
             let nearest = tree.nearest(shown.mesh(), place);
             PointBelow {

@@ -169,6 +169,7 @@ struct OrganWorkspace {
 impl Body {
     /// `organ` at rest, for this number of tools.
     pub(crate) fn at_rest(organ: &Arc<NonlinearOrgan>, tools: usize) -> Self {
+        let vertices = organ.shown.len();
         Self {
             state: NonlinearState::at_rest(&organ.model, tools),
             is_at_rest: true,
@@ -182,7 +183,7 @@ impl Body {
             shafts: vec![None; tools],
             clear_of_shafts: vec![0.0; tools],
             pierced: vec![0; tools],
-            cuts: FollowedCuts::default(),
+            cuts: FollowedCuts::with_capacity(vertices),
             organ: Arc::clone(organ),
         }
     }

@@ -40,11 +40,11 @@ pub(super) struct CutPaths {
     begins: Vec<usize>,
 }
 
-/// A key of the first `count` parts of the cuts; zero if none changes the forces.
-pub(super) fn key(cuts: &Cuts, count: usize) -> u64 {
+/// A key of the cuts; zero if none changes the forces.
+pub(super) fn key(cuts: &Cuts) -> u64 {
     let mut hasher = DefaultHasher::new();
     let mut any = false;
-    for part in parting_parts(cuts, count) {
+    for part in parting_parts(cuts) {
         any = true;
         for end in part.ends {
             let place: [f64; 3] = end.into();
@@ -55,9 +55,9 @@ pub(super) fn key(cuts: &Cuts, count: usize) -> u64 {
     if any { hasher.finish().max(1) } else { 0 }
 }
 
-/// Those of the first `count` parts of cuts that part the tissue.
-fn parting_parts(cuts: &Cuts, count: usize) -> impl Iterator<Item = &CutPart> {
-    let parts = cuts.parts().iter().take(count);
+/// The parts of cuts that part the tissue.
+fn parting_parts(cuts: &Cuts) -> impl Iterator<Item = &CutPart> {
+    let parts = cuts.parts().iter();
     parts.filter(|part| part.in_mechanics > 0 && part.length() > 0.0)
 }
 
@@ -70,12 +70,20 @@ impl CutPaths {
         }
     }
 
-    /// Takes over the first `count` parts of `cuts`.
-    pub(super) fn follow(&mut self, model: &CuttingModel, cuts: &Cuts, count: usize) {
+    /// Takes over `other`; nothing is allocated within the capacity.
+    pub(super) fn copy(&mut self, other: &Self) {
+        self.points.clear();
+        self.points.extend_from_slice(&other.points);
+        self.begins.clear();
+        self.begins.extend_from_slice(&other.begins);
+    }
+
+    /// Takes over `cuts`.
+    pub(super) fn follow(&mut self, model: &CuttingModel, cuts: &Cuts) {
         self.points.clear();
         self.begins.clear();
         let mut end = None;
-        for part in parting_parts(cuts, count) {
+        for part in parting_parts(cuts) {
             let depth = model.slit_depth(part.in_mechanics);
             let point = |place| SlitPoint {
                 place,
