@@ -107,6 +107,8 @@ pub struct ToolState {
     pub(crate) moved: Moved,
     /// Position of its tip relative to the organ at rest [m], if it touched nothing in the step before.
     pub(crate) free_position: Option<Vec3>,
+    /// Whether it had a contact before the step.
+    pub(crate) had_contact: bool,
     /// Displacement of the organ at its tip that it causes alone, without all others [m].
     pub(crate) self_displacement: f64,
     /// Its pressing state in the last step.
@@ -322,6 +324,7 @@ impl ToolState {
             solved: Vec3::zeros(),
             moved: Moved::default(),
             free_position: None,
+            had_contact: false,
             self_displacement: 0.0,
             pressed: None,
             own: Vec3::zeros(),

@@ -62,6 +62,7 @@ pub fn touch(
         let organ = state.bent_organ();
         let (tip, on) = at_rest(simulation, number, pose.as_ref(), state).unzip();
         let own = &mut state.tools[number];
+        own.had_contact = own.contact.is_some();
         own.free_position = tip.filter(|_| own.contact.is_none());
         let is_reached = |contact: &Contact| match (&organ, on.flatten()) {
             (Some(organ), Some(on)) => organ.is_reached(simulation, on, contact),

@@ -26,6 +26,10 @@ impl NonlinearOrgan {
             return false;
         };
         let ahead = || {
+            if own.had_contact {
+                // The surface may be that of an earlier step.
+                return None;
+            }
             let (ahead, on) = carry_back_anew(simulation, tool, &swept.far_end(), state)?;
             let found = contact::detect(&simulation.rest_surface(tool), tool, None, &ahead);
             found.filter(|contact| self.is_reached(simulation, on, contact))

@@ -24,7 +24,8 @@ const AT_REST: f64 = 1e-7;
 const DEEPEST_DIMPLE: f64 = 6.0;
 
 impl NonlinearOrgan {
-    /// Updates all vertices of the displayed surface, if it is due.
+    /// Updates all vertices of the displayed surface, if it is due, or if a tool has no contact: its first one is sought on the surface
+    /// of the last step.
     pub(crate) fn deform(
         &self,
         simulation: &Simulation,
@@ -32,7 +33,8 @@ impl NonlinearOrgan {
         state: &mut SimulationState,
         workspace: &mut NonlinearWorkspace,
     ) {
-        if time < state.shown_at + state.show_every {
+        let have_contact = state.tools.iter().all(|own| own.contact.is_some());
+        if have_contact && time < state.shown_at + state.show_every {
             return;
         }
         state.shown_at = time;

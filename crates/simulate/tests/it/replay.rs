@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use palpate_files::session::{Event, Events};
-use palpate_files::{Scene, Session, SessionRow, SessionWriter};
+use palpate_files::{Pose, Scene, Session, SessionRow, SessionWriter};
 use palpate_geometry::Vec3;
 use palpate_servo::{Pointer, PointerHand, ServoSettings};
 use palpate_simulate::interactive::{CUTS, ModelCommand, PlacedDevice, VirtualInteraction};
-use palpate_simulate::{Error, Replay, Simulation};
+use palpate_simulate::{Error, Replay, Simulation, SimulationState, SimulationWorkspace, step};
 
 use crate::scenes::Random;
 
@@ -247,4 +247,52 @@ fn another_scene_is_not_played() {
     let mut other = session;
     other.tools[0] = "third".to_owned();
     assert!(Replay::new(first, &other).is_err());
+}
+
+/// Forces are those of every step, however rarely the surface is displayed: a session that was recorded without a window is replayed
+/// in one. Judge: the same steps, to the last bit.
+#[test]
+fn forces_do_not_depend_on_the_display() {
+    let simulation = simulation("kind = \"nonlinear\"\nnodes = 700", "");
+    let mut random = Random(7);
+    let mut states = [0.0, 1.0 / 60.0, 0.1].map(|period| {
+        let state = SimulationState::new(&simulation).show_every(period);
+        (state, SimulationWorkspace::new(&simulation))
+    });
+    let mut goals = [Vec3::new(0.0, 0.0, 0.06); 2];
+    let mut places = goals;
+    let (mut grip, mut touched, mut held) = (0.0, 0, 0);
+    for k in 0..1500 {
+        if k % 60 == 0 {
+            let mut near = |wide: f64| wide * (random.unit() - 0.5);
+            goals = [-0.01, 0.01].map(|x| Vec3::new(x + near(0.01), near(0.02), 0.05 + near(0.01)));
+            grip = f64::from(u8::from(random.unit() < 0.5));
+        }
+        for (place, goal) in places.iter_mut().zip(&goals) {
+            *place += 0.05 * (goal - *place);
+        }
+        let pose = |place: Vec3, cut: bool| Pose {
+            position_m: place.into(),
+            orientation: None,
+            grip,
+            cut,
+        };
+        // The left hand leaves its tool from time to time.
+        let left = (k % 500 > 50).then(|| pose(places[0], false));
+        let poses = [left, Some(pose(places[1], k % 300 > 200))];
+        let elapsed = if k == 0 { 0.0 } else { simulation.step() };
+        let time = f64::from(k) * simulation.step();
+        let forces = states.each_mut().map(|(state, workspace)| {
+            step(&simulation, time, elapsed, &poses, state, workspace);
+            [0, 1].map(|tool| state.tools[tool].force)
+        });
+        assert!(
+            forces[0] == forces[1] && forces[0] == forces[2],
+            "{k}: {forces:?}"
+        );
+        touched += u32::from(forces[0][1].norm() > 0.0);
+        held += u32::from(states[0].0.tools[0].is_grasping());
+    }
+    println!("{touched} steps in contact, {held} steps of a grasp");
+    assert!(touched > 300 && held > 100);
 }
