@@ -404,6 +404,28 @@ fn a_piece_that_is_cut_out_comes_away() {
     assert!(off_rest(&hands) < 1e-5);
 }
 
+/// Four strokes whose ends stop up to 1 mm before or behind the next one detach a piece too.
+#[test]
+fn strokes_that_meet_detach_a_piece() {
+    let simulation = simulation("builtin = \"esophagus\"", "depth_m = 0.0023", NONLINEAR);
+    let tree = AabbTree::new(simulation.surface().mesh());
+    let beside = |angle: f64, up: f64| Vec3::new(0.02 * angle.cos(), 0.02 * angle.sin(), up);
+    let mut hands = Hands::new(&simulation);
+    let corners = [[-0.6, -6e-3], [0.6, -6e-3], [0.6, 6e-3], [-0.6, 6e-3]];
+    for (k, off) in [0.06, -0.06, 0.03, -0.08].into_iter().enumerate() {
+        let [from, to] = [corners[k], corners[(k + 1) % 4]];
+        for step in 0..=100 {
+            let part = off + (1.0 - 2.0 * off) * f64::from(step) / 100.0;
+            let [angle, up] = [0, 1].map(|k| from[k] + part * (to[k] - from[k]));
+            let (on, normal) = nearest(&simulation, &tree, &beside(angle, up));
+            hands.at(Some(on - 1e-3 * normal), None);
+        }
+        hands.wait(5, None);
+    }
+    hands.wait(FOLLOWED, None);
+    assert_eq!(hands.state.cuts.as_ref().unwrap().detached_pieces(), 1);
+}
+
 /// A cut around a tube leaves two pieces that are held, and parts, but for what its ends bear where they press on one another: 0.77
 /// of the force without that. Judge: the uncut tube.
 #[test]
