@@ -220,9 +220,6 @@ fn random_cuts_and_pulls_leave_an_organ_at_rest() {
 #[test]
 #[ignore = "slow: 400 gestures with a hook and a grasper on four organs, minutes"]
 fn many_random_cuts_and_pulls_leave_an_organ_at_rest() {
-    if std::env::var("DBG").is_ok() {
-        return random_cuts("esophagus", 50, 101);
-    }
     for (number, organ) in ["esophagus", "liver", "kidney", "stomach"]
         .into_iter()
         .enumerate()
@@ -234,13 +231,14 @@ fn many_random_cuts_and_pulls_leave_an_organ_at_rest() {
 }
 
 /// Gestures of a hook that cuts, some lines through others, and a grasper that pulls beside it. Every ten, the organ is made whole.
+/// Of the organs before that, one in five may lie elsewhere, still: a detached piece, or sides of a cut that rest on each other.
 fn random_cuts(organ: &str, gestures: usize, seed: u64) {
     let organ = format!("builtin = {organ:?}\ntriangles = 3000");
     let simulation = simulation(&organ, "", "kind = \"nonlinear\"\nnodes = 700");
     let tree = AabbTree::new(simulation.surface().mesh());
     let mut hands = Hands::new(&simulation);
     let mut random = Random(seed);
-    let (mut largest, mut lost, mut all) = (0.0_f64, 0, 0);
+    let (mut largest, mut lost, mut all, mut away) = (0.0_f64, 0, 0, 0);
     for number in 1..=gestures {
         let (place, normal, along) = random.place(&simulation);
         let length = 0.01 + 0.02 * random.unit();
@@ -259,20 +257,28 @@ fn random_cuts(organ: &str, gestures: usize, seed: u64) {
         hands.wait(100, None);
         if number.is_multiple_of(10) {
             hands.wait(400, None);
-            let mesh = simulation.surface().mesh();
-            let away = hands.state.deformed.vertices().iter().zip(mesh.vertices());
-            let away = away.fold(0.0_f64, |most, (now, rest)| most.max((now - rest).norm()));
-            assert!(away < 1e-4, "{number}: {away}");
-            let cuts = hands.state.cuts.as_ref().unwrap();
-            println!("{} cuts, {:?}", cuts.count(), hands.workspace.warnings());
-            all += cuts.count();
+            let now = hands.state.deformed.vertices().to_vec();
+            let far = |a: &[Vec3], b: &[Vec3]| {
+                let pairs = a.iter().zip(b).map(|(a, b)| (a - b).norm());
+                pairs.fold(0.0, f64::max)
+            };
+            hands.wait(100, None);
+            let on = far(&now, hands.state.deformed.vertices());
+            let is_away = far(&now, simulation.surface().mesh().vertices()) > 1e-4;
+            away += u32::from(is_away);
+            assert!(!is_away || on < 1e-6, "{number}: {on}");
+            let count = hands.state.cuts.as_ref().unwrap().count();
+            println!("{count} cuts, {:?}", hands.workspace.warnings());
+            all += count;
             hands.state.reset(&simulation);
         }
     }
-    println!("{organ} {seed}: {all} cuts, up to {largest:.2} N, lost {lost} of {gestures}");
+    println!(
+        "{organ} {seed}: {all} cuts, up to {largest:.2} N, lost {lost} of {gestures}, {away} away"
+    );
     // A tube of this tissue that is stretched by half bears some newtons.
     assert!(2 * all > gestures && largest > 0.01 && largest < 5.0);
-    assert!(5 * lost < gestures);
+    assert!(5 * lost < gestures && 50 * away <= gestures as u32);
 }
 
 /// The rim of a cut yields while the blade is still in it. Judge: the same after the blade was lifted, which another test compares
@@ -325,7 +331,6 @@ fn a_piece_that_is_cut_out_comes_away() {
     let cuts = |hands: &Hands<'_>| hands.state.cuts.clone().unwrap();
     assert_eq!(cuts(&hands).detached_pieces(), 1);
     assert_eq!(hands.workspace.warnings(), [""; 0]);
-
     let (far, speed) = (0.05, 0.05);
     hands.wait(5, Some((place - 1e-3 * normal, false)));
     let steps = (far / speed / simulation.step()).round();
@@ -339,9 +344,7 @@ fn a_piece_that_is_cut_out_comes_away() {
     // Towards the inside of the tube it gets narrower.
     let wall = 2.3e-3 * (1.0 - 1.15e-3 / place.xy().norm());
     let drag = 1e5 * wall * areas.sum::<f64>() * speed;
-    println!("drag {:.5} N for {drag:.5} N", force.norm());
     assert!((force.norm() / drag - 1.0).abs() < 0.2);
-
     let there = |hands: &Hands<'_>| -> Vec<Vec3> {
         let all = cuts(hands);
         let pieces = all.detached().iter().zip(all.places());
@@ -375,7 +378,6 @@ fn a_piece_that_is_cut_out_comes_away() {
         outside.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
     };
     assert!(off_rest(&hands) < 1e-5);
-
     // Where it was, and where it is: jaws are open, so that the tip pushes.
     for k in 0..=40 {
         hands.at(
@@ -394,7 +396,6 @@ fn a_piece_that_is_cut_out_comes_away() {
     }
     let pushed = there(&hands);
     let way = normal.dot(&(pushed.iter().sum::<Vec3>() / pushed.len() as f64 - middle));
-    println!("pushed by {way:.4} m");
     assert!(way < -5e-3);
 
     hands.wait(5, None);
