@@ -231,7 +231,7 @@ fn many_random_cuts_and_pulls_leave_an_organ_at_rest() {
 }
 
 /// Gestures of a hook that cuts, some lines through others, and a grasper that pulls beside it. Every ten, the organ is made whole.
-/// Of the organs before that, one in five may lie elsewhere, still: a detached piece, or sides of a cut that rest on each other.
+/// Of the organs before that, two in five may lie elsewhere, still: a detached piece, or sides of a cut that rest on each other.
 fn random_cuts(organ: &str, gestures: usize, seed: u64) {
     let organ = format!("builtin = {organ:?}\ntriangles = 3000");
     let simulation = simulation(&organ, "", "kind = \"nonlinear\"\nnodes = 700");
@@ -278,7 +278,7 @@ fn random_cuts(organ: &str, gestures: usize, seed: u64) {
     );
     // A tube of this tissue that is stretched by half bears some newtons.
     assert!(2 * all > gestures && largest > 0.01 && largest < 5.0);
-    assert!(5 * lost < gestures && 50 * away <= gestures as u32);
+    assert!(5 * lost < gestures && 20 * away <= gestures as u32);
 }
 
 /// The rim of a cut yields while the blade is still in it. Judge: the same after the blade was lifted, which another test compares
