@@ -161,7 +161,6 @@ fn a_held_rim_yields_when_it_is_cut() {
     let found = hands.wait(60, held);
     let mut before = Hands::new(&simulation);
     let cuts = hands.state.cuts.as_ref().unwrap();
-    println!("{:.1} mm", 1e3 * cuts.length());
     for part in cuts.parts() {
         for end in part.ends {
             before.at(Some(end - 1e-3 * part.normal), None);
@@ -171,7 +170,6 @@ fn a_held_rim_yields_when_it_is_cut() {
     let length = before.state.cuts.as_ref().unwrap().length();
     assert!((length / cuts.length() - 1.0).abs() < 0.03, "{length}");
     let expected = before.pull(place, by);
-    println!("uncut {uncut:.3?}, cut while held {found:.3?}, cut before {expected:.3?}");
     assert!(expected.norm() < 0.9 * uncut.norm());
     assert!((found - expected).norm() < 0.03 * expected.norm());
     // Let go, it comes back to rest.
@@ -231,8 +229,9 @@ fn many_random_cuts_and_pulls_leave_an_organ_at_rest() {
 }
 
 /// Gestures of a hook that cuts, some lines through others, and a grasper that pulls beside it. Every ten, the organ is made whole.
-/// Of the organs before that, two in five may lie elsewhere, still: a detached piece, or sides of a cut that rest on each other.
+/// Of the tubes before that, two in five may lie elsewhere, still: a detached piece, or sides of a cut that rest on each other.
 fn random_cuts(organ: &str, gestures: usize, seed: u64) {
+    let is_tube = organ == "esophagus";
     let organ = format!("builtin = {organ:?}\ntriangles = 3000");
     let simulation = simulation(&organ, "", "kind = \"nonlinear\"\nnodes = 700");
     let tree = AabbTree::new(simulation.surface().mesh());
@@ -265,11 +264,9 @@ fn random_cuts(organ: &str, gestures: usize, seed: u64) {
             hands.wait(100, None);
             let on = far(&now, hands.state.deformed.vertices());
             let is_away = far(&now, simulation.surface().mesh().vertices()) > 1e-4;
-            away += u32::from(is_away);
+            away += usize::from(is_away);
             assert!(!is_away || on < 1e-6, "{number}: {on}");
-            let count = hands.state.cuts.as_ref().unwrap().count();
-            println!("{count} cuts, {:?}", hands.workspace.warnings());
-            all += count;
+            all += hands.state.cuts.as_ref().unwrap().count();
             hands.state.reset(&simulation);
         }
     }
@@ -278,7 +275,7 @@ fn random_cuts(organ: &str, gestures: usize, seed: u64) {
     );
     // A tube of this tissue that is stretched by half bears some newtons.
     assert!(2 * all > gestures && largest > 0.01 && largest < 5.0);
-    assert!(5 * lost < gestures && 20 * away <= gestures as u32);
+    assert!(5 * lost < gestures && 20 * away <= if is_tube { gestures } else { 0 });
 }
 
 /// The rim of a cut yields while the blade is still in it. Judge: the same after the blade was lifted, which another test compares
@@ -300,9 +297,20 @@ fn a_rim_yields_while_it_is_cut() {
     }
     hands.at(None, held);
     let lifted = hands.wait(FOLLOWED, held);
-    println!("uncut {uncut:.3?}, blade down {down:.3?}, lifted {lifted:.3?}");
     let yields = |force: Vec3| (uncut - force).norm() / uncut.norm();
     assert!(yields(lifted) > 0.2 && yields(down) > 0.75 * yields(lifted));
+}
+
+/// The built-in esophagus under a blade that goes through its wall, and the tree of its surface.
+fn esophagus() -> (Simulation, AabbTree) {
+    let simulation = simulation("builtin = \"esophagus\"", "depth_m = 0.0023", NONLINEAR);
+    let tree = AabbTree::new(simulation.surface().mesh());
+    (simulation, tree)
+}
+
+/// A place outside of it, at an `angle` around it [rad] and so far `up` along it [m].
+fn beside(angle: f64, up: f64) -> Vec3 {
+    Vec3::new(0.02 * angle.cos(), 0.02 * angle.sin(), up)
 }
 
 /// Around the built-in esophagus, whose wall is 2.3 mm thick: half axes of an ellipse through it, along the tube and around it.
@@ -314,10 +322,8 @@ const AROUND: f64 = 0.7;
 /// The organ without it is at rest, nothing is touched where it was, and a tip moves it where it is. Undone, the cut leaves no trace.
 #[test]
 fn a_piece_that_is_cut_out_comes_away() {
-    let simulation = simulation("builtin = \"esophagus\"", "depth_m = 0.0023", NONLINEAR);
-    let tree = AabbTree::new(simulation.surface().mesh());
+    let (simulation, tree) = esophagus();
     let on = |beside: Vec3| nearest(&simulation, &tree, &beside);
-    let beside = |angle: f64, up: f64| Vec3::new(0.02 * angle.cos(), 0.02 * angle.sin(), up);
     let (place, normal) = on(beside(0.0, 0.0));
     let mut hands = Hands::new(&simulation);
     let mut outline = Vec::new();
@@ -408,9 +414,7 @@ fn a_piece_that_is_cut_out_comes_away() {
 /// Four strokes whose ends stop up to 1 mm before or behind the next one detach a piece too.
 #[test]
 fn strokes_that_meet_detach_a_piece() {
-    let simulation = simulation("builtin = \"esophagus\"", "depth_m = 0.0023", NONLINEAR);
-    let tree = AabbTree::new(simulation.surface().mesh());
-    let beside = |angle: f64, up: f64| Vec3::new(0.02 * angle.cos(), 0.02 * angle.sin(), up);
+    let (simulation, tree) = esophagus();
     let mut hands = Hands::new(&simulation);
     let corners = [[-0.6, -6e-3], [0.6, -6e-3], [0.6, 6e-3], [-0.6, 6e-3]];
     for (k, off) in [0.06, -0.06, 0.03, -0.08].into_iter().enumerate() {
@@ -431,10 +435,8 @@ fn strokes_that_meet_detach_a_piece() {
 /// of the force without that. Judge: the uncut tube.
 #[test]
 fn a_tube_that_is_cut_around_parts() {
-    let simulation = simulation("builtin = \"esophagus\"", "depth_m = 0.0023", NONLINEAR);
-    let tree = AabbTree::new(simulation.surface().mesh());
+    let (simulation, tree) = esophagus();
     let on = |beside: Vec3| nearest(&simulation, &tree, &beside);
-    let beside = |angle: f64, up: f64| Vec3::new(0.02 * angle.cos(), 0.02 * angle.sin(), up);
     let (place, normal) = on(beside(0.0, 0.0));
     let mut hands = Hands::new(&simulation);
     let feel = |hands: &mut Hands<'_>| {
@@ -493,7 +495,6 @@ fn a_rim_presses_on_the_other_side_of_its_cut() {
         hands.wait(FOLLOWED, None);
     }
     let (cut, warnings) = push(&mut hands);
-    println!("{uncut:.5} {cut:.5} {warnings:?}");
     assert!(warnings.is_empty(), "{warnings:?}");
     assert!((cut - uncut).abs() < 0.2 * PUSH, "{cut} {uncut}");
 }
